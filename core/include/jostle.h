@@ -5,16 +5,20 @@
  * Order of calls. A world made by hand: jo_default_world_def, jo_world_create, jo_world_add_solid
  * and jo_world_add_agent, then jo_world_step in a loop, jo_world_free. A scene from a file:
  * jo_default_scene_def, jo_scene_load, then jo_scene_step in a loop, jo_scene_finish,
- * jo_scene_free. Fill each Def struct by its jo_default function, which sets `cookie`, then change
- * fields. Free a result of type char * or of a pointer to a struct of jostle_tell.h with jo_free; a
+ * jo_scene_free.
+ *
+ * Ownership. Fill each Def struct by its jo_default function, which sets `cookie` (a number by
+ * which the library knows that the struct was filled), then change fields. Texts and arrays of a
+ * Def are copied; callbacks, their contexts and `jobs` must outlive what was made with them. Free a
+ * result of type char * or void *, and a pointer to a struct of jostle_tell.h, with jo_free; a
  * const char * stays the library's.
  *
  * Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y north, z up.
  * Plain C17, clean in C++. One world must not be used from two threads at once; different worlds
- * may. Misuse (a null or stale handle, a field out of range in a Def made by hand) is reported
- * through the assertion handler and answered with a null handle, zero or false; bad files and
- * values give a JoError. The library never exits, leaves signals as the program set them, and
- * blocks them in its own threads.
+ * may. Misuse (a null pointer, a Def without its cookie) is reported through the assertion handler
+ * and answered with a null handle, NULL, zero or false; bad files and values are answered so too,
+ * with a JoError that says why. Every `error` may be NULL. The library never exits, leaves signals
+ * as the program set them, and blocks them in its own threads.
  *
  * When memory is out, a call returns its error (JO_FAILED, "out of memory") or NULL, false or 0.
  * The world or scene that it was changing has then failed: later calls answer the same way,
@@ -51,14 +55,16 @@ typedef enum JoCode {
 
 typedef struct JoError {
     JoCode code;
-    int line, column; /* from 1; 0 unknown */
-    char file[256];
-    char text[1024]; /* message, with how to correct it where that is known */
+    int line, column; /* position in `file`, from 1; 0: unknown */
+    char file[256];   /* file that is wrong; "" if the error is in none */
+    char text[1024];  /* message, with how to correct it where that is known */
 } JoError;
 
-/* Function that is called with each broken precondition; it may return. NULL restores the
-   default, which prints (and aborts in debug builds). Process-wide. */
+/* Receives each broken precondition of a call: the condition, and its place in the library's
+   source. If it returns, so does the call, as said above. */
 typedef void JoAssertHandler(const char *condition, const char *file, int line);
+/* Sets the handler for the whole process. NULL restores the default, which prints to stderr, and in
+   debug builds aborts. */
 JO_API void jo_set_assert_handler(JoAssertHandler *handler);
 
 /* Frees a result of the library: a text, or a struct with everything that it points to. NULL is
@@ -67,10 +73,12 @@ JO_API void jo_free(void *result);
 
 /* ---- worlds built by hand ---------------------------------------------------------------- */
 
+/* A world: people, bodies and walls at one moment, and all that their future depends on. */
 typedef struct JoWorld JoWorld;
 
-/* Handles, passed by value; generation 0 is the null handle. The handle of a removed agent or
-   body is stale: every function then answers as for null. */
+/* Handles of an agent (a person) and of a body (a rigid body), passed by value. Generation 0 is the
+   null handle. The handle of a removed agent or body is stale: every function then answers as for
+   null. A slot is used again, with another generation. */
 typedef struct JoAgent {
     uint32_t slot, generation;
 } JoAgent;
@@ -94,9 +102,9 @@ JO_API bool jo_isa_find(const char *name, JoIsa *isa, JoError *error);
    machine uses. */
 JO_API const char *jo_isa_name(JoIsa isa);
 
-/* Reaction to a lost agent or body. One is lost when one of its numbers is not finite or it is
-   farther than 10 km from the origin; a body also when it falls through the ground or passes a
-   wall. */
+/* What a world does about a lost agent or body. One is lost when one of its numbers is not finite
+   or it is farther than 10 km from the origin; a body also when it falls through the ground or
+   passes a wall. */
 typedef enum JoLost {
     JO_LOST_END,    /* the world ends: jo_world_failure says why */
     JO_LOST_REMOVE, /* the agent or body is removed, and the world goes on */
@@ -108,12 +116,14 @@ struct JoFile;
 
 typedef struct JoWorldDef {
     double dt;        /* s, 0.001 to 0.2; default 0.05 */
-    uint64_t seed;    /* for all random numbers */
+    uint64_t seed;    /* of all random numbers; default 1 */
     uint32_t threads; /* 1 to 64, default 1; 0: all processors that the process may use. Never
                          changes a result; threads start at the first step that has work for them */
     JoIsa isa;        /* default: the widest */
-    bool forces;      /* false: collision avoidance alone, no pushing, contact or inferred force */
-    bool literal;     /* the paper's equations as printed, in place of the physical reading */
+    bool forces;      /* default true; false: collision avoidance alone, no pushing, contact or
+                         inferred force */
+    bool literal;     /* use the paper's equations as printed, where the engine's default reading of
+                         them differs (core/paper.md says where) */
     double gravity;   /* m/s2 downwards, for bodies; default 9.81 */
     /* defaults: JO_LOST_END for people, JO_LOST_REMOVE for bodies */
     JoLost lost_people, lost_bodies;
@@ -128,22 +138,27 @@ JO_API JoWorldDef jo_default_world_def(void);
 JO_API JoWorld *jo_world_create(const JoWorldDef *def, JoError *error);
 JO_API void jo_world_free(JoWorld *world);
 
-/* Adds a static wall: `count` points x0, y0, x1, y1, ... of a solid polygon (no self-crossing,
-   either direction) or of a thin polyline. Only before the first step. */
+/* Add a static wall of `count` points x0, y0, x1, y1, ..., m: a solid polygon of at least 3 points
+   (closed by itself, in either direction, without self-crossing), or a thin polyline of at least 2.
+   Only before the first step. False with `error` if the points do not form one. */
 JO_API bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError *error);
 JO_API bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *error);
 
 typedef struct JoAgentDef {
     double x, y;             /* m, within 10 km of the origin */
-    double radius;           /* m, 0.02 to 5; default 0.2 */
+    double radius;           /* m, of the agent's disc, 0.02 to 5; default 0.2 */
     double mass;             /* kg, 1 to 10,000; default 70 */
-    double speed, max_speed; /* m/s; defaults 1.3 and 1.8 */
-    double perception;       /* m; default 3 */
-    double horizon;          /* s; default 0.5 */
-    double push;             /* N; default 0 */
-    double time_gap;         /* s, kept to agents ahead by the walking law; default 0: ORCA chooses
-                                velocities, which is unfit for measuring capacities */
-    double haste; /* 0 calm, 0.5 normal (the default), 1 keen; read only with a time gap above 0 */
+    double speed, max_speed; /* m/s: wanted speed, 0 to 20, and the greatest that it chooses, 0 to
+                                30; defaults 1.3 and 1.8 */
+    double perception;       /* m: radius within which it sees others, 0 to 100; default 3 */
+    double horizon;          /* s: time ahead for which it avoids others, 0.01 to 30; default 0.5 */
+    double push;             /* N: force with which it pushes agents in its way, 0 to 5,000;
+                                default 0 */
+    double time_gap;         /* s: time that it keeps to the back of the agent ahead, by the walking
+                                law (core/walking.md), 0 to 10; default 0: collision avoidance alone
+                                (ORCA) chooses velocities, which is unfit for measuring capacities */
+    double haste; /* motivation: 0 calm, 0.5 normal (the default), 1 keen; read only with a time gap
+                     above 0 */
     uint32_t cookie;
 } JoAgentDef;
 JO_API JoAgentDef jo_default_agent_def(void);
@@ -157,6 +172,7 @@ JO_API JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError
 /* Removes an agent at once; a body that it carries falls. In the world of a scene the call is
    recorded in the input log, as all calls of jostle_act.h are. Does nothing for a stale handle. */
 JO_API void jo_world_remove_agent(JoWorld *world, JoAgent agent);
+/* Returns whether the handle is that of an agent in the world. */
 JO_API bool jo_agent_is_live(const JoWorld *world, JoAgent agent);
 
 typedef struct JoAgentState {
@@ -171,7 +187,8 @@ typedef struct JoAgentState {
     const char *state;  /* state of the agent's behaviour, "" without a behaviour; valid until the
                            next call on the world */
 } JoAgentState;
-/* State of an agent after the last step. All zero for a null or stale handle. */
+/* Returns the state of an agent after the last step. All zero, with "" as its state, for a null or
+   stale handle. */
 JO_API JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent);
 /* Sets the velocity, m/s, that an agent without a behaviour wants to walk at; it holds until set
    again. At most 1e6 along each axis. */
@@ -181,8 +198,8 @@ JO_API void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, dou
 JO_API void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy);
 
 typedef enum JoShape { JO_SPHERE, JO_BOX, JO_CYLINDER } JoShape;
-/* Behaviour of a body at the last point of its path: it stays; it returns along the path and
-   keeps going to and fro; or it goes straight to the first point and starts the next round. */
+/* What a body does at the last point of its path: it stays; it returns along the path and keeps
+   going to and fro; or it goes straight to the first point and starts the next round. */
 typedef enum JoPathEnd { JO_PATH_STAY, JO_PATH_BACK, JO_PATH_ROUND } JoPathEnd;
 /* Path of a kinematic body: straight from its initial position through 1 to 255 points of x, y,
    z, m each. */
@@ -191,20 +208,21 @@ typedef struct JoPath {
     uint32_t count;
     JoPathEnd end;
     double speed;       /* m/s, 0.001 to 100 */
-    double after, wait; /* s: delay before the body starts; stop at each point */
-    double force_limit; /* N, overrides JoBodyDef.force_limit; 0: that one holds */
+    double after, wait; /* s: time before the body starts; time that it stops at each point */
+    double force_limit; /* N, in place of JoBodyDef.force_limit; 0: that one holds */
     bool reopens; /* when the force limit is reached, the body goes back to the start of its current
                      leg, waits and sets out again; else it advances as people give way, and
                      everything later on the path is delayed by as much */
 } JoPath;
 typedef struct JoBodyDef {
     JoShape shape;
-    double size[3];    /* m: sphere radius; box lengths x, y, z; cylinder radius, height */
-    double mass;       /* kg; 0 is static */
-    double x, y, z;    /* centre, m */
-    double turn;       /* about z, rad */
-    double vx, vy, vz; /* m/s */
-    double friction, restitution;
+    double size[3];     /* m: sphere radius; box lengths x, y, z; cylinder radius, height */
+    double mass;        /* kg; 0 is static */
+    double x, y, z;     /* centre, m */
+    double turn;        /* about z, rad */
+    double vx, vy, vz;  /* m/s */
+    double friction;    /* coefficient of sliding friction; default 0.6 */
+    double restitution; /* 0 (default) to 1: share of the normal velocity kept in a collision */
     bool kinematic; /* moves by its velocity whatever its mass, as a door or a train does: it pushes
                        people and bodies, and nothing pushes it; see jo_body_set_velocity */
     JoPath path;    /* path of a kinematic body, in place of a velocity; copied */
@@ -223,9 +241,10 @@ JO_API JoBodyDef jo_default_body_def(void);
 JO_API JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error);
 typedef struct JoBodyState {
     double x, y, z;        /* centre of mass, m */
-    double qx, qy, qz, qw; /* orientation */
+    double qx, qy, qz, qw; /* orientation as a unit quaternion */
     double vx, vy, vz;     /* m/s */
 } JoBodyState;
+/* Returns the state of a body after the last step. All zero for a null or stale handle. */
 JO_API JoBodyState jo_body_state(const JoWorld *world, JoBody body);
 
 /* Advances the world by `steps` steps of dt. If a number of an agent is not finite after a step,
@@ -245,6 +264,8 @@ JO_API uint64_t jo_world_hash(const JoWorld *world);
 
 /* ---- scenes ------------------------------------------------------------------------------ */
 
+/* A scene that runs: a world that was built from files, with sources and exits of people, events,
+   recordings and measurements. */
 typedef struct JoScene JoScene;
 
 /* Receives text for people: diagnostics with their source line, warnings, reload notices. It
@@ -253,15 +274,15 @@ typedef struct JoScene JoScene;
 typedef void JoMessage(void *context, const char *text);
 
 typedef struct JoSceneDef {
-    const char *path;             /* the YAML file */
-    const char *const *overrides; /* "PATH=VALUE", as for `jostle run --set` */
+    const char *path;             /* the scene's YAML file */
+    const char *const *overrides; /* settings "PATH=VALUE", as for `jostle run --set` */
     size_t override_count;
     bool has_seed, has_dt; /* whether `seed` and `dt` replace the scene's values */
     uint64_t seed;
-    double dt;        /* s */
-    uint32_t threads; /* 1 to 64; default 0: all processors that the process may use */
-    JoIsa isa;
-    const char *input_log; /* recorded input to play, or NULL */
+    double dt;             /* s */
+    uint32_t threads;      /* 1 to 64; default 0: all processors that the process may use */
+    JoIsa isa;             /* default: the widest */
+    const char *input_log; /* file of jo_scene_log_input, whose input is played back; or NULL */
     JoMessage *message;    /* NULL: to stderr */
     void *message_context;
     /* folders of mods, or names of mods that lie in mods/ beside the scene or in the user's data
@@ -270,7 +291,7 @@ typedef struct JoSceneDef {
     size_t mod_count;
     bool named_mods_only; /* load only the mods of `mods` and those that the scene names, not those
                              that the user turned on with jo_mods_enable */
-    bool needed_mods_too; /* also load the mods on which these depend, without their being named */
+    bool needed_mods_too; /* also load the mods that these need, though they are not named */
     bool resumable; /* allow checkpoints: keep the texts of all files, and re-insert all bodies into
                        Bullet's world at each 128th step, the only steps at which their state can be
                        saved exactly; this changes the order in which Bullet solves contacts, and so
@@ -359,11 +380,13 @@ JO_API bool jo_scene_finish(JoScene *scene, JoError *error);
 JO_API void jo_scene_show_progress(JoScene *scene, double until);
 /* Number of stages of a step, in the order of jo_stage_name. */
 enum { JO_STAGE_COUNT = 9 };
+/* Counts and times of a run. */
 typedef struct JoStats {
-    uint64_t steps, agent_steps; /* since loading */
-    uint32_t agents, bodies;     /* now */
-    /* time spent in steps alone; cpu_s counts all threads of the process */
-    double dt, simulated_s, wall_s, cpu_s;
+    uint64_t steps, agent_steps; /* since loading: steps; the sum of their numbers of agents */
+    uint32_t agents, bodies;     /* present now */
+    double dt, simulated_s;      /* s: time step; simulated time since loading */
+    double wall_s, cpu_s; /* s that the steps took: wall time; processor time of all threads of the
+                             process */
     double stage_ns[JO_STAGE_COUNT]; /* wall time per agent-step, ns */
     double bullet_ns;  /* part of the stage "bodies", ns per agent-step: Bullet's own steps */
     double objects_ns; /* part of the stage "perceive", ns per agent-step: updating the objects, the

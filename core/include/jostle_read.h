@@ -23,11 +23,15 @@ typedef struct JoColumn {
     uint32_t count;   /* agents */
     JoType type;
 } JoColumn;
-/* Finds a column by its name; its data is read in place, not copied: "id", "x", "y" (m), "vx", "vy"
-   (m/s), "force_x", "force_y" (N), "compression" (N/m), "load" (N), "density" (1/m2), "face_x",
-   "face_y", "pref_x", "pref_y" (m/s), "eager", "contacts", "group", "machine", "state", "team",
-   "goal", "slot", "tags"; and parameters: "radius", "mass", "speed" and so on, with angles stored
-   as cosines.
+/* Finds a column by its name; its data is read in place, not copied.
+   "id", "slot": as in JoAgentState and JoAgent
+   "x", "y": position, m; "vx", "vy": velocity, m/s; "face_x", "face_y": unit vector of its look
+   "pref_x", "pref_y": velocity that it wants, m/s; "eager": eagerness of the walking law, 0 to 1
+   "force_x", "force_y", N, "compression", N/m, "load", N: as in JoAgentState
+   "density": people per m2 about it; "contacts": number of agents and bodies that it touches
+   "group", "machine" (its behaviour), "state": numbers, with names by the functions below
+   "goal": number of a place, -1 for none; "team": 0 for none; "tags": a bit for each tag
+   and each parameter ("radius", "mass", "speed", ...), where an angle is stored as its cosine.
 
    The pointer is valid until the next step and until the next call that changes the world. The
    order of agents changes from step to step: the same index may be another agent, which "id"
@@ -46,43 +50,48 @@ JO_API const char *jo_world_body_name(const JoWorld *world, uint32_t slot);
 
 /* ---- events ------------------------------------------------------------------------------ */
 
-/* An agent took a transition of its behaviour: the numbers of the behaviour and of both states. */
+/* An agent took a transition of its behaviour. */
 typedef struct JoTransitionEvent {
-    uint32_t agent, machine, from, to;
+    uint32_t agent;    /* id, as in all events */
+    uint32_t machine;  /* number of the behaviour (jo_world_machine_name) */
+    uint32_t from, to; /* numbers of the states (jo_world_state_name) */
 } JoTransitionEvent;
+/* Kind of thing that an agent touches, or that a cast hits. */
 typedef enum JoTouched { JO_TOUCHED_AGENT, JO_TOUCHED_BODY, JO_TOUCHED_WALL } JoTouched;
 /* An agent and another, a body or a wall press on each other at the end of the step. */
 typedef struct JoTouchEvent {
     uint32_t agent;
     uint32_t kind;  /* JoTouched */
-    uint32_t other; /* id, slot, or number of the wall's edge */
+    uint32_t other; /* the agent's id, the body's slot, or the number of the wall's edge */
     uint32_t began; /* 1: they did not touch when events were last read */
-    float force;    /* N */
+    float force;    /* magnitude, N */
 } JoTouchEvent;
 /* A fast body hit an agent. */
 typedef struct JoHitEvent {
-    uint32_t agent, body;
-    float impulse; /* N s */
-    float x, y, z; /* m */
+    uint32_t agent, body; /* id; slot */
+    float impulse;        /* magnitude, N s */
+    float x, y, z;        /* point of the hit, m */
 } JoHitEvent;
 /* Bonds of a body of blocks broke. */
 typedef struct JoBreakEvent {
-    uint32_t body;
+    uint32_t body;   /* slot */
     uint32_t bonds;  /* bonds that broke */
     uint32_t pieces; /* pieces that the body came apart into; 1: it is still whole */
 } JoBreakEvent;
-/* An agent entered or left: its position, m, or the one when events were last read. */
+/* An agent entered or left the world. */
 typedef struct JoPresenceEvent {
-    uint32_t agent, group;
-    float x, y;
+    uint32_t agent, group; /* id; number of the group (jo_world_group_name) */
+    float x, y; /* m: of one that entered, its present position; of one that left, its position when
+                   events were last read */
 } JoPresenceEvent;
-/* An agent sent a signal, given by number. */
+/* An agent sent a signal. */
 typedef struct JoSaidEvent {
-    uint32_t agent, signal;
-    float x, y; /* m */
+    uint32_t agent, signal; /* id; number of the signal (jo_world_signal_name) */
+    float x, y;             /* position of the agent, m */
 } JoSaidEvent;
 /* Kind of an agent's action: it kicked or threw a body, or took hold of another agent. */
 typedef enum JoDone { JO_DONE_KICK, JO_DONE_GRASP } JoDone;
+/* An agent acted on a body or on another agent. */
 typedef struct JoActionEvent {
     uint32_t agent;
     uint32_t kind;  /* JoDone */
@@ -116,13 +125,14 @@ JO_API JoEvents jo_world_events(JoWorld *world);
 JO_API uint32_t jo_world_neighbours(const JoWorld *world, double x, double y, double radius,
                                     uint32_t *ids, float *distances, uint32_t capacity);
 
+/* Kinds of things that a cast may hit, to be added up. */
 enum { JO_CAST_AGENTS = 1, JO_CAST_BODIES = 2, JO_CAST_WALLS = 4, JO_CAST_ALL = 7 };
 /* First thing that a ray or a moving disc meets. */
 typedef struct JoCast {
     bool hit;
     JoTouched kind;
-    uint32_t what; /* id, slot, or number of the wall's edge */
-    double share;  /* part of the way before the hit, 0 to 1 */
+    uint32_t what; /* the agent's id, the body's slot, or the number of the wall's edge */
+    double share;  /* part of the way that is free before the hit, 0 to 1; 1 without a hit */
     double x, y;   /* m: centre of the disc at the hit */
     double nx, ny; /* unit normal, from the thing that was hit to the centre */
 } JoCast;

@@ -16,37 +16,39 @@ extern "C" {
 /* ---- figures ----------------------------------------------------------------------------- */
 
 typedef enum JoFigureKind {
-    JO_FIGURE_NONE, /* unknown, such as a density that was not sampled */
-    JO_FIGURE_TRUTH,
+    JO_FIGURE_NONE,  /* unknown, such as a density that was not sampled */
+    JO_FIGURE_TRUTH, /* true or false */
     JO_FIGURE_NUMBER,
     JO_FIGURE_TEXT,
     JO_FIGURE_TABLE, /* holds the following, deeper figures, by name */
     JO_FIGURE_LIST   /* holds the following, deeper figures, in an order */
 } JoFigureKind;
+/* One figure of a run: a named result, input or cost. Figures form a tree, listed depth first. */
 typedef struct JoFigure {
     const char *path; /* "events.hits", "probes.door.flow", "inputs.0.path" */
     const char *name; /* last part of the path; NULL for an item of a list */
     JoFigureKind kind;
     int depth;        /* nesting depth, from 1 */
-    double number;    /* value of a number, 0 or 1 for a truth, else NAN */
+    double number;    /* value of a number; 0 or 1 for a truth; else NAN */
     const char *text; /* value of a text, else NULL */
 } JoFigure;
 typedef struct JoFigures {
     const JoFigure *items;
     uint32_t count;
 } JoFigures;
-/* Figures of the run so far, the same as `jostle run --summary` writes: in s, m, m/s, N, 1/m2,
-   1/s, or the unit with which their name ends. Reporting and recording may add figures, but do
-   not change these. "density_max" is the greatest density at any place and time, people per m2
-   by a Gaussian of R = 1 m within the walls, sampled every 0.5 simulated s (absent with
+/* Returns the figures of the run so far, the same as `jostle run --summary` writes: in s, m, m/s,
+   N, 1/m2, 1/s, or the unit with which their name ends. Reporting and recording may add figures,
+   but do not change these. "density_max" is the greatest density at any place and time, people per
+   m2 by a Gaussian of R = 1 m within the walls, sampled every 0.5 simulated s (absent with
    JoSceneDef.no_density). */
 JO_API JoFigures *jo_scene_figures(const JoScene *scene);
-/* Number of the figure with a path; NAN if there is none. */
+/* Returns the number of the figure with a path; NAN if there is none. */
 JO_API double jo_figure(const JoFigures *figures, const char *path);
 
 /* ---- probes ------------------------------------------------------------------------------ */
 
-/* Name of the n-th probe of the scene, from 0; NULL after the last. */
+/* Returns the name of the n-th probe of the scene (what it measures is in the scene's file), from
+   0; NULL after the last. */
 JO_API const char *jo_scene_probe_name(const JoScene *scene, uint32_t n);
 typedef struct JoTableColumn {
     const char *name, *unit;  /* "density", "1/m2" */
@@ -57,12 +59,13 @@ typedef struct JoTable {
     const JoTableColumn *columns;
     uint32_t column_count, row_count;
 } JoTable;
-/* Measurements of a probe so far, rounded as a report writes them. NULL also if there is no such
-   probe. */
+/* Returns the measurements of the n-th probe so far, rounded as a report writes them. NULL also if
+   there is no such probe. */
 JO_API JoTable *jo_scene_probe_table(const JoScene *scene, uint32_t n);
 
 /* ---- troubles and costs ------------------------------------------------------------------ */
 
+/* What went wrong in a run without ending it. */
 typedef enum JoTroubleKind {
     JO_TROUBLE_SUSPENDED, /* a function of a behaviour failed too often and is no longer called */
     JO_TROUBLE_LOST,      /* people were lost (JoLost) */
@@ -133,15 +136,19 @@ typedef enum JoModSwitch {
     JO_MOD_CHANGED, /* turned on, but its files have changed since: treated as JO_MOD_OFF */
     JO_MOD_ON
 } JoModSwitch;
+/* One change that a mod makes. */
 typedef struct JoModPatch {
     const char *target; /* name of the behaviour or scene that it changes; "" if it names none */
     bool behaviour;     /* true: the target is a behaviour; false: a scene */
     bool replaces;      /* replaces the target as a whole */
 } JoModPatch;
+/* A number that a mod declares for users to set, with its range. */
 typedef struct JoModSetting {
     const char *name, *unit, *meaning;
     double value, least, greatest;
 } JoModSetting;
+/* A mod: a folder of patches to the behaviours and scenes of others, and of behaviours of its own.
+ */
 typedef struct JoMod {
     const char *name, *version, *title, *folder;
     JoModSwitch on;
@@ -164,6 +171,7 @@ JO_API JoMods *jo_mods_list(const JoSceneDef *def);
    when these change, the mod is off until it is turned on again. False with `error`. */
 JO_API bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error);
 
+/* What set a value. */
 typedef enum JoSetBy {
     JO_SET_DEFAULT,   /* the default, set by no file */
     JO_SET_BEHAVIOUR, /* the file of a behaviour, or a module that it requires */

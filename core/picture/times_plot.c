@@ -73,7 +73,7 @@ static int write_series_data(const JoTiming *timings, size_t count, const char *
     return !jox_plot_close(data, "series.csv", why) ? -1 : longest > 1 ? blocks : 0;
 }
 
-/* Writes bench.plt and draws bench.png: bars, stages and, with `blocks` data sets, the series. */
+/* Writes bench.plt and draws bench.svg: bars, stages and, with `blocks` data sets, the series. */
 static bool draw_timings(size_t count, int blocks, const char *sets, const char *folder,
                          JoxText *why) {
     FILE *script = jox_plot_open(folder, "bench.plt", why);
