@@ -1,6 +1,7 @@
-# Jostle. Sources are found, never listed; everything is built in build/MODE.
+# Builds Jostle. Sources are found by wildcard, not listed; each build has a folder, build/MODE.
 # `make run` and `make test` install what is missing (.ci/setup); plain `make` only builds.
-# BULLET=0 leaves out bodies and Bullet, VIEW=0 the live page and libwebsockets, CAIRO=0 images and cairo.
+# BULLET=0 builds without bodies and Bullet, VIEW=0 without the live page and libwebsockets, CAIRO=0 without
+# PNG images, videos and cairo.
 VERSION := 0.1.0
 MODE    ?= release
 BULLET  ?= 1
@@ -8,12 +9,12 @@ CAIRO   ?= 1
 VIEW    ?= 1
 PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
-# Where the program finds its library of Lua, behaviours and scenes: this tree, until it is installed.
+# Folder where the program finds its Lua library, behaviours and scenes: this tree, unless it is installed.
 DATADIR ?= $(CURDIR)
-# Its live page, and the three.js that the page uses (Debian's libjs-three).
+# Folders of the live page's files, and of three.js, which the page uses (Debian: libjs-three).
 PAGEDIR ?= $(CURDIR)/core/view/page
 THREEDIR ?= /usr/share/javascript/three
-# CROSS=aarch64-linux-gnu- builds for another machine, with its libraries as Debian lays them beside ours.
+# CROSS=aarch64-linux-gnu- builds for another machine; its libraries are expected where Debian's multiarch puts them.
 CROSS   ?=
 ifneq ($(CROSS),)
 CC      := $(CROSS)gcc
@@ -24,14 +25,15 @@ PKG     := pkg-config
 endif
 WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)$(if $(CROSS),-$(CROSS:-=))
 B       ?= build/$(MODE)$(WITHOUT)
-# Objects are shared by builds that differ in what they leave out or in where they are installed: the few
-# files that name a folder of the installation are compiled for each. A B that is given has its own.
+# SHARED: folder of the objects that builds of a MODE have in common, whatever they leave out and wherever they
+# are installed. The few files that name a folder of the installation (PLACED) are compiled for each build. If B
+# is given on the command line, all objects are in B.
 SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-=)),$(B))
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
 FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom geom/field geom/ground agents nav/spots nav nav/near nav/walk nav/orca nav/move force force/push force/support force/contact force/stages body machine machine/steering world/input world/happened world/routes world world/verbs world/embed scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results run/mods live report render validate luatest sweep sweep/compare)
-# Of them, what libjostle leaves to libjostle-tools: pages, pictures, reports.
+# Folders that are in libjostle-tools alone, not in libjostle: pages, pictures, reports.
 TOOLS   := view picture live report render validate luatest sweep sweep/compare
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 # Kernels: one source, compiled for each instruction set that core/simd has lanes for.
@@ -54,7 +56,7 @@ SRC_CLI := $(sort $(wildcard core/cli/*.c core/cli/bench/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api load),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
 TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c tests/unit/live_replay_page.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
-# Systems give Lua 5.4 different names.
+# pkg-config's name of Lua 5.4 differs between systems.
 LUA     := $(firstword $(shell for p in lua5.4 lua-5.4 lua54 lua; do $(PKG) --exists "$$p >= 5.4" 2>/dev/null && echo $$p; done) lua5.4)
 ENGINE_PKGS := $(LUA) yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(BULLET)),,bullet)
 PKGS    := $(ENGINE_PKGS) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
@@ -64,7 +66,7 @@ OPT.debug   := -O0 -g
 OPT.asan    := -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT.ubsan   := -O1 -g1 -fsanitize=undefined -fno-sanitize-recover=all
 OPT.tsan    := -O1 -g1 -fsanitize=thread
-# For fuzzers (`make fuzz`): by clang, with counters of what was reached, and with assertions.
+# For `make fuzz`: needs clang; with coverage counters for libFuzzer, and with assertions.
 OPT.fuzz    := -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT     := $(OPT.$(MODE))
 $(if $(OPT),,$(error MODE=$(MODE) is not one of release, debug, asan, ubsan, tsan, fuzz))
@@ -75,21 +77,22 @@ override CXX := clang++
 endif
 endif
 WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla
-# What an overrun of the stack, of a buffer or of the table of imports would need is not there; debug and
-# sanitised builds find more by themselves.
+# Hardening of release builds against overruns of the stack and of buffers (LINK makes the table of imports
+# read-only). Debug and sanitised builds find more by themselves.
 HARD    := $(if $(filter release,$(MODE)),-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
-# No contraction, no fast-math: every build must compute the same bits.
+# No contraction to fused multiply-add, no fast-math: every build must compute the same bits.
 FP      := -ffp-contract=off -fno-math-errno -fno-trapping-math
 CFLAGS  ?=
 CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -D_GNU_SOURCE
-# What differs between builds that share objects is known to the files that name it alone, and to tests.
+# Folders of the installation, defined only for the files that name them (PLACED) and for tests, so that all other
+# objects can be shared.
 PLACES  := -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"' -DJOX_THREEDIR='"$(THREEDIR)"'
 PLACED  := $(shell grep -lE 'JOX_(DATADIR|PAGEDIR|THREEDIR)' $(SRC_C) $(SRC_CC) $(SRC_CLI))
-# Statics of inline functions must not become process-wide symbols.
+# Static variables of inline C++ functions must not become symbols that all libraries of a process share.
 UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
 CFLAGS_ALL  = -std=c17 $(OPT) $(HARD) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
-# At -O3, GCC 12 rounds a sum of a shape's moments otherwise once it puts its scalars into vectors: not for C++,
-# which has no loops that cost.
+# No vectorization of scalars in C++: with it, GCC 12 at -O3 rounds the sum of a shape's moments of inertia
+# differently. The C++ files have no loops that would gain by it.
 CXXFLAGS_ALL = -std=c++17 $(OPT) $(HARD) -Wall -Wextra $(FP) -fno-tree-slp-vectorize -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti $(UNIQUE) \
            -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
 PKG_CFLAGS := $(shell $(PKG) --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
@@ -99,7 +102,7 @@ LIBS_jostle       := $(shell $(PKG) --libs $(ENGINE_PKGS) 2>/dev/null) -lm -pthr
 LIBS_jostle-tools := $(LIBS)
 LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread -Wl,-z,relro,-z,now $(LDFLAGS)
 
-# One short line a file; V=1 shows the commands.
+# Prints one short line per file; V=1 shows the commands.
 ifeq ($(V),1)
 Q   :=
 say :=
@@ -122,7 +125,7 @@ FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.
 LIBRARIES := jostle jostle-tools
 all: $(B)/jostle $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
-# The two commands of the README. Both first install what is missing, and build on all processors.
+# The two commands of the README. Both first install missing packages, and build on all processors.
 AT_ONCE = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
 run:
 	@.ci/setup run
@@ -134,27 +137,30 @@ test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory $(AT_ONCE) all tests-built
 	@B=$(B) SHARED=$(SHARED) .ci/suite check units scenes install page
-# Pictures and clips of shipped scenes, as the live page draws them: of those that SCENES names, or all.
+# Makes pictures and clips, as the live page draws them, of the shipped scenes that SCENES names (default: all).
 gallery:
 	@.ci/setup gallery
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) JOSTLE=$(B)/jostle /usr/bin/python3 tests/page/gallery.py build/out/gallery $(filter-out all,$(SCENES))
+# All tests, with 10,000 connects to the live page, then the units under sanitisers.
 test-all: test
 	JOSTLE_VIEW_CYCLES=10000 $(B)/units view_stream
 	@.ci/sanitizers
-# The same engine for AArch64, under an emulator (tests/arm).
+# Tests a build for AArch64 under an emulator (tests/arm).
 arm:
 	@.ci/setup arm
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) .ci/suite arm
-# One hash for all that changes no result: of the scenes that SCENES names.
+# Proves that the hashes of the scenes in SCENES are the same for all threads, instruction sets, compilers and options
+# that must not change results (tests/scenes/determinism.sh).
 SCENES ?= all
 JUDGE  := awk '{print; fflush()} /^not ok/ {bad = 1} END {exit bad}'
 matrix:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) JOSTLE=$(B)/jostle JOSTLE_MATRIX="$(SCENES)" bash tests/scenes/determinism.sh | $(JUDGE)
-# The Tawaf with all that goes on beside a run, for so many seconds; then 1,000 reloads and 10,000 page connects.
+# Soak test: runs the Tawaf for SECONDS of wall time with reloads, page, recorder, input log and checkpoints, then
+# makes 1,000 reloads and 10,000 page connects.
 SECONDS ?= 3600
 soak:
 	@.ci/setup test
@@ -166,13 +172,13 @@ bench:
 	@for b in $(BENCH); do echo "== $$b"; $$b; done
 	$(B)/jostle bench
 	@B=$(B) bash tests/bench/reload.sh
-# A line for each scene into the table of this machine's model of processor.
+# Times each scene, and appends a line for it to the table of this model of processor in tests/bench/results.
 bench-record: all
 	@B=$(B) bash tests/bench/record.sh
-# Replaces the instruction counts that tests/scenes/instructions.sh compares: after a deliberate change.
+# Replaces the instruction counts that tests/scenes/instructions.sh compares; for deliberate changes of cost.
 bench-instructions: all
 	@B=$(B) JOSTLE=$(B)/jostle bash tests/scenes/instructions.sh --write
-# Other engines on the same crowds, in turn with ours.
+# Times other engines and Jostle in turn, on the same crowds.
 PEERS := $(patsubst tests/bench/peers/%.cc,$(B)/bench/peer-%,$(wildcard tests/bench/peers/*.cc))
 bench-peers:
 	@.ci/setup peers
@@ -183,14 +189,14 @@ check:
 	@$(MAKE) --no-print-directory all
 	@B=$(B) SHARED=$(SHARED) .ci/suite check
 tests-built: $(B)/units
-# Fuzzers: TIME seconds each, of all or of the one that FUZZ names; by libFuzzer, in a build of their own.
+# Runs the fuzzer that FUZZ names, or all, for TIME seconds each, by libFuzzer in a build of their own.
 TIME ?= 60
 fuzz:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory MODE=fuzz fuzzers
 	@B=build/fuzz TIME=$(TIME) bash tests/fuzz/run.sh $(FUZZ)
 fuzzers: $(FUZZERS) $(B)/jostle
-# One thing fails, the n-th each time: FAULTS of them for each command and part, or all.
+# Fault injection: runs each command with its n-th allocation, write, ... failing, for FAULTS values of n, or all.
 FAULTS ?= all
 faults:
 	@.ci/setup test
@@ -204,7 +210,7 @@ define compile
 endef
 $(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
-# Kernels, and what has loops over numbers that become vector operations, of the same bits.
+# Files compiled at -O3, which vectorizes their loops over numbers without changing a bit: kernels and a few others.
 VECTORISED := core/record/fields/density core/record/fields/density_put core/record/fields/density_diffuse \
            core/world/guard core/world/statistics core/agents/agents core/force/stages/forces core/force/push/pass_on core/force/contact/crush_load \
            core/machine/group core/machine/think core/machine/target core/nav/near/perceive core/nav/move/move \
@@ -231,7 +237,7 @@ $(B)/internal.a: $(OBJ)
 $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
 	$(call say,LINK,$@)
 	$(Q)$(LINK) $^ -o $@ $(LIBS)
-# What leaves the libraries: the public calls alone. Hidden symbols become local.
+# The libraries export the public functions alone: hidden symbols become local.
 define library
 $(B)/$(1).o: $(OBJ_$(1))
 	@mkdir -p $$(@D)
@@ -247,15 +253,15 @@ $(B)/lib$(1).so.$(VERSION): $(B)/$(1).o
 	$$(Q)$$(LINK) -shared -Wl,-soname,lib$(1).so.0 -Wl,--as-needed $$^ -o $$@ $$(LIBS_$(1))
 endef
 $(foreach l,$(LIBRARIES),$(eval $(call library,$(l))))
-# The module of Lua, for programs that are run by an interpreter of theirs: `require "jostle"`.
+# Module for stock Lua interpreters: `require "jostle"`.
 LUA_MODULE := $(patsubst scripts/lua/%.c,$(B)/lua/%.o,$(wildcard scripts/lua/*.c))
 $(LUA_MODULE): $(B)/lua/%.o: scripts/lua/%.c Makefile
 	$(call compile,LUA,$(CC),$(CFLAGS_ALL))
 $(B)/lua/jostle.so: $(LUA_MODULE) $(B)/libjostle.a
 	$(call say,LINK,$@)
 	$(Q)$(LINK) -shared -Wl,--as-needed -Wl,--exclude-libs,ALL $(LUA_MODULE) $(B)/libjostle.a -o $@ $(LIBS_jostle)
-# A unit test is a program of its own; $(B)/units is all of them in one, which is linked once: `units NAME...`
-# runs those, in the place of their main.
+# Each unit test has a main of its own, and may be linked as a program, $(B)/unit/NAME. $(B)/units has all of
+# them in one program, their mains renamed: `units NAME...` runs those tests.
 $(B)/unit/%.o: tests/unit/%.c Makefile
 	@mkdir -p $(@D)
 	$(call say,TEST,$<)
@@ -272,7 +278,8 @@ $(B)/units: tests/unit/all/units.c $(UNIT:%=%.o) $(B)/internal.a
 	    $(CROSS)objcopy --redefine-sym main=unit_$$unit $(B)/unit/$$unit.o $@.parts/$$unit.o || exit 1; done
 	$(Q)$(LINK) $@.parts/*.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
 	@rm -f $@.parts/*.o
-# In builds by libFuzzer its main drives a target, in others tests/fuzz/support/replay.c.
+# Fuzzers are driven by libFuzzer's main with MODE=fuzz, else by that of tests/fuzz/support/replay.c, which replays
+# stored inputs.
 OBJ_FUZZ := $(patsubst %.c,$(B)/%.o,$(filter-out $(if $(filter fuzz,$(MODE)),%/replay.c),$(wildcard tests/fuzz/support/*.c)))
 .SECONDARY: $(OBJ_FUZZ) $(FUZZERS:$(B)/fuzz/%=$(B)/tests/fuzz/%.o)
 $(B)/fuzz/%: $(B)/tests/fuzz/%.o $(OBJ_FUZZ) $(filter-out %/main.o,$(OBJ_CLI)) $(B)/internal.a
@@ -289,17 +296,18 @@ $(B)/bench/peer-%: tests/bench/peers/%.cc $(B)/libjostle.a
 	$(call say,PEER,$<)
 	$(Q)$(CXX) -std=c++17 -O2 -Wall -Wextra -Icore/include -isystem /usr/include/recastnavigation $< $(B)/libjostle.a -o $@ -lDetourCrowd -lDetour $(LIBS)
 
-# Pages and files for editors, made of the tables of words and keys; `make check` compares them.
+# Generates reference pages and files for editors from the tables of words, keys and options; `make check`
+# compares them.
 reference: all
 	@for page in $(REFERENCE); do $(B)/jostle reference $${page%%:*} > $${page#*:}; done
 REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scripts/editor/jostle.lua \
            luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
            scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md manual:scripts/jostle.1
-# Unit tests alone, each in a process of its own: `make unit`, or `make unit ONLY="base geom"` for some folders.
+# Runs the unit tests alone, each in a process of its own; ONLY="base geom" restricts them to some folders.
 unit: $(B)/units
 	@failed=0; for u in $(notdir $(UNIT)); do $(B)/units $$u || failed=$$((failed + 1)); done; \
 	    echo "$(words $(UNIT)) tests, $$failed failed"; [ $$failed = 0 ]
-# Installed files know where the library's Lua lies, so that each PREFIX is built apart.
+# The program contains the paths of its installation, so each PREFIX has a build of its own.
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
 HEADERS   := $(sort $(wildcard core/include/*.h core/include/*.hpp))
@@ -325,14 +333,14 @@ uninstall:
 	rm -rf $(D)/share/jostle
 	rm -f $(D)/bin/jostle $(L)/lua/5.4/jostle.so $(LIBRARIES:%=$(L)/lib%.a) $(LIBRARIES:%=$(L)/lib%.so*) $(HEADERS:core/%=$(D)/%)
 	rm -f $(LIBRARIES:%=$(L)/pkgconfig/%.pc) $(D)/share/man/man1/jostle.1
-# build/out/jostle-VERSION.tar.gz: what is committed, the same bytes each time, and its sum.
+# Makes build/out/jostle-VERSION.tar.gz of the current commit, the same bytes each time, and its SHA-256 sum.
 DIST := build/out/jostle-$(VERSION).tar.gz
 dist:
 	@mkdir -p build/out
 	git archive --format=tar --prefix=jostle-$(VERSION)/ HEAD | gzip -n9 > $(DIST)
 	cd build/out && sha256sum $(notdir $(DIST)) > SHA256SUMS
-# Debian packages of that archive, in build/deb; `make deb-check` looks at them with lintian and runs what is
-# installed from them in a root of its own.
+# Makes Debian packages of that archive in build/deb. `make deb-check` checks them with lintian, installs them into a
+# root folder of their own, and runs what was installed.
 deb: dist
 	@.ci/setup deb
 	rm -rf build/deb && mkdir -p build/deb

@@ -1,7 +1,7 @@
-# Who calls whom, from `nm -A` of the object files: a file calls its own folder or a strictly lower
-# floor (the floors of layers.awk), and within a folder calls go one way: no circle of files. Data that
-# a file reads counts as a call. Prints each breach. Read after floors.awk. The first file read lists pairs that are
-# tolerated: "CALLER CALLED why", paths below core/ without ending.
+# Checks the calls between files, read from `nm -A` of the object files: a file may call its own folder or a strictly
+# lower floor (floors.awk), and the calls between files of a folder have no cycle. Use of another file's data counts as a
+# call. Prints each breach. Needs floors.awk before it. The first input file lists tolerated pairs, one per line:
+# "CALLER CALLED why", as paths below core/ without their endings.
 BEGIN { floors(floor_of) }
 FNR == NR {
     if ($0 !~ /^#/ && NF > 2) allowed[$1 " " $2] = 1
@@ -24,7 +24,7 @@ function may_call(mine, other,    a, b) {
     if (a[1] == b[1]) return floor_of[other] < floor_of[mine]
     return int(floor_of[other]) < int(floor_of[mine])
 }
-# Tarjan's strongly connected components.
+# Finds cycles as strongly connected components, by Tarjan's algorithm.
 function visit(v,    list, n, i, w, members, size) {
     number[v] = low[v] = ++counter
     stack[++depth] = v; on_stack[v] = 1

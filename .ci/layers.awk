@@ -1,8 +1,8 @@
-# Which folder of core includes which: only its own or a strictly lower floor, and no file includes
-# itself in a circle. Prints each breach. Read after floors.awk.
+# Checks the #include lines of core: a file may include its own folder or a strictly lower floor, and includes have no
+# cycle. Prints each breach. Needs floors.awk before it.
 BEGIN { floors(floor_of) }
 { sub(/\r$/, "") }
-# The room of a path below core/: its folder.
+# Returns the folder of a path below core/.
 function room_of(path) { sub(/\/[^\/]*$/, "", path); return path }
 function may_include(mine, other,    a, b) {
     if (mine == other) return 1
