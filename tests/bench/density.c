@@ -17,7 +17,7 @@ static const float SIZE = 50.0f, CELL = 0.316f;
 static float x[PEOPLE], y[PEOPLE], vx[PEOPLE], vy[PEOPLE];
 static float *fields[FIELDS];
 
-static double now(void) {
+static double read_cpu_time(void) {
     struct timespec t;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
@@ -95,16 +95,16 @@ int main(void) {
     for (int f = 0; f < FIELDS; f++)
         fields[f] = jox_alloc((size_t)d->columns * d->rows, sizeof(float));
     for (int round = 0; round < ROUNDS; round++) { /* the best of each, in turns */
-        double t0 = now();
+        double t0 = read_cpu_time();
         add_up(d);
-        double t1 = now();
+        double t1 = read_cpu_time();
         jox_density_walls(d, NULL);
         sample(d);
-        double t2 = now();
+        double t2 = read_cpu_time();
         jox_density_walls(d, round % 2 ? &stand : &other);
-        double t3 = now();
+        double t3 = read_cpu_time();
         sample(d);
-        double t4 = now();
+        double t4 = read_cpu_time();
         plain = fmin(plain, t1 - t0);
         open = fmin(open, t2 - t1);
         change = fmin(change, t3 - t2);

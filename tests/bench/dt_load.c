@@ -3,7 +3,7 @@
    error over seeds. Arguments: how many seeds (3), and the name of one scene. */
 #include "unit/load_crowd.h"
 
-static void add(CrowdMeans *to, CrowdMeans one, double share) {
+static void add_share(CrowdMeans *to, CrowdMeans one, double share) {
     to->load += one.load * share;
     to->compression += one.compression * share;
     to->overlap += one.overlap * share;
@@ -24,7 +24,7 @@ int main(int argc, char **argv) {
             double load2 = 0.0, compression2 = 0.0;
             for (int seed = 1; seed <= seeds; seed++) {
                 CrowdMeans one = crowd_means(scene, (uint64_t)seed, steps[k]);
-                add(&mean, one, 1.0 / seeds);
+                add_share(&mean, one, 1.0 / seeds);
                 load2 += one.load * one.load / seeds;
                 compression2 += one.compression * one.compression / seeds;
             }

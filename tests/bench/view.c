@@ -63,7 +63,7 @@ static void message(void *context, const char *text) {
     }
 }
 
-static double run(bool client) {
+static double run_tawaf(bool client) {
     JoViewDef def = jo_default_view_def();
     def.scene.path = "scenes/tawaf.yaml";
     def.scene.message = message;
@@ -86,12 +86,12 @@ static double run(bool client) {
     return took;
 }
 
-static int compare(const void *a, const void *b) {
+static int compare_times(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-static void write_file(const char *name) {
+static void write_empty_file(const char *name) {
     char path[300];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "w");
@@ -106,14 +106,14 @@ int main(void) {
         return 1;
     snprintf(build, sizeof build, "%s/build", folder);
     mkdir(build, 0700);
-    write_file("index.html");
-    write_file("build/three.module.js");
+    write_empty_file("index.html");
+    write_empty_file("build/three.module.js");
     for (int i = 0; i < ROUNDS; i++) {
-        alone[i] = run(false);
-        watched[i] = run(true);
+        alone[i] = run_tawaf(false);
+        watched[i] = run_tawaf(true);
     }
-    qsort(alone, ROUNDS, sizeof *alone, compare);
-    qsort(watched, ROUNDS, sizeof *watched, compare);
+    qsort(alone, ROUNDS, sizeof *alone, compare_times);
+    qsort(watched, ROUNDS, sizeof *watched, compare_times);
     double a = alone[ROUNDS / 2], w = watched[ROUNDS / 2];
     printf(
         "the Tawaf for %g s, CPU of the stepping thread (medians of %d): alone %.2f s, with a page "

@@ -40,45 +40,45 @@ typedef struct Caller {
 
 /* ---- what is given ---- */
 
-static uint8_t byte(Caller *c) {
+static uint8_t take_byte(Caller *c) {
     return c->at < c->end ? *c->at++ : 0;
 }
 
-static double number(Caller *c) {
+static double pick_number(Caller *c) {
     static const double ODD[] = {0,   -0.0,  NAN,    INFINITY, -INFINITY, 1e300,  -1e300, 1e39,
                                  1e9, -1e9,  1e6,    -1e6,     10000,     -10000, 9999.9, 1e-300,
                                  0.5, 0.001, 5e-324, 100,      -100,      500};
-    const uint8_t b = byte(c);
+    const uint8_t b = take_byte(c);
     return b < 22 ? ODD[b] : (b - 128) / 16.0;
 }
 
-static const char *name(Caller *c) {
+static const char *pick_name(Caller *c) {
     static char longest[5000];
     static const char *const NAMES[] = {
         NULL,   "",     "a",         "ball", "door",         "gate",        "hall", "exit", "Go",
         "Stop", "hits", "speed",     "push", "talker",       "x\ny",        "\xff", "mine", "id",
         "x",    "load", "direction", "goal", "push 0 1e9 0", "spawn a 1 1", "tags", longest};
     memset(longest, 'x', sizeof longest - 1);
-    return NAMES[byte(c) % (sizeof NAMES / sizeof *NAMES)];
+    return NAMES[take_byte(c) % (sizeof NAMES / sizeof *NAMES)];
 }
 
-static JoWorld *world(Caller *c) {
-    const uint8_t b = byte(c);
+static JoWorld *pick_world(Caller *c) {
+    const uint8_t b = take_byte(c);
     return b == 255 ? NULL : b % 2 && c->scene ? jo_scene_world(c->scene) : c->made;
 }
 
-static JoScene *scene(Caller *c) {
-    return byte(c) == 255 ? NULL : c->scene;
+static JoScene *pick_scene(Caller *c) {
+    return take_byte(c) == 255 ? NULL : c->scene;
 }
 
-static JoAgent agent(Caller *c) {
-    const uint8_t b = byte(c);
+static JoAgent pick_agent(Caller *c) {
+    const uint8_t b = take_byte(c);
     return b < 200 && c->agent_count ? c->agents[b % c->agent_count]
                                      : (JoAgent){b == 255 ? UINT32_MAX : b - 200u, b % 3};
 }
 
-static JoBody body(Caller *c) {
-    const uint8_t b = byte(c);
+static JoBody pick_body(Caller *c) {
+    const uint8_t b = take_byte(c);
     return b < 200 && c->body_count ? c->bodies[b % c->body_count]
                                     : (JoBody){b == 255 ? UINT32_MAX : b - 200u, b % 3};
 }
@@ -93,134 +93,135 @@ static void keep_body(Caller *c, JoBody b) {
     c->body_count = c->body_count < MOST_HANDLES ? c->body_count : MOST_HANDLES;
 }
 
-static const double *numbers(Caller *c, double *out, int count) {
+static const double *pick_numbers(Caller *c, double *out, int count) {
     for (int n = 0; n < count; n++)
-        out[n] = number(c);
-    return byte(c) == 255 ? NULL : out;
+        out[n] = pick_number(c);
+    return take_byte(c) == 255 ? NULL : out;
 }
 
 /* ---- calls ---- */
 
-static void make(Caller *c) {
+static void add_or_spawn(Caller *c) {
     JoError error = {0};
     double xy[ROOM];
-    JoWorld *w = world(c);
+    JoWorld *w = pick_world(c);
     JoAgentDef person = jo_default_agent_def();
     JoBodyDef thing = jo_default_body_def();
-    switch (byte(c) % 5) {
+    switch (take_byte(c) % 5) {
     case 0:
-        jo_world_add_solid(w, numbers(c, xy, ROOM), byte(c) % (ROOM / 2 + 1), &error);
+        jo_world_add_solid(w, pick_numbers(c, xy, ROOM), take_byte(c) % (ROOM / 2 + 1), &error);
         return;
     case 1:
-        jo_world_add_line(w, numbers(c, xy, ROOM), byte(c) % (ROOM / 2 + 1), &error);
+        jo_world_add_line(w, pick_numbers(c, xy, ROOM), take_byte(c) % (ROOM / 2 + 1), &error);
         return;
     case 2:
-        person.x = number(c), person.y = number(c);
-        (&person.radius)[byte(c) % 8] = number(c);
-        keep_agent(c, jo_world_add_agent(w, byte(c) == 255 ? NULL : &person, &error));
+        person.x = pick_number(c), person.y = pick_number(c);
+        (&person.radius)[take_byte(c) % 8] = pick_number(c);
+        keep_agent(c, jo_world_add_agent(w, take_byte(c) == 255 ? NULL : &person, &error));
         return;
     case 3:
-        thing.shape = (JoShape)(byte(c) % 5);
-        thing.x = number(c), thing.y = number(c), thing.mass = number(c);
-        thing.size[byte(c) % 3] = number(c);
-        thing.kinematic = byte(c) % 2;
-        if (byte(c) % 4 == 0)
+        thing.shape = (JoShape)(take_byte(c) % 5);
+        thing.x = pick_number(c), thing.y = pick_number(c), thing.mass = pick_number(c);
+        thing.size[take_byte(c) % 3] = pick_number(c);
+        thing.kinematic = take_byte(c) % 2;
+        if (take_byte(c) % 4 == 0)
             thing.path = (JoPath){.points = xy,
-                                  .count = byte(c) % 3,
-                                  .end = (JoPathEnd)(byte(c) % 4),
-                                  .speed = number(c),
-                                  .after = number(c),
-                                  .wait = number(c),
-                                  .force_limit = number(c),
-                                  .reopens = byte(c) % 2};
-        numbers(c, xy, 6);
+                                  .count = take_byte(c) % 3,
+                                  .end = (JoPathEnd)(take_byte(c) % 4),
+                                  .speed = pick_number(c),
+                                  .after = pick_number(c),
+                                  .wait = pick_number(c),
+                                  .force_limit = pick_number(c),
+                                  .reopens = take_byte(c) % 2};
+        pick_numbers(c, xy, 6);
         keep_body(c, jo_world_add_body(w, &thing, &error));
         return;
     default:
-        keep_agent(c, jo_world_spawn(w, name(c), number(c), number(c), &error));
+        keep_agent(c, jo_world_spawn(w, pick_name(c), pick_number(c), pick_number(c), &error));
     }
 }
 
 static void act_on_agent(Caller *c) {
     JoError error = {0};
-    JoWorld *w = world(c);
-    const JoAgent a = agent(c);
+    JoWorld *w = pick_world(c);
+    const JoAgent a = pick_agent(c);
     double value = 0;
-    switch (byte(c) % 10) {
+    switch (take_byte(c) % 10) {
     case 0:
         jo_world_remove_agent(w, a);
         return;
     case 1:
-        jo_agent_teleport(w, a, number(c), number(c), &error);
+        jo_agent_teleport(w, a, pick_number(c), pick_number(c), &error);
         return;
     case 2:
-        jo_agent_set_goal(w, a, name(c), &error);
+        jo_agent_set_goal(w, a, pick_name(c), &error);
         return;
     case 3:
-        jo_agent_set_state(w, a, name(c), &error);
+        jo_agent_set_state(w, a, pick_name(c), &error);
         return;
     case 4:
-        jo_agent_set_memory(w, a, name(c), number(c), &error);
+        jo_agent_set_memory(w, a, pick_name(c), pick_number(c), &error);
         return;
     case 5:
-        jo_agent_set_parameter(w, a, name(c), number(c), &error);
+        jo_agent_set_parameter(w, a, pick_name(c), pick_number(c), &error);
         return;
     case 6:
-        jo_agent_memory(w, a, name(c), byte(c) % 8 ? &value : NULL);
+        jo_agent_memory(w, a, pick_name(c), take_byte(c) % 8 ? &value : NULL);
         return;
     case 7:
-        jo_agent_parameter(w, a, name(c), byte(c) % 8 ? &value : NULL);
+        jo_agent_parameter(w, a, pick_name(c), take_byte(c) % 8 ? &value : NULL);
         return;
     case 8:
-        jo_agent_set_preferred(w, a, number(c), number(c));
+        jo_agent_set_preferred(w, a, pick_number(c), pick_number(c));
         return;
     default:
-        jo_agent_apply_force(w, a, number(c), number(c));
+        jo_agent_apply_force(w, a, pick_number(c), pick_number(c));
     }
 }
 
 static void act_on_body(Caller *c) {
     JoError error = {0};
     double one[4], two[4];
-    JoWorld *w = world(c);
-    const JoBody b = body(c);
-    switch (byte(c) % 6) {
+    JoWorld *w = pick_world(c);
+    const JoBody b = pick_body(c);
+    switch (take_byte(c) % 6) {
     case 0:
-        jo_body_impulse(w, b, numbers(c, one, 3), numbers(c, two, 3), &error);
+        jo_body_impulse(w, b, pick_numbers(c, one, 3), pick_numbers(c, two, 3), &error);
         return;
     case 1:
-        jo_body_place(w, b, numbers(c, one, 3), numbers(c, two, 4), &error);
+        jo_body_place(w, b, pick_numbers(c, one, 3), pick_numbers(c, two, 4), &error);
         return;
     case 2:
-        jo_body_set_velocity(w, b, numbers(c, one, 3), numbers(c, two, 3), &error);
+        jo_body_set_velocity(w, b, pick_numbers(c, one, 3), pick_numbers(c, two, 3), &error);
         return;
     case 3:
         jo_body_remove(w, b, &error);
         return;
     case 4:
-        keep_body(c, jo_world_find_body(w, name(c)));
+        keep_body(c, jo_world_find_body(w, pick_name(c)));
         return;
     default:
-        keep_body(c, jo_world_body_at(w, byte(c)));
+        keep_body(c, jo_world_body_at(w, take_byte(c)));
     }
 }
 
 static void act_on_world(Caller *c) {
     JoError error = {0};
     double xy[ROOM];
-    JoWorld *w = world(c);
-    switch (byte(c) % 7) {
+    JoWorld *w = pick_world(c);
+    switch (take_byte(c) % 7) {
     case 0:
-        jo_world_add_wall(w, name(c), numbers(c, xy, ROOM), byte(c) % (ROOM / 2 + 1), &error);
+        jo_world_add_wall(w, pick_name(c), pick_numbers(c, xy, ROOM), take_byte(c) % (ROOM / 2 + 1),
+                          &error);
         return;
     case 1:
-        jo_world_remove_wall(w, name(c), &error);
+        jo_world_remove_wall(w, pick_name(c), &error);
         return;
     case 2:
-        jo_world_open_wall(w, name(c), byte(c) % 2, &error);
+        jo_world_open_wall(w, pick_name(c), take_byte(c) % 2, &error);
         return;
     case 3:
-        jo_world_signal(w, name(c), &error);
+        jo_world_signal(w, pick_name(c), &error);
         return;
     case 4:
         jo_free(c->saved);
@@ -228,23 +229,23 @@ static void act_on_world(Caller *c) {
         return;
     case 5:
         if (c->saved)
-            jo_world_restore(w, c->saved, c->saved_size - byte(c) % 2, &error);
+            jo_world_restore(w, c->saved, c->saved_size - take_byte(c) % 2, &error);
         return;
     default:
-        jo_world_step(w, byte(c) % 4);
+        jo_world_step(w, take_byte(c) % 4);
     }
 }
 
 static void ask_of_agents(Caller *c, const JoWorld *w) {
     JoAgent all[ROOM];
-    const JoAgent a = agent(c);
-    const uint32_t had = jo_world_agents(w, all, byte(c) % (ROOM + 1));
+    const JoAgent a = pick_agent(c);
+    const uint32_t had = jo_world_agents(w, all, take_byte(c) % (ROOM + 1));
     for (uint32_t n = 0; n < had && n < ROOM; n++)
         keep_agent(c, all[n]);
     const JoAgentState state = jo_agent_state(w, a);
     FUZZ_CHECK(!state.state || strlen(state.state) < 1000);
     jo_agent_is_live(w, a);
-    keep_agent(c, jo_world_agent_of(w, byte(c)));
+    keep_agent(c, jo_world_agent_of(w, take_byte(c)));
 }
 
 static void ask_of_names(const JoWorld *w, uint32_t number) {
@@ -261,62 +262,62 @@ static void ask_of_names(const JoWorld *w, uint32_t number) {
 static void ask(Caller *c) {
     double one[2], two[2], out[2 * ROOM], length;
     uint32_t ids[ROOM];
-    JoWorld *w = world(c);
-    const uint8_t what = byte(c) % 9, odd = byte(c);
+    JoWorld *w = pick_world(c);
+    const uint8_t what = take_byte(c) % 9, odd = take_byte(c);
     if (what == 0)
         ask_of_agents(c, w);
     if (what == 1)
         ask_of_names(w, odd < 250 ? odd : UINT32_MAX - odd);
     if (what == 2)
-        jo_world_column(w, name(c));
+        jo_world_column(w, pick_name(c));
     if (what == 3)
         jo_world_events(w);
     if (what == 4)
-        jo_world_neighbours(w, number(c), number(c), number(c), odd % 2 ? ids : NULL, NULL,
-                            odd % (ROOM + 1));
+        jo_world_neighbours(w, pick_number(c), pick_number(c), pick_number(c), odd % 2 ? ids : NULL,
+                            NULL, odd % (ROOM + 1));
     if (what == 5)
-        jo_world_cast(w, numbers(c, one, 2), numbers(c, two, 2), number(c), odd);
+        jo_world_cast(w, pick_numbers(c, one, 2), pick_numbers(c, two, 2), pick_number(c), odd);
     if (what == 6)
-        jo_world_path(w, number(c), number(c), name(c), odd % 8 ? out : NULL, odd % (ROOM + 1),
-                      odd % 3 ? &length : NULL);
+        jo_world_path(w, pick_number(c), pick_number(c), pick_name(c), odd % 8 ? out : NULL,
+                      odd % (ROOM + 1), odd % 3 ? &length : NULL);
     if (what == 7)
-        jo_world_density(w, number(c), number(c));
+        jo_world_density(w, pick_number(c), pick_number(c));
     if (what == 8) {
         jo_world_walls(w, out, odd % (ROOM / 2 + 1));
-        jo_body_outline(w, body(c), out, odd % (ROOM + 1));
-        jo_body_state(w, body(c));
-        jo_body_is_live(w, body(c));
+        jo_body_outline(w, pick_body(c), out, odd % (ROOM + 1));
+        jo_body_state(w, pick_body(c));
+        jo_body_is_live(w, pick_body(c));
     }
 }
 
 static void act_on_scene(Caller *c) {
     JoError error = {0};
     double one[3], two[3], three[3];
-    JoScene *s = scene(c);
-    const uint8_t what = byte(c) % 12;
+    JoScene *s = pick_scene(c);
+    const uint8_t what = take_byte(c) % 12;
     if (what < 4)
         jo_scene_step(s, &error);
     if (what == 4)
-        jo_scene_throw(s, name(c), numbers(c, one, 3), numbers(c, two, 3), numbers(c, three, 3),
-                       &error);
+        jo_scene_throw(s, pick_name(c), pick_numbers(c, one, 3), pick_numbers(c, two, 3),
+                       pick_numbers(c, three, 3), &error);
     if (what == 5)
-        jo_scene_open_wall(s, name(c), byte(c) % 2, &error);
+        jo_scene_open_wall(s, pick_name(c), take_byte(c) % 2, &error);
     if (what == 6)
-        jo_scene_signal(s, name(c), &error);
+        jo_scene_signal(s, pick_name(c), &error);
     if (what == 7)
-        jo_scene_input(s, name(c), &error);
+        jo_scene_input(s, pick_name(c), &error);
     if (what == 8)
-        jo_scene_trace(s, byte(c));
+        jo_scene_trace(s, take_byte(c));
     if (what == 9)
-        jo_free(jo_scene_inspect(s, byte(c)));
+        jo_free(jo_scene_inspect(s, take_byte(c)));
     if (what == 10) {
         jo_free(jo_scene_summary(s));
         jo_free(jo_scene_troubles(s));
         jo_free(jo_scene_closing(s));
-        jo_free(jo_scene_probe_table(s, byte(c)));
+        jo_free(jo_scene_probe_table(s, take_byte(c)));
         jo_scene_stats(s);
     }
-    if (what == 11 && byte(c) > 250)
+    if (what == 11 && take_byte(c) > 250)
         jo_scene_finish(s, &error);
     if (what == 11 && c->within)
         jo_scene_free(s);
@@ -324,12 +325,13 @@ static void act_on_scene(Caller *c) {
 
 static void ask_of_scene(Caller *c) {
     JoError error = {0};
-    JoScene *s = scene(c);
+    JoScene *s = pick_scene(c);
     double value = 0;
-    JoSettings *settings = jo_agent_why(s, agent(c), name(c), byte(c) % 8 ? &value : NULL, &error);
+    JoSettings *settings =
+        jo_agent_why(s, pick_agent(c), pick_name(c), take_byte(c) % 8 ? &value : NULL, &error);
     FUZZ_CHECK(!settings || settings->now);
     JoFigures *figures = jo_scene_figures(s);
-    jo_figure(figures, name(c));
+    jo_figure(figures, pick_name(c));
     JoTroubles *troubles = jo_scene_troubles(s);
     for (uint32_t n = 0; troubles && n < troubles->count; n++)
         FUZZ_CHECK(*troubles->items[n].text && troubles->items[n].kind <= JO_TROUBLE_NO_WAY);
@@ -344,16 +346,16 @@ static void ask_of_scene(Caller *c) {
 static void drive(Caller *c) {
     JoError error = {0};
     double impulse[3], turn[3];
-    JoWorld *w = world(c);
+    JoWorld *w = pick_world(c);
     JoBodyDef door = jo_default_body_def();
-    door.kinematic = byte(c) % 8 != 0;
-    door.x = number(c), door.y = number(c), door.vx = number(c);
-    door.force_limit = number(c);
-    door.ends_world = byte(c) % 2;
+    door.kinematic = take_byte(c) % 8 != 0;
+    door.x = pick_number(c), door.y = pick_number(c), door.vx = pick_number(c);
+    door.force_limit = pick_number(c);
+    door.ends_world = take_byte(c) % 2;
     const JoBody added = jo_world_add_body(w, &door, &error);
     keep_body(c, added);
-    jo_world_step(w, byte(c) % 4);
-    if (jo_body_pushed(w, byte(c) % 2 ? added : body(c), impulse, turn))
+    jo_world_step(w, take_byte(c) % 4);
+    if (jo_body_pushed(w, take_byte(c) % 2 ? added : pick_body(c), impulse, turn))
         FUZZ_CHECK(isfinite(impulse[0]) && isfinite(turn[2]));
     const JoStats stats = jo_world_stats(w);
     FUZZ_CHECK(stats.not_placed <= UINT32_MAX && stats.not_moved_out <= UINT32_MAX);
@@ -361,9 +363,9 @@ static void drive(Caller *c) {
 
 /* The greatest bytes are calls that came later, so that what was found before means the same. */
 static void call(Caller *c) {
-    static void (*const CALLS[])(Caller *) = {make,         act_on_agent, act_on_body,
+    static void (*const CALLS[])(Caller *) = {add_or_spawn,         act_on_agent, act_on_body,
                                               act_on_world, ask,          act_on_scene};
-    const uint8_t what = byte(c);
+    const uint8_t what = take_byte(c);
     if (what >= 248)
         ask_of_scene(c);
     else if (what >= 240)
@@ -386,7 +388,7 @@ static void call_within_step(void *context, const char *text) {
 }
 
 /* Misuse is told of; what else does not hold is a finding. */
-static void judge(const char *condition, const char *path, int line) {
+static void abort_unless_misuse(const char *condition, const char *path, int line) {
     char text[512];
     FILE *file = fopen(path, "r");
     bool misuse = !file;
@@ -398,7 +400,7 @@ static void judge(const char *condition, const char *path, int line) {
         fuzz_failed(condition, path, line);
 }
 
-static JoScene *load(Caller *c, bool resumable) {
+static JoScene *load_talkers(Caller *c, bool resumable) {
     JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
     fuzz_write("talker.lua", TALKER, strlen(TALKER));
@@ -416,7 +418,7 @@ static JoScene *load(Caller *c, bool resumable) {
     return loaded;
 }
 
-static void check_people(const JoWorld *w) {
+static void check_agent_states(const JoWorld *w) {
     JoAgent all[64];
     const uint32_t count = jo_world_agents(w, all, 64);
     for (uint32_t n = 0; n < count && !jo_world_failure(w); n++)
@@ -427,15 +429,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoWorldDef def = jo_default_world_def();
     Caller c = {.at = data, .end = data + size};
     JoError error = {0};
-    jo_set_assert_handler(judge);
+    jo_set_assert_handler(abort_unless_misuse);
     c.made = jo_world_create(&def, &error);
-    c.scene = load(&c, byte(&c) % 2);
+    c.scene = load_talkers(&c, take_byte(&c) % 2);
     for (int n = 0; n < MOST_CALLS && c.at < c.end; n++)
         call(&c);
     jo_world_step(c.made, 2);
-    check_people(c.made);
+    check_agent_states(c.made);
     jo_scene_step(c.scene, &error);
-    check_people(jo_scene_world(c.scene));
+    check_agent_states(jo_scene_world(c.scene));
     JoScene *over = c.scene;
     c.scene = NULL;
     jo_scene_free(over);

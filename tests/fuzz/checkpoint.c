@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "support/fuzz.h"
 
-static void resume(const void *data, size_t size) {
+static void resume_file(const void *data, size_t size) {
     JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
     char *note = NULL;
@@ -37,9 +37,9 @@ static void mend(const uint8_t *data, size_t size, JoxText *out) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoxText mended = {0};
-    resume(data, size);
+    resume_file(data, size);
     mend(data, size, &mended);
-    resume(mended.data, mended.length);
+    resume_file(mended.data, mended.length);
     jox_text_free(&mended);
     return 0;
 }

@@ -86,12 +86,12 @@ static void list_names(void) {
     FUZZ_CHECK(name_count > 5);
 }
 
-static void end(void) {
+static void free_checkpoint(void) {
     jox_text_free(&checkpoint);
     jox_text_free(&recording);
 }
 
-static JoScene *resume(const JoxText *file, JoError *error) {
+static JoScene *resume_bytes(const JoxText *file, JoError *error) {
     JoSceneDef def = jo_default_scene_def();
     char *note = NULL;
     def.message = ignore_message;
@@ -102,14 +102,14 @@ static JoScene *resume(const JoxText *file, JoError *error) {
 }
 
 /* A report is drawn for a second: not for the edits of others. */
-static bool collect(JoScene *scene, bool report, JoError *error) {
+static bool attach_listeners(JoScene *scene, bool report, JoError *error) {
     fuzz_write("r.sqlite", recording.data, recording.length);
     return jo_scene_record_on(scene, fuzz_path("r.sqlite"), error) &&
            (!report || jo_scene_report(scene, fuzz_path("report"), error)) &&
            jo_scene_data(scene, fuzz_path("data"), error);
 }
 
-static void begin(void) {
+static void write_checkpoint_once(void) {
     JoError error = {0};
     JoSceneDef def = jo_default_scene_def();
     fuzz_write("own.lua", BEHAVIOUR, strlen(BEHAVIOUR));
@@ -132,21 +132,21 @@ static void begin(void) {
     jo_scene_free(scene);
     read_into(fuzz_path("first.sqlite"), &recording);
     list_names();
-    FUZZ_CHECK((scene = resume(&checkpoint, &error)));
+    FUZZ_CHECK((scene = resume_bytes(&checkpoint, &error)));
     for (int s = 0; s < STEPS; s++)
         FUZZ_CHECK(jo_scene_step(scene, &error));
     later_hash = jo_world_hash(jo_scene_world(scene));
     jo_scene_free(scene);
-    atexit(end);
+    atexit(free_checkpoint);
 }
 
 /* ---- one input ---- */
 
 /* Names of sections are told by those of a scene that has them. */
-static void walk(void *context, JoxSections *sections) {
+static void visit_listener_sections(void *context, JoxSections *sections) {
     JoError error = {0};
-    JoScene *scene = resume(&checkpoint, &error);
-    if (!scene || !collect(scene, true, &error))
+    JoScene *scene = resume_bytes(&checkpoint, &error);
+    if (!scene || !attach_listeners(scene, true, &error))
         abort();
     for (uint32_t l = 0; l < scene->listeners.count; l++) {
         const JoxListener *listener = &scene->listeners.items[l];
@@ -157,7 +157,7 @@ static void walk(void *context, JoxSections *sections) {
 }
 
 /* The checkpoint with the sections of one who collects edited. */
-static void edit(const char *name, const uint8_t *data, size_t size, JoxText *out) {
+static void edit_listener(const char *name, const uint8_t *data, size_t size, JoxText *out) {
     char why[200];
     JoxPiece piece;
     jox_pieces_begin(out);
@@ -171,7 +171,7 @@ static void edit(const char *name, const uint8_t *data, size_t size, JoxText *ou
         jox_text_append(&sections, piece.data + head, piece.length - head);
         if (getenv("FUZZ_SHOW"))
             fprintf(stderr, "of the %s:\n", name);
-        fuzz_edit(&sections, data, size, walk, (void *)(uintptr_t)name);
+        fuzz_edit(&sections, data, size, visit_listener_sections, (void *)(uintptr_t)name);
         jox_text_append(&whole, name, head);
         jox_text_append(&whole, sections.data, sections.length);
         jox_pieces_add(out, piece.name, whole.data, whole.length);
@@ -181,9 +181,9 @@ static void edit(const char *name, const uint8_t *data, size_t size, JoxText *ou
     jox_pieces_end(out);
 }
 
-static void go_on(JoScene *scene, bool report, bool draw) {
+static void run_resumed(JoScene *scene, bool report, bool draw) {
     JoError error = {0};
-    bool good = collect(scene, report, &error);
+    bool good = attach_listeners(scene, report, &error);
     FUZZ_CHECK(good || *error.text);
     for (int s = 0; good && s < STEPS; s++)
         good = jo_scene_step(scene, &error);
@@ -205,17 +205,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoError error = {0};
     JoxText file = {0};
     if (!name_count)
-        begin();
+        write_checkpoint_once();
     if (!size)
         return 0;
     const char *name = names[data[0] % name_count];
-    edit(name, data + 1, size - 1, &file);
-    JoScene *scene = resume(&file, &error);
+    edit_listener(name, data + 1, size - 1, &file);
+    JoScene *scene = resume_bytes(&file, &error);
     FUZZ_CHECK(scene || *error.text);
     if (getenv("FUZZ_SHOW"))
         fprintf(stderr, "%s\n", scene ? "it goes on" : error.text);
     if (scene)
-        go_on(scene, strcmp(name, "report") == 0, data[0] > 230);
+        run_resumed(scene, strcmp(name, "report") == 0, data[0] > 230);
     jo_scene_free(scene);
     jox_text_free(&file);
     return 0;

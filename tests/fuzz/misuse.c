@@ -23,14 +23,14 @@ static uint32_t pick(Choices *c, uint32_t sides) {
     return c->at < c->end ? *c->at++ % sides : 0;
 }
 
-static void add(Choices *c, const char *text) {
+static void add_source(Choices *c, const char *text) {
     jox_text_add(&c->out, text);
 }
 
 #define ADD_ONE_OF(c, ...)                                                                         \
     do {                                                                                           \
         static const char *const CHOICES[] = {__VA_ARGS__};                                        \
-        add(c, CHOICES[pick(c, sizeof CHOICES / sizeof *CHOICES)]);                                \
+        add_source(c, CHOICES[pick(c, sizeof CHOICES / sizeof *CHOICES)]);                         \
     } while (0)
 
 static void add_block(Choices *c);
@@ -45,34 +45,34 @@ static void add_name(Choices *c) {
 static void add_list(Choices *c) {
     add_expression(c);
     for (uint32_t n = pick(c, 3); n > 0; n--) {
-        add(c, ", ");
+        add_source(c, ", ");
         add_expression(c);
     }
 }
 
 static void add_function_body(Choices *c) {
     ADD_ONE_OF(c, "()", "(a)", "(a, b)", "(...)", "(a, ...)", "(self, far, goal)");
-    add(c, " ");
+    add_source(c, " ");
     add_block(c);
-    add(c, " end");
+    add_source(c, " end");
 }
 
 static void add_table(Choices *c) {
-    add(c, "{");
+    add_source(c, "{");
     for (uint32_t n = pick(c, 4); n > 0; n--) {
         ADD_ONE_OF(c, "", "a = ", "far = ", "['a'] = ", "[1] = ", "[far] = ");
         add_expression(c);
         ADD_ONE_OF(c, ", ", "; ");
     }
-    add(c, "}");
+    add_source(c, "}");
 }
 
 /* Something that may be called, indexed or assigned to. */
 static void add_suffixed(Choices *c) {
     if (pick(c, 8) == 7) {
-        add(c, "(");
+        add_source(c, "(");
         add_expression(c);
-        add(c, ")");
+        add_source(c, ")");
     } else {
         add_name(c);
     }
@@ -83,9 +83,9 @@ static void add_suffixed(Choices *c) {
             ADD_ONE_OF(c, ".laps", ".met", ".a", ".far");
             break;
         case 2:
-            add(c, "[");
+            add_source(c, "[");
             add_expression(c);
-            add(c, "]");
+            add_source(c, "]");
             break;
         case 3:
             ADD_ONE_OF(c, ":above", ":is", ":a", ":where");
@@ -98,9 +98,9 @@ static void add_suffixed(Choices *c) {
             add_table(c);
             break;
         default:
-            add(c, "(");
+            add_source(c, "(");
             add_list(c);
-            add(c, ")");
+            add_source(c, ")");
         }
 }
 
@@ -115,7 +115,7 @@ static void add_simple(Choices *c) {
                    "gather('hall', 90)", "stuck(2)", "chance(0.5)", "uniform(1, 2)");
         break;
     case 2:
-        add(c, "function");
+        add_source(c, "function");
         add_function_body(c);
         break;
     case 3:
@@ -130,7 +130,7 @@ static void add_expression(Choices *c) {
     const bool full = ++c->depth > DEEPEST || c->out.length > LONGEST;
     const uint32_t kind = full ? 0 : pick(c, 8);
     if (full) {
-        add(c, "a");
+        add_source(c, "a");
     } else if (kind < 4) {
         add_simple(c);
     } else if (kind == 4) {
@@ -154,45 +154,45 @@ static void add_loop(Choices *c) {
                    "for _, a in ipairs{far} do ");
         break;
     case 1:
-        add(c, "while ");
+        add_source(c, "while ");
         add_expression(c);
-        add(c, " do break; ");
+        add_source(c, " do break; ");
         break;
     case 2:
-        add(c, "repeat ");
+        add_source(c, "repeat ");
         add_block(c);
-        add(c, " break until ");
+        add_source(c, " break until ");
         add_expression(c);
         return;
     default:
-        add(c, "do ");
+        add_source(c, "do ");
     }
     add_block(c);
-    add(c, " end");
+    add_source(c, " end");
 }
 
 static void add_test(Choices *c) {
-    add(c, "if ");
+    add_source(c, "if ");
     add_expression(c);
-    add(c, " then ");
+    add_source(c, " then ");
     add_block(c);
     if (pick(c, 3) == 2) {
-        add(c, " elseif ");
+        add_source(c, " elseif ");
         add_expression(c);
-        add(c, " then ");
+        add_source(c, " then ");
         add_block(c);
     }
     if (pick(c, 3) == 2) {
-        add(c, " else ");
+        add_source(c, " else ");
         add_block(c);
     }
-    add(c, " end");
+    add_source(c, " end");
 }
 
 static void add_declaration(Choices *c) {
-    add(c, "local ");
+    add_source(c, "local ");
     if (pick(c, 4) == 3) {
-        add(c, "function ");
+        add_source(c, "function ");
         add_name(c);
         add_function_body(c);
         return;
@@ -201,7 +201,7 @@ static void add_declaration(Choices *c) {
     ADD_ONE_OF(c, "", "", "", ", a", ", far, b", " <const>", " <close>");
     if (pick(c, 5) == 4)
         return;
-    add(c, " = ");
+    add_source(c, " = ");
     add_list(c);
 }
 
@@ -218,7 +218,7 @@ static void add_statement(Choices *c) {
         add_declaration(c);
         break;
     case 4:
-        add(c, "function ");
+        add_source(c, "function ");
         add_name(c);
         ADD_ONE_OF(c, "", ".a", ".far.laps", ":a");
         add_function_body(c);
@@ -228,12 +228,12 @@ static void add_statement(Choices *c) {
         break;
     case 6:
         add_suffixed(c);
-        add(c, "(a)");
+        add_source(c, "(a)");
         break;
     default:
         add_suffixed(c);
         ADD_ONE_OF(c, ".a", "[far]", ".laps, b");
-        add(c, " = ");
+        add_source(c, " = ");
         add_list(c);
     }
 }
@@ -266,16 +266,18 @@ static void check_parser(const JoxText *text) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const JoxScope ANY = {.complete = false};
     Choices c = {data, data + size, {0}, 0};
-    add(&c,
+    add_source(
+        &c,
         "local mine = memory { laps = 0, met = false }\nlocal a, far = after(1), near 'spot'\n");
     for (uint32_t n = 1 + pick(&c, 8); n > 0; n--) {
         add_statement(&c);
-        add(&c, "\n");
+        add_source(&c, "\n");
     }
-    add(&c, "return machine { name = 'm', start = 'A', states = { A = { steer = hold, { to = 'A', "
+    add_source(
+        &c, "return machine { name = 'm', start = 'A', states = { A = { steer = hold, { to = 'A', "
             "when = ");
     add_expression(&c);
-    add(&c, " } } } }\n");
+    add_source(&c, " } } } }\n");
     if (getenv("FUZZ_SHOW"))
         puts(c.out.data);
     check_parser(&c.out);

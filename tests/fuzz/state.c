@@ -66,14 +66,14 @@ static uint64_t base_hash, later_hash;
 
 /* ---- a world with something of each kind under way ---- */
 
-static bool restore(const JoxText *state, JoError *error) {
+static bool restore_world(const JoxText *state, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
     return jox_world_restore(scene->world, state->data, state->length, error);
 }
 
 /* Steps, until one fails. */
-static void go_on(int steps) {
+static void step_world(int steps) {
     JOX_GUARD (scene->heap, NULL)
         return;
     while (steps-- > 0 && jox_world_step(scene->world))
@@ -81,14 +81,14 @@ static void go_on(int steps) {
     jox_text_free(&scene->world->scratch.news);
 }
 
-static bool save(JoxText *out) {
+static bool save_world(JoxText *out) {
     JoError error = {0};
     JOX_GUARD (scene->heap, &error)
         return false;
     return jox_world_snapshot(scene->world, out, &error);
 }
 
-static void do_it(const char *line) {
+static void apply_line(const char *line) {
     JoError error = {0};
     if (!jo_scene_input(scene, line, &error)) {
         fprintf(stderr, "%s: %s\n", line, error.text);
@@ -96,43 +96,43 @@ static void do_it(const char *line) {
     }
 }
 
-static void end(void) {
+static void free_busy_world(void) {
     jox_text_free(&base);
     jo_scene_free(scene);
 }
 
-static void begin(void) {
+static void save_busy_world(void) {
     JoError error = {0};
     fuzz_write("own.lua", BEHAVIOUR, strlen(BEHAVIOUR));
     scene = fuzz_load(fuzz_path("state.yaml"), SCENE, 1);
     FUZZ_CHECK(scene);
     scene->world->model.reinserts_bodies = true;
-    go_on(JOX_BODIES_REINSERT_STEPS / 2);
-    do_it("wall post 3.5 0.1 3.5 0.4");
-    do_it("box 1.6 1.2 1 0 0 0 0.3 10");
-    do_it("grab 5 1.4 1.6 1");
-    go_on(JOX_BODIES_REINSERT_STEPS / 2);
-    do_it("set m Queue speed 0.5");
-    do_it("spawn pairs 0.5 1.7");
-    do_it("player 1 0.5 0");
-    do_it("signal all");
-    FUZZ_CHECK(save(&base));
-    FUZZ_CHECK(restore(&base, &error));
+    step_world(JOX_BODIES_REINSERT_STEPS / 2);
+    apply_line("wall post 3.5 0.1 3.5 0.4");
+    apply_line("box 1.6 1.2 1 0 0 0 0.3 10");
+    apply_line("grab 5 1.4 1.6 1");
+    step_world(JOX_BODIES_REINSERT_STEPS / 2);
+    apply_line("set m Queue speed 0.5");
+    apply_line("spawn pairs 0.5 1.7");
+    apply_line("player 1 0.5 0");
+    apply_line("signal all");
+    FUZZ_CHECK(save_world(&base));
+    FUZZ_CHECK(restore_world(&base, &error));
     base_hash = jo_world_hash(scene->world);
-    go_on(STEPS);
+    step_world(STEPS);
     later_hash = jo_world_hash(scene->world);
-    FUZZ_CHECK(restore(&base, &error));
-    atexit(end);
+    FUZZ_CHECK(restore_world(&base, &error));
+    atexit(free_busy_world);
 }
 
 /* ---- a run of it ---- */
 
-static void walk(void *context, JoxSections *sections) {
+static void visit_world_sections(void *context, JoxSections *sections) {
     (void)context;
     jox_world_sections(scene->world, sections);
 }
 
-static void check_people(const JoWorld *world) {
+static void check_positions(const JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
     for (uint32_t i = 0; i < a->count; i++)
         FUZZ_CHECK(isfinite(a->x[i]) && isfinite(a->y[i]) && isfinite(a->vx[i]));
@@ -142,22 +142,22 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoError error = {0};
     JoxText state = {0};
     if (!scene)
-        begin();
+        save_busy_world();
     jox_text_append(&state, base.data, base.length);
-    fuzz_edit(&state, data, size, walk, NULL);
-    const bool good = restore(&state, &error);
+    fuzz_edit(&state, data, size, visit_world_sections, NULL);
+    const bool good = restore_world(&state, &error);
     FUZZ_CHECK(good || *error.text);
     if (getenv("FUZZ_SHOW"))
         fprintf(stderr, "%zu bytes: %s\n", state.length, good ? "a state" : error.text);
     jox_text_free(&state);
     if (good) {
-        go_on(STEPS);
-        check_people(scene->world);
+        step_world(STEPS);
+        check_positions(scene->world);
         jo_free(jo_scene_summary(scene));
-        FUZZ_CHECK(restore(&base, &error));
-        go_on(STEPS);
+        FUZZ_CHECK(restore_world(&base, &error));
+        step_world(STEPS);
         FUZZ_CHECK(jo_world_hash(scene->world) == later_hash);
-        FUZZ_CHECK(restore(&base, &error));
+        FUZZ_CHECK(restore_world(&base, &error));
     }
     FUZZ_CHECK(jo_world_hash(scene->world) == base_hash);
     return 0;

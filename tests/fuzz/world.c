@@ -14,7 +14,7 @@ enum { STEPS = 50, CAPACITY = 4096 };
 /* By id: 1 and whether who was first seen there was in the hall; 0: not seen yet. */
 static uint8_t side[CAPACITY];
 
-static void check_people(const JoWorld *world) {
+static void check_walkers(const JoWorld *world) {
     static JoAgent agents[CAPACITY];
     const uint32_t count = jo_world_agents(world, agents, CAPACITY);
     for (uint32_t i = 0; i < count && i < CAPACITY; i++) {
@@ -52,7 +52,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         FUZZ_CHECK(good == jo_scene_step(two, &other));
         FUZZ_CHECK(jo_world_hash(jo_scene_world(one)) == jo_world_hash(jo_scene_world(two)));
         if (good) {
-            check_people(jo_scene_world(one));
+            check_walkers(jo_scene_world(one));
             check_bodies(jo_scene_world(one));
         }
     }

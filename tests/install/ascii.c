@@ -13,14 +13,14 @@ typedef struct Canvas {
     double low[2], size[2]; /* m */
 } Canvas;
 
-static void put(Canvas *c, double x, double y, char mark) {
+static void put_mark(Canvas *c, double x, double y, char mark) {
     const int column = (int)floor((x - c->low[0]) / c->size[0] * WIDE);
     const int row = HIGH - 1 - (int)floor((y - c->low[1]) / c->size[1] * HIGH);
     if (column >= 0 && column < WIDE && row >= 0 && row < HIGH)
         c->cells[row][column] = mark;
 }
 
-static void draw(Canvas *c, JoWorld *world, const double *walls, uint32_t wall_count) {
+static void draw_world(Canvas *c, JoWorld *world, const double *walls, uint32_t wall_count) {
     for (int row = 0; row < HIGH; row++) {
         memset(c->cells[row], ' ', WIDE);
         c->cells[row][WIDE] = 0;
@@ -28,21 +28,21 @@ static void draw(Canvas *c, JoWorld *world, const double *walls, uint32_t wall_c
     for (uint32_t k = 0; k < wall_count; k++)
         for (double t = 0; t <= 1; t += 1.0 / 128) {
             const double *edge = walls + 4 * k;
-            put(c, edge[0] + t * (edge[2] - edge[0]), edge[1] + t * (edge[3] - edge[1]), '#');
+            put_mark(c, edge[0] + t * (edge[2] - edge[0]), edge[1] + t * (edge[3] - edge[1]), '#');
         }
     for (uint32_t slot = 0, found = 0; found < jo_world_body_count(world); slot++) {
         const JoBody body = jo_world_body_at(world, slot);
         const JoBodyState state = jo_body_state(world, body);
         if (!body.generation)
             continue;
-        put(c, state.x, state.y, 'O');
+        put_mark(c, state.x, state.y, 'O');
         found++;
     }
     const JoColumn x = jo_world_column(world, "x"), y = jo_world_column(world, "y"),
                    state = jo_world_column(world, "state");
     for (uint32_t i = 0; i < x.count; i++)
-        put(c, ((const float *)x.data)[i], ((const float *)y.data)[i],
-            (char)('a' + ((const uint16_t *)state.data)[i] % 26));
+        put_mark(c, ((const float *)x.data)[i], ((const float *)y.data)[i],
+                 (char)('a' + ((const uint16_t *)state.data)[i] % 26));
     for (int row = 0; row < HIGH; row++)
         puts(c->cells[row]);
 }
@@ -73,7 +73,7 @@ int main(int argc, char **argv) {
     int good = count > 0;
     for (int second = 0; good && second <= seconds; second++) {
         printf("t = %.1f s, %u people\n", jo_world_time(world), jo_world_agent_count(world));
-        draw(&canvas, world, walls, count);
+        draw_world(&canvas, world, walls, count);
         const double until = second + 1;
         while (good && jo_world_time(world) < until - 1e-9)
             good = jo_scene_step(scene, &error);

@@ -30,7 +30,7 @@ static void *reallocate(void *context, void *memory, size_t bytes) {
     (void)context;
     return realloc(memory, bytes);
 }
-static void release(void *context, void *memory) {
+static void release_memory(void *context, void *memory) {
     (void)context;
     atomic_fetch_sub(&blocks, 1);
     free(memory);
@@ -47,7 +47,8 @@ static void *call(void *argument) {
     c->job(c->data, c->n);
     return NULL;
 }
-static void run(void *context, uint32_t count, void (*job)(void *data, uint32_t n), void *data) {
+static void run_loop(void *context, uint32_t count, void (*job)(void *data, uint32_t n),
+                     void *data) {
     pthread_t threads[2];
     Call calls_of[2];
     (void)context;
@@ -63,8 +64,8 @@ static void run(void *context, uint32_t count, void (*job)(void *data, uint32_t 
 }
 
 int main(void) {
-    const JoAllocator allocator = {allocate, reallocate, release, NULL};
-    const JoJobs jobs = {run, NULL};
+    const JoAllocator allocator = {allocate, reallocate, release_memory, NULL};
+    const JoJobs jobs = {run_loop, NULL};
     const JoFile files[] = {{"game/hall.yaml", SCENE, sizeof SCENE - 1},
                             {"game/walk.lua", WALK, sizeof WALK - 1}};
     JoError error = {0};

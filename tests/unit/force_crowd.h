@@ -17,6 +17,7 @@
 #include "base/number/random.h"
 #include "force/equations.h"
 #include "force/force.h"
+#include "unit/assert_near.h"
 
 typedef struct Crowd {
     JoxAgents agents;
@@ -108,11 +109,6 @@ static inline void close_crowd(Crowd *c) {
 
 static inline void set_param(Crowd *c, uint32_t i, JoxParameter p, double value) {
     jox_param_set(&c->agents, p, i, jox_parameter_store(p, value));
-}
-
-static inline void assert_near(double value, double wanted, double within) {
-    if (!(fabs(value - wanted) <= within))
-        fail_msg("%.9g is not %.9g within %.3g", value, wanted, within);
 }
 
 #endif

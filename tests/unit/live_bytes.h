@@ -3,10 +3,9 @@
 #ifndef JOX_TESTS_HOST_BYTES_H
 #define JOX_TESTS_HOST_BYTES_H
 
-#include <math.h>
-
 #include "base/format/json.h"
 #include "live/live.h"
+#include "unit/assert_near.h"
 #include "unit/scene_loader.h"
 
 /* ---- JSON: its numbers by path ---- */
@@ -41,13 +40,6 @@ static inline void parse_numbers(const JoxText *text) {
     if (!jox_json_numbers(text->data, keep_number, &numbers))
         fail_msg("no JSON: %s", text->data);
 }
-
-#define assert_near(value, wanted, within)                                                         \
-    do {                                                                                           \
-        const double near_v = (double)(value), near_w = (double)(wanted);                          \
-        if (!(fabs(near_v - near_w) <= (within)))                                                  \
-            fail_msg("%s is %.9g, not %.9g", #value, near_v, near_w);                              \
-    } while (0)
 
 static inline void check_name_in(const JoxText *text, const char *name) {
     JoxText quoted = {0};

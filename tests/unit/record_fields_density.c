@@ -15,12 +15,7 @@
 #include "geom/polygon.h"
 #include "record/fields/density_parts.h"
 #include "record_draw.h"
-
-/* Fails for NAN, too. */
-static void assert_near(double got, double expected, double tolerance) {
-    if (!(fabs(got - expected) <= tolerance))
-        fail_msg("%.9g is not %.9g +- %g", got, expected, tolerance);
-}
+#include "unit/assert_near.h"
 
 static const double S = 0.70710678; /* m: standard deviation of the kernel with R = 1 m */
 static const JoxV2 NO_PERIOD = {0, 0};

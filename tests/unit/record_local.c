@@ -14,12 +14,7 @@
 #include "base/mem.h"
 #include "record/local.h"
 #include "record_draw.h"
-
-/* Fails for NAN, too. */
-static void assert_near(double got, double expected, double tolerance) {
-    if (!(fabs(got - expected) <= tolerance))
-        fail_msg("%.9g is not %.9g +- %g", got, expected, tolerance);
-}
+#include "unit/assert_near.h"
 
 enum { SIDE = 30, PEOPLE = SIDE * SIDE };
 static const float SPACING = 0.4f; /* m: 6.25 people per m2, on 12 m x 12 m */

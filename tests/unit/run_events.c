@@ -214,13 +214,6 @@ static void nobody_is_moved_through_another_wall(void **state) {
     "velocity: [-1.5, 0, 0]},\n"                                                                   \
     "  {name: rock, shape: {box: {size: [1, 1, 1]}}, mass: 0, at: [20, 20, 0.5]}]\n"
 
-static JoxPose pose_of(const JoScene *scene, const char *name) {
-    JoxPose pose;
-    assert_true(jox_bodies_pose(scene->world->state.bodies,
-                                jox_bodies_find_name(scene->world->state.bodies, name), &pose));
-    return pose;
-}
-
 static void bodies_know_of_gates(void **state) {
     (void)state;
     if (!jox_bodies_available())
@@ -232,11 +225,12 @@ static void bodies_know_of_gates(void **state) {
                "  - {at: 8, throw: ball, from: [4, 2, 0.2], velocity: [3, 0, 0]}\n") BALL,
         STAY);
     step_scene(scene, 100);
-    assert_float_equal(pose_of(scene, "ball").centre.x, 5.22, 0.05); /* it lies at the gate */
+    assert_float_equal(find_body_pose(scene, "ball").centre.x, 5.22,
+                       0.05); /* it lies at the gate */
     step_scene(scene, 40);
-    assert_true(pose_of(scene, "ball").centre.x < 3.0f);
+    assert_true(find_body_pose(scene, "ball").centre.x < 3.0f);
     step_scene(scene, 60);
-    assert_true(pose_of(scene, "ball").centre.x < 5.0f);
+    assert_true(find_body_pose(scene, "ball").centre.x < 5.0f);
     jo_scene_free(scene);
 }
 
@@ -252,9 +246,9 @@ static void what_rests_on_a_wall_falls_with_it(void **state) {
         "events: [{at: 6, open: gate}]\n",
         STAY);
     step_scene(scene, 120); /* asleep by now */
-    assert_float_equal(pose_of(scene, "ball").centre.z, 0.7, 0.05);
+    assert_float_equal(find_body_pose(scene, "ball").centre.z, 0.7, 0.05);
     step_scene(scene, 30);
-    assert_float_equal(pose_of(scene, "ball").centre.z, 0.2, 0.05);
+    assert_float_equal(find_body_pose(scene, "ball").centre.z, 0.2, 0.05);
     jo_scene_free(scene);
 }
 
@@ -268,16 +262,16 @@ static void a_throw_does_what_it_says(void **state) {
     const double from[3] = {1, 2, 3}, velocity[3] = {4, 5, 6}, spin[3] = {7, 8, 9};
     step_scene(scene, 10);
     assert_true(jo_scene_throw(scene, "ball", from, velocity, spin, NULL));
-    JoxPose pose = pose_of(scene, "ball");
+    JoxPose pose = find_body_pose(scene, "ball");
     assert_true(pose.centre.x == 1 && pose.centre.y == 2 && pose.centre.z == 3);
     assert_true(pose.velocity.x == 4 && pose.velocity.y == 5 && pose.velocity.z == 6);
     assert_true(pose.spin.x == 7 && pose.spin.y == 8 && pose.spin.z == 9);
     step_scene(scene, 1);
-    pose = pose_of(scene, "ball");
+    pose = find_body_pose(scene, "ball");
     assert_float_equal(pose.centre.x, 1.2, 0.001);
     assert_true(jo_scene_throw(scene, "ball", NULL, NULL, NULL, NULL)); /* stopped in the air */
-    assert_true(pose_of(scene, "ball").centre.x == pose.centre.x);
-    assert_true(pose_of(scene, "ball").velocity.z == 0);
+    assert_true(find_body_pose(scene, "ball").centre.x == pose.centre.x);
+    assert_true(find_body_pose(scene, "ball").velocity.z == 0);
     assert_int_equal(figures(scene)->throws, 2);
     jo_scene_free(scene);
 }
@@ -326,7 +320,7 @@ static void a_throw_takes_it_from_the_hand(void **state) {
     step_scene(scene, 1);
     const JoxObjects *objects = &scene->world->scratch.objects;
     assert_false(objects->rows[jox_bodies_find_name(bodies, "ball")].held);
-    assert_true(pose_of(scene, "ball").velocity.z > 2);
+    assert_true(find_body_pose(scene, "ball").velocity.z > 2);
     jo_scene_free(scene);
 }
 
@@ -382,17 +376,6 @@ static void what_cannot_happen_is_said(void **state) {
 
 /* ---- an edited scene ---- */
 
-static void edit(JoScene *scene, const char *text) {
-    JoxDiagnostics diagnostics = {0};
-    write_test_file("scene.yaml", text);
-    JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
-    assert_non_null(spec);
-    jox_text_free(&scene_messages);
-    jox_run_rescene(scene, &spec, 0.0);
-    jox_scene_free(spec);
-    jox_diag_free(&diagnostics);
-}
-
 static void an_edited_scene_keeps_what_events_did(void **state) {
     (void)state;
     JoScene *scene =
@@ -400,15 +383,15 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
     step_scene(scene, 20); /* t = 1 s */
     assert_true(is_open(scene));
     /* Another wall, and a further event: the gate stays open, what was done is not done again. */
-    edit(scene, "jostle: 1\n"
-                "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
-                "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
-                "events:\n"
-                "  - {at: 0.5, open: gate}\n"
-                "  - {at: 0.6, signal: a}\n"
-                "  - {at: 0.7, signal: b}\n" /* too late */
-                "  - {at: 1.0, signal: c}\n" /* in the next step */
-                "  - {at: 1.5, close: gate}\n");
+    edit_scene(scene, "jostle: 1\n"
+                      "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
+                      "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
+                      "events:\n"
+                      "  - {at: 0.5, open: gate}\n"
+                      "  - {at: 0.6, signal: a}\n"
+                      "  - {at: 0.7, signal: b}\n" /* too late */
+                      "  - {at: 1.0, signal: c}\n" /* in the next step */
+                      "  - {at: 1.5, close: gate}\n");
     assert_non_null(strstr(scene_messages.data, "walls, events changed, live from t = 1.00 s"));
     step_scene(scene, 1);
     assert_true(is_open(scene));
@@ -416,11 +399,11 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
     assert_int_equal(figures(scene)->announced, 2);
     assert_int_equal(figures(scene)->opened, 1);
     /* Nothing but a title: nothing changes. */
-    edit(scene, "jostle: 1\n"
-                "title: Another\n"
-                "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
-                "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
-                "events: [{at: 1.5, close: gate}]\n");
+    edit_scene(scene, "jostle: 1\n"
+                      "title: Another\n"
+                      "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
+                      "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
+                      "events: [{at: 1.5, close: gate}]\n");
     assert_null(strstr(scene_messages.data, "walls"));
     step_scene(scene, 8);
     assert_true(is_open(scene));
@@ -436,9 +419,9 @@ static void an_edited_gate_follows_the_file(void **state) {
     JoScene *scene = load_scene_text(EVENTS("  - {at: 50, open: gate}\n"), STAY);
     step_scene(scene, 1);
     assert_false(is_open(scene));
-    edit(scene, "jostle: 1\n"
-                "walls: [{line: [[5, -5], [5, 5]], name: gate, open: true}]\n"
-                "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n");
+    edit_scene(scene, "jostle: 1\n"
+                      "walls: [{line: [[5, -5], [5, 5]], name: gate, open: true}]\n"
+                      "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n");
     step_scene(scene, 1);
     assert_true(is_open(scene));
     assert_int_equal(scene->world->scratch.walls.ring_count, 0);

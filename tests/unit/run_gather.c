@@ -57,10 +57,6 @@ static Stand look_at(const JoScene *scene, Area area) {
     return s;
 }
 
-static void go_on(JoScene *scene, double seconds) {
-    step_scene(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
-}
-
 /* A hall 24 m wide with an area for the audience before its stage, 12 x 8 m. */
 static const Area FRONT = {6, 10, 18, 18};
 static JoScene *load_hall(int people) {
@@ -82,7 +78,7 @@ static JoScene *load_hall(int people) {
 static void few_stand_in_front_and_apart(void **state) {
     (void)state;
     JoScene *scene = load_hall(50);
-    go_on(scene, 59);
+    step_scene_seconds(scene, 59);
     const Stand s = look_at(scene, FRONT);
     assert_true(s.inside >= 49);
     assert_int_equal(s.rear, 0);
@@ -96,7 +92,7 @@ static void few_stand_in_front_and_apart(void **state) {
 static void many_fill_the_area_evenly(void **state) {
     (void)state;
     JoScene *scene = load_hall(300);
-    go_on(scene, 59);
+    step_scene_seconds(scene, 59);
     const Stand s = look_at(scene, FRONT);
     assert_true(s.inside >= 285);
     assert_true(s.rear < 0.3 * s.inside && s.front > 0.2 * s.inside);
@@ -108,7 +104,7 @@ static void many_fill_the_area_evenly(void **state) {
 static void those_for_whom_there_is_no_room_stand_behind(void **state) {
     (void)state;
     JoScene *scene = load_hall(460);
-    go_on(scene, 59);
+    step_scene_seconds(scene, 59);
     const Stand s = look_at(scene, FRONT);
     assert_in_range(s.inside, 370, 440);
     assert_true(s.density < 4.6 && s.densest < 6.0 && s.uneven < 0.25);
@@ -119,7 +115,7 @@ static void those_for_whom_there_is_no_room_stand_behind(void **state) {
 static void all_leave_at_the_signal(void **state) {
     (void)state;
     JoScene *scene = load_hall(150);
-    go_on(scene, 150);
+    step_scene_seconds(scene, 150);
     assert_int_equal(jo_world_agent_count(scene->world), 0);
     jo_scene_free(scene);
 }
@@ -142,7 +138,7 @@ static void people_gather_before_what_they_look_at(void **state) {
                         "events: [{at: 100, signal: end}]\n",
                         "");
     const JoxAgents *a = &scene->world->state.agents;
-    go_on(scene, 60);
+    step_scene_seconds(scene, 60);
     for (uint32_t i = 0; i < a->count; i++) {
         assert_true(a->x[i] > 5.8f && a->x[i] < 12.0f && a->y[i] > 7.8f && a->y[i] < 18.2f);
         assert_true(a->face_x[i] < 0.0f);
@@ -165,7 +161,7 @@ static void spots_are_clear_of_walls(void **state) {
                         "events: [{at: 100, signal: end}]\n",
                         "");
     const JoxAgents *a = &scene->world->state.agents;
-    go_on(scene, 70);
+    step_scene_seconds(scene, 70);
     int front = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         assert_true(a->y[i] < 17.0f); /* the area goes on behind the wall */
@@ -180,14 +176,14 @@ static void spots_are_clear_of_walls(void **state) {
 static void saved_crowds_go_on_to_the_bit(void **state) {
     (void)state;
     JoScene *scene = load_hall(120);
-    go_on(scene, 12);
+    step_scene_seconds(scene, 12);
     size_t size;
     void *saved = jo_world_snapshot(scene->world, &size, NULL);
     assert_non_null(saved);
-    go_on(scene, 20);
+    step_scene_seconds(scene, 20);
     const uint64_t hash = jo_world_hash(scene->world);
     assert_true(jo_world_restore(scene->world, saved, size, NULL));
-    go_on(scene, 20);
+    step_scene_seconds(scene, 20);
     assert_true(jo_world_hash(scene->world) == hash);
     jo_free(saved);
     jo_scene_free(scene);

@@ -12,10 +12,6 @@ typedef struct Rest {
 
 enum { MOST_PEOPLE = 200 };
 
-static void go_on(JoScene *scene, double seconds) {
-    step_scene(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
-}
-
 static uint32_t count_about(const JoxAgents *a, uint32_t i) {
     uint32_t count = 0;
     for (uint32_t j = 0; j < a->count; j++)
@@ -24,16 +20,16 @@ static uint32_t count_about(const JoxAgents *a, uint32_t i) {
 }
 
 /* Runs for so many seconds, watches 5 s more, and ends the scene. */
-static Rest settle(JoScene *scene, double seconds) {
+static Rest measure_rest(JoScene *scene, double seconds) {
     const JoxAgents *a = &scene->world->state.agents;
     JoxV2 before[MOST_PEOPLE];
     Rest rest = {0};
-    go_on(scene, seconds);
+    step_scene_seconds(scene, seconds);
     assert_in_range(a->count, 1, MOST_PEOPLE);
     const uint32_t first = a->next_id - a->count; /* nobody left */
     for (uint32_t i = 0; i < a->count; i++)
         before[a->id[i] - first] = jox_v2(a->x[i], a->y[i]);
-    go_on(scene, 5);
+    step_scene_seconds(scene, 5);
     for (uint32_t i = 0; i < a->count; i++) {
         const JoxV2 at = {a->x[i], a->y[i]};
         const uint32_t about = count_about(a, i);
@@ -61,7 +57,7 @@ static JoScene *load_room(const char *front, const char *walls, const char *peop
 /* Straight ways to many of the spots lead through walls: 6 people stood on a square metre. */
 static void people_go_round_walls_to_their_spots(void **state) {
     (void)state;
-    const Rest rest = settle(
+    const Rest rest = measure_rest(
         load_room("[[4, 0], [8, 0], [8, 4], [12, 4], [12, 8], [8, 8], [8, 12], [4, 12], [4, 8],"
                   " [0, 8], [0, 4], [4, 4]]",
                   "  - {line: [[5, 0], [4, 0], [4, 4], [0, 4], [0, 8], [4, 8], [4, 12], [8, 12],"
@@ -76,7 +72,7 @@ static void people_go_round_walls_to_their_spots(void **state) {
 
 static void people_go_round_pillars_to_their_spots(void **state) {
     (void)state;
-    const Rest rest = settle(
+    const Rest rest = measure_rest(
         load_room("[[0, 0], [12, 0], [12, 12], [8, 12], [8, 4], [4, 4], [4, 12], [0, 12]]",
                   "  - {line: [[0, 0.5], [0, 12], [4, 12], [4, 4], [8, 4], [8, 12], [12, 12],"
                   " [12, 0], [0.6, 0]]}\n"
@@ -96,14 +92,14 @@ static void people_go_round_pillars_to_their_spots(void **state) {
 static void both_sides_of_a_wall_are_filled(void **state) {
     (void)state;
     const Rest rest =
-        settle(load_room("[[1, 6], [15, 6], [15, 12], [1, 12]]",
-                         "  - {line: [[0, 0.5], [0, 14], [16, 14], [16, 0], [0.6, 0]]}\n"
-                         "  - {line: [[9, 4], [9, 14]]}",
-                         "  left: {polygon: [[1, 1], [7, 1], [7, 3], [1, 3]]}\n"
-                         "  right: {polygon: [[10, 1], [15, 1], [15, 3], [10, 3]]}",
-                         "groups:\n  a: {count: 60, in: left, " JOURNEY "\n"
-                         "  b: {count: 60, in: right, " JOURNEY),
-               45);
+        measure_rest(load_room("[[1, 6], [15, 6], [15, 12], [1, 12]]",
+                               "  - {line: [[0, 0.5], [0, 14], [16, 14], [16, 0], [0.6, 0]]}\n"
+                               "  - {line: [[9, 4], [9, 14]]}",
+                               "  left: {polygon: [[1, 1], [7, 1], [7, 3], [1, 3]]}\n"
+                               "  right: {polygon: [[10, 1], [15, 1], [15, 3], [10, 3]]}",
+                               "groups:\n  a: {count: 60, in: left, " JOURNEY "\n"
+                               "  b: {count: 60, in: right, " JOURNEY),
+                     45);
     assert_true(rest.inside >= 118);
     assert_in_range(rest.densest, 1, 4);
     assert_in_range(rest.moved, 0, 3);
@@ -116,12 +112,12 @@ static void people_without_room_stand_still_about_the_place(void **state) {
                                "  - {line: [[0, 0.5], [0, 12], [12, 12], [12, 0], [0.6, 0]]}",
                                "  hall: {polygon: [[1, 1], [11, 1], [11, 7], [1, 7]]}",
                                "groups: {a: {count: 80, in: hall, " JOURNEY "}");
-    go_on(scene, 40);
+    step_scene_seconds(scene, 40);
     JoxV2 before[MOST_PEOPLE];
     const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < a->count; i++)
         before[a->id[i]] = jox_v2(a->x[i], a->y[i]);
-    go_on(scene, 30);
+    step_scene_seconds(scene, 30);
     uint32_t drifted = 0, inside = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         const JoxV2 at = {a->x[i], a->y[i]};
@@ -148,12 +144,12 @@ static void spots_keep_off_fixed_bodies(void **state) {
                   "groups: {a: {count: 100, in: hall, " JOURNEY "}\n"
                   "bodies: [{shape: {box: {size: [5, 2, 1.2]}}, mass: 0, at: [10, 12, 0.6]}]");
     const JoxAgents *a = &scene->world->state.agents;
-    go_on(scene, 45);
+    step_scene_seconds(scene, 45);
     uint32_t pressed = 0;
     for (uint32_t i = 0; i < a->count; i++) /* within a radius and 2 cm of the box */
         pressed += fabsf(a->x[i] - 10) < 2.71f && fabsf(a->y[i] - 12) < 1.21f;
     assert_in_range(pressed, 0, 2);
-    const Rest rest = settle(scene, 1);
+    const Rest rest = measure_rest(scene, 1);
     assert_true(rest.inside >= 98);
     assert_in_range(rest.moved, 0, 2);
 }
@@ -169,7 +165,7 @@ static void people_far_away_come_by_routes(void **state) {
                         "groups: {a: {behaviour: own.lua, count: 20, in: far}}\n",
                         HEAD "\"Wait\", defaults = { speed = 1.3, time_gap = 0.5, perception = 3 },"
                              " states = { Wait = { steer = gather(\"front\", 90) } } }\n");
-    const Rest rest = settle(scene, 50);
+    const Rest rest = measure_rest(scene, 50);
     assert_true(rest.inside >= 19); /* people in front shift about on its edge */
     assert_in_range(rest.moved, 0, 1);
 }

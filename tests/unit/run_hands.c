@@ -14,12 +14,6 @@ static uint32_t row_of(const JoScene *scene, const char *name) {
     return jox_bodies_find_name(scene->world->state.bodies, name);
 }
 
-static JoxPose pose_of(const JoScene *scene, const char *name) {
-    JoxPose pose;
-    assert_true(jox_bodies_pose(scene->world->state.bodies, row_of(scene, name), &pose));
-    return pose;
-}
-
 static bool is_held(const JoScene *scene, const char *name) {
     JoxObjects *objects = &scene->world->scratch.objects;
     jox_bodies_objects(scene->world->state.bodies, objects);
@@ -56,7 +50,7 @@ static void what_is_carried_and_thrown_stays_in_a_sealed_room(void **state) {
         step_scene(scene, 1);
         const bool now = is_held(scene, "b");
         held += now;
-        assert_true(pose_of(scene, "b").centre.x < (now ? 4.0f - 0.11f : 4.0f));
+        assert_true(find_body_pose(scene, "b").centre.x < (now ? 4.0f - 0.11f : 4.0f));
     }
     assert_int_equal(figures(scene)->throws, 1);
     assert_int_equal(figures(scene)->dropped, 0);
@@ -71,12 +65,12 @@ static void hands_reach_over_what_is_lower_than_the_body(void **state) {
         skip();
     JoScene *scene = load_scene_text(ROOM("1.0", "") BALL("[0, 0, 0.11]"), FETCHES);
     step_scene(scene, 200);
-    assert_true(pose_of(scene, "b").centre.x > 5.0f);
+    assert_true(find_body_pose(scene, "b").centre.x > 5.0f);
     jo_scene_free(scene);
     scene = load_scene_text(ROOM("1.15", "") BALL("[0, 0, 0.11]"), FETCHES);
     for (int n = 0; n < 200; n++) {
         step_scene(scene, 1);
-        assert_true(!is_held(scene, "b") || pose_of(scene, "b").centre.x < 4.0f - 0.11f);
+        assert_true(!is_held(scene, "b") || find_body_pose(scene, "b").centre.x < 4.0f - 0.11f);
     }
     jo_scene_free(scene);
 }
@@ -159,7 +153,7 @@ static void what_has_no_room_is_dropped_and_told(void **state) {
     JoScene *scene = load_scene_text(text, FETCHES);
     step_scene(scene, 100);
     assert_int_equal(figures(scene)->dropped, 1);
-    assert_true(pose_of(scene, "b").centre.x < 2.0f);
+    assert_true(find_body_pose(scene, "b").centre.x < 2.0f);
     char *closing = jo_scene_closing(scene);
     assert_non_null(strstr(closing, "1 body dropped for want of room"));
     jo_free(closing);
@@ -171,7 +165,7 @@ static void what_has_no_room_is_dropped_and_told(void **state) {
     scene = load_scene_text(text, FETCHES);
     step_scene(scene, 100);
     assert_int_equal(figures(scene)->dropped, 0);
-    assert_true(pose_of(scene, "b").centre.x > 3.0f);
+    assert_true(find_body_pose(scene, "b").centre.x > 3.0f);
     jo_scene_free(scene);
 }
 

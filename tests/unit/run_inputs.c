@@ -283,7 +283,7 @@ static void the_graph_says_who_set_what(void **state) {
 
 /* ---- bodies ---- */
 
-static JoxPose pose_of(const JoScene *scene, uint32_t row) {
+static JoxPose read_body_pose(const JoScene *scene, uint32_t row) {
     JoxPose pose;
     assert_true(jox_bodies_pose(scene->world->state.bodies, row, &pose));
     return pose;
@@ -298,22 +298,22 @@ static void a_body_is_pulled(void **state) {
     float fastest = 0.0f;
     for (int n = 0; n < 60; n++) {
         step_scene(scene, 1);
-        JoxPose pose = pose_of(scene, 0);
+        JoxPose pose = read_body_pose(scene, 0);
         fastest = jox_maxf(fastest, fabsf(pose.velocity.y));
     }
-    JoxPose pose = pose_of(scene, 0);
+    JoxPose pose = read_body_pose(scene, 0);
     assert_true(fabsf(pose.centre.x - 9) < 0.05f && fabsf(pose.centre.y - 3) < 0.05f);
     assert_true(fabsf(pose.centre.z - 1.5f) < 0.05f); /* its weight is borne */
     assert_true(fastest < 6.1f);
     apply_input(scene, "drag 0 9 4 1.5");
     step_scene(scene, 60);
-    assert_true(fabsf(pose_of(scene, 0).centre.y - 4) < 0.05f);
+    assert_true(fabsf(read_body_pose(scene, 0).centre.y - 4) < 0.05f);
     apply_input(scene, "release 0");
     step_scene(scene, 40);
-    assert_true(pose_of(scene, 0).centre.z < 0.2f);
+    assert_true(read_body_pose(scene, 0).centre.z < 0.2f);
     apply_input(scene, "grab 0 9 4 -60"); /* into the ground: it stays above */
     step_scene(scene, 20);
-    assert_true(pose_of(scene, 0).centre.z > 0.0f);
+    assert_true(read_body_pose(scene, 0).centre.z > 0.0f);
     jo_scene_free(scene);
 }
 
@@ -335,7 +335,7 @@ static void the_oldest_box_goes(void **state) {
     assert_int_equal(world->state.drags.boxes[0], before + 7); /* ids are not used again */
     assert_int_equal(jox_bodies_find(world->state.bodies, before + 6), JOX_NO_BODY);
     step_scene(scene, 3);
-    JoxPose pose = pose_of(scene, jox_bodies_find(world->state.bodies, before + 7));
+    JoxPose pose = read_body_pose(scene, jox_bodies_find(world->state.bodies, before + 7));
     assert_true(fabsf(pose.centre.z - 0.15f) < 0.02f); /* lifted out of the ground */
     for (uint32_t o = 0; o < 2; o++)
         assert_true(world->scratch.objects.rows[o].live); /* those of the scene stay */

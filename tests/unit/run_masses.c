@@ -18,17 +18,17 @@ typedef struct Mix {
 /* Number of the scene that runs, for the message of a broken assertion. */
 static uint64_t running;
 
-static double draw(Mix *m, double low, double high) {
+static double draw_in_range(Mix *m, double low, double high) {
     return low + (high - low) * jox_random_unit(m->number, m->drawn++, 0, JOX_DRAW_FILL, 0);
 }
 
 /* Each magnitude between two numbers is as likely. */
 static double draw_magnitude(Mix *m, double low, double high) {
-    return exp(draw(m, log(low), log(high)));
+    return exp(draw_in_range(m, log(low), log(high)));
 }
 
 static bool chance(Mix *m, double share) {
-    return draw(m, 0.0, 1.0) < share;
+    return draw_in_range(m, 0.0, 1.0) < share;
 }
 
 /* ---- scenes ---- */
@@ -36,7 +36,7 @@ static bool chance(Mix *m, double share) {
 /* A speed along an axis, m/s: mostly that of throws and vehicles, at times the greatest. */
 static double draw_speed(Mix *m) {
     const double most = chance(m, 0.2) ? 100.0 : chance(m, 0.5) ? 10.0 : 1.0;
-    return draw(m, -most, most);
+    return draw_in_range(m, -most, most);
 }
 
 /* m: up to so many times a size, and down to a tenth of it. */
@@ -45,46 +45,46 @@ static double draw_length(Mix *m, double size, double most) {
 }
 
 /* Adds one number. The order in which the arguments of a call are drawn is the compiler's. */
-static void add(Mix *m, const char *format, double number) {
+static void add_drawn_number(Mix *m, const char *format, double number) {
     jox_text_printf(&m->yaml, format, number);
 }
 
 static void write_solid(Mix *m, double size) {
-    switch ((int)draw(m, 0.0, 4.0)) {
+    switch ((int)draw_in_range(m, 0.0, 4.0)) {
     case 0:
-        add(m, "{sphere: {radius: %.4g}}", size / 2.0);
+        add_drawn_number(m, "{sphere: {radius: %.4g}}", size / 2.0);
         break;
     case 1:
-        add(m, "{cylinder: {radius: %.4g, ", size / 2.0);
-        add(m, "height: %.4g}}", draw_length(m, size, 3.0));
+        add_drawn_number(m, "{cylinder: {radius: %.4g, ", size / 2.0);
+        add_drawn_number(m, "height: %.4g}}", draw_length(m, size, 3.0));
         break;
     case 2:
-        add(m, "{hull: {points: [[-%.4g, 0, 0], ", size);
-        add(m, "[%.4g, 0.01, 0], ", size);
-        add(m, "[0, %.4g, 0], ", draw_length(m, size, 2.0));
-        add(m, "[0, 0, %.4g]]}}", draw_length(m, size, 2.0));
+        add_drawn_number(m, "{hull: {points: [[-%.4g, 0, 0], ", size);
+        add_drawn_number(m, "[%.4g, 0.01, 0], ", size);
+        add_drawn_number(m, "[0, %.4g, 0], ", draw_length(m, size, 2.0));
+        add_drawn_number(m, "[0, 0, %.4g]]}}", draw_length(m, size, 2.0));
         break;
     default:
-        add(m, "{box: {size: [%.4g, ", size);
-        add(m, "%.4g, ", draw_length(m, size, 10.0));
-        add(m, "%.4g]}}", draw_length(m, size, 3.0));
+        add_drawn_number(m, "{box: {size: [%.4g, ", size);
+        add_drawn_number(m, "%.4g, ", draw_length(m, size, 10.0));
+        add_drawn_number(m, "%.4g]}}", draw_length(m, size, 3.0));
     }
 }
 
 static void write_shape(Mix *m, double size) {
-    const double kind = draw(m, 0.0, 1.0);
+    const double kind = draw_in_range(m, 0.0, 1.0);
     jox_text_add(&m->yaml, "shape: ");
     if (kind < 0.2) {
-        add(m, "{blocks: {size: [%.4g, ", size);
-        add(m, "%.4g, ", size);
-        add(m, "%.4g], ", draw_length(m, size, 1.0));
-        add(m, "count: [%.0f, 1, 3], ", ceil(draw(m, 0.0, 4.0)));
-        add(m, "bond: %.4g}}", draw_magnitude(m, 1e-3, 1e9));
+        add_drawn_number(m, "{blocks: {size: [%.4g, ", size);
+        add_drawn_number(m, "%.4g, ", size);
+        add_drawn_number(m, "%.4g], ", draw_length(m, size, 1.0));
+        add_drawn_number(m, "count: [%.0f, 1, 3], ", ceil(draw_in_range(m, 0.0, 4.0)));
+        add_drawn_number(m, "bond: %.4g}}", draw_magnitude(m, 1e-3, 1e9));
     } else if (kind < 0.3) {
         jox_text_add(&m->yaml, "{compound: [{shape: ");
         write_solid(m, size);
-        add(m, ", mass: %.4g}, ", draw_magnitude(m, 1e-3, 1e7));
-        add(m, "{at: [%.4g, 0, 0.1], shape: ", size);
+        add_drawn_number(m, ", mass: %.4g}, ", draw_magnitude(m, 1e-3, 1e7));
+        add_drawn_number(m, "{at: [%.4g, 0, 0.1], shape: ", size);
         write_solid(m, size / 2.0);
         jox_text_add(&m->yaml, "}]}");
     } else {
@@ -93,20 +93,22 @@ static void write_shape(Mix *m, double size) {
 }
 
 static void write_driven(Mix *m) {
-    add(m, ", kinematic: true, force_limit: %.4g, path: {through: [", draw_magnitude(m, 1.0, 1e6));
-    add(m, "[%.3f, ", draw(m, -4.0, 4.0));
-    add(m, "%.3f, 1], [0, 0, 1]], end: round, ", draw(m, -4.0, 4.0));
-    add(m, "speed: %.4g, ", draw_magnitude(m, 1e-2, 100.0));
+    add_drawn_number(m, ", kinematic: true, force_limit: %.4g, path: {through: [",
+                     draw_magnitude(m, 1.0, 1e6));
+    add_drawn_number(m, "[%.3f, ", draw_in_range(m, -4.0, 4.0));
+    add_drawn_number(m, "%.3f, 1], [0, 0, 1]], end: round, ", draw_in_range(m, -4.0, 4.0));
+    add_drawn_number(m, "speed: %.4g, ", draw_magnitude(m, 1e-2, 100.0));
     jox_text_printf(&m->yaml, "reopens: %s}", chance(m, 0.3) ? "true" : "false");
 }
 
 static void write_free(Mix *m) {
-    add(m, ", mass: %.4g", draw_magnitude(m, 2e-8, 1e7)); /* shared by up to 12 blocks */
-    add(m, ", velocity: [%.4g, ", draw_speed(m));
-    add(m, "%.4g, ", draw_speed(m));
-    add(m, "%.4g], ", draw_speed(m) / 4.0);
-    add(m, "spin: [0, %.4g, ", draw_speed(m));
-    add(m, "%.4g]", draw_speed(m));
+    add_drawn_number(m, ", mass: %.4g",
+                     draw_magnitude(m, 2e-8, 1e7)); /* shared by up to 12 blocks */
+    add_drawn_number(m, ", velocity: [%.4g, ", draw_speed(m));
+    add_drawn_number(m, "%.4g, ", draw_speed(m));
+    add_drawn_number(m, "%.4g], ", draw_speed(m) / 4.0);
+    add_drawn_number(m, "spin: [0, %.4g, ", draw_speed(m));
+    add_drawn_number(m, "%.4g]", draw_speed(m));
 }
 
 /* Bodies have cells of their own, so that none begins in another. */
@@ -114,8 +116,8 @@ static void write_body(Mix *m, int cell) {
     jox_text_printf(&m->yaml, "  - {name: b%d, tags: [thing], at: [%d, %d, 1.2], ", cell,
                     3 * (cell % 3) - 3, 3 * (cell / 3) - 3);
     write_shape(m, draw_magnitude(m, 0.041, 0.6));
-    add(m, ", friction: %.3g", draw(m, 0.0, 3.0));
-    add(m, ", restitution: %.3g", chance(m, 0.5) ? 0.0 : draw(m, 0.0, 1.0));
+    add_drawn_number(m, ", friction: %.3g", draw_in_range(m, 0.0, 3.0));
+    add_drawn_number(m, ", restitution: %.3g", chance(m, 0.5) ? 0.0 : draw_in_range(m, 0.0, 1.0));
     if (chance(m, 0.2))
         write_driven(m);
     else
@@ -132,7 +134,7 @@ static void write_scene(Mix *m) {
                     "walls: [{line: [[-5, -5], [5, -5], [5, 5], [-5, 5]], closed: true}]\n"
                     "bodies:\n",
                     TIMES[m->number % 3]);
-    const int count = 1 + (int)draw(m, 0.0, MOST_BODIES);
+    const int count = 1 + (int)draw_in_range(m, 0.0, MOST_BODIES);
     for (int cell = 0; cell < count; cell++)
         write_body(m, cell);
     jox_text_add(&m->yaml, "groups: {people: {behaviour: own.lua, at: [[-4.5, -4.5]");
@@ -143,8 +145,9 @@ static void write_scene(Mix *m) {
 
 /* Agents take and throw the bodies that they reach, and hold on to others at times. */
 static void write_behaviour(Mix *m) {
-    const double speed = draw(m, 0.5, 8.0), push = draw_magnitude(m, 1.0, 5e3);
-    const double spread = draw(m, 0.0, 1.5), kick = draw(m, 0.0, 30.0), thrown = draw(m, 0.1, 40.0);
+    const double speed = draw_in_range(m, 0.5, 8.0), push = draw_magnitude(m, 1.0, 5e3);
+    const double spread = draw_in_range(m, 0.0, 1.5), kick = draw_in_range(m, 0.0, 30.0),
+                 thrown = draw_in_range(m, 0.1, 40.0);
     m->lua.length = 0;
     jox_text_printf(
         &m->lua,
@@ -165,11 +168,11 @@ static void write_behaviour(Mix *m) {
 
 /* Bodies heavier than scenes allow, which calls add. */
 static void add_bodies(Mix *m, JoWorld *world) {
-    const int count = (int)draw(m, 0.0, 4.0);
+    const int count = (int)draw_in_range(m, 0.0, 4.0);
     for (int n = 0; n < count; n++) {
         JoError error = {0};
         JoBodyDef def = jo_default_body_def();
-        def.shape = (JoShape)draw(m, 0.0, 3.0);
+        def.shape = (JoShape)draw_in_range(m, 0.0, 3.0);
         for (int k = 0; k < 3; k++)
             def.size[k] = draw_magnitude(m, 0.02, 0.8);
         def.mass = chance(m, 0.5) ? draw_magnitude(m, 1e7, 1e9) : draw_magnitude(m, 1e-9, 1e-3);

@@ -32,28 +32,30 @@ typedef struct Passage {
     uint64_t crossings, checked;
 } Passage;
 
-static double draw(Passage *p, double low, double high) {
+static double draw_number(Passage *p, double low, double high) {
     return low + (high - low) * jox_random_unit(p->number, p->drawn++, 0, JOX_DRAW_FILL, 0);
 }
 
 static bool chance(Passage *p, double share) {
-    return draw(p, 0.0, 1.0) < share;
+    return draw_number(p, 0.0, 1.0) < share;
 }
 
 /* ---- scenes ---- */
 
 /* A thin wall of up to three points, or a solid quadrangle. */
-static void add_wall(Passage *p, const char *more) {
-    const double x = draw(p, 3.5, 11.0), y = draw(p, 0.5, 7.5);
+static void add_random_wall(Passage *p, const char *more) {
+    const double x = draw_number(p, 3.5, 11.0), y = draw_number(p, 0.5, 7.5);
     if (chance(p, 0.6)) {
         jox_text_printf(&p->yaml, "  - {line: [[%.3f, %.3f], [%.3f, %.3f]", x, y,
-                        draw(p, 3.2, 11.8), draw(p, 0.0, 8.0));
+                        draw_number(p, 3.2, 11.8), draw_number(p, 0.0, 8.0));
         if (chance(p, 0.5))
-            jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw(p, 3.2, 11.8), draw(p, 0.0, 8.0));
+            jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw_number(p, 3.2, 11.8),
+                            draw_number(p, 0.0, 8.0));
         jox_text_printf(&p->yaml, "]%s}\n", more);
         return;
     }
-    const double w = draw(p, 0.1, 1.5), h = draw(p, 0.1, 1.5), slant = draw(p, -0.3, 0.3);
+    const double w = draw_number(p, 0.1, 1.5), h = draw_number(p, 0.1, 1.5),
+                 slant = draw_number(p, -0.3, 0.3);
     jox_text_printf(
         &p->yaml, "  - {solid: [[%.3f, %.3f], [%.3f, %.3f], [%.3f, %.3f], [%.3f, %.3f]]%s}\n", x, y,
         x + w, y + slant * w, x + w - slant * h, y + slant * w + h, x - slant * h, y + h, more);
@@ -63,9 +65,10 @@ static void add_wall(Passage *p, const char *more) {
 static void add_wall_at_edges(Passage *p, bool x, const char *more) {
     static const double OFF[] = {0.0, 0.0, 0.2, -0.4};
     const double edge = (x ? SIZE.x : SIZE.y) * (chance(p, 0.5) ? 1.0 : 0.0);
-    const double from = edge + OFF[(int)draw(p, 0.0, 4.0)], other = x ? SIZE.y : SIZE.x;
-    const double a = draw(p, 0.0, other), b = draw(p, 0.0, other), slant = draw(p, -0.5, 0.5);
-    const int kind = (int)draw(p, 0.0, 3.0);
+    const double from = edge + OFF[(int)draw_number(p, 0.0, 4.0)], other = x ? SIZE.y : SIZE.x;
+    const double a = draw_number(p, 0.0, other), b = draw_number(p, 0.0, other),
+                 slant = draw_number(p, -0.5, 0.5);
+    const int kind = (int)draw_number(p, 0.0, 3.0);
     const double along[4] = {from, kind == 1 ? from : from + 0.7 + slant, from + 0.6, from};
     const double across[4] = {a, b, b, b + (a > b ? -0.8 : 0.8)};
     const int count = kind == 2 ? 4 : 2;
@@ -104,12 +107,12 @@ static void write_walls(Passage *p, uint32_t seed, uint32_t count, uint32_t othe
     for (uint32_t w = 0; w < count; w++) {
         if (w == count - others)
             p->drawn = drawn;
-        add_wall(p, "");
+        add_random_wall(p, "");
     }
     p->drawn = seed + 1000;
-    add_wall(p, ", name: gate, open: true");
-    add_wall(p, ", name: gate");
-    add_wall(p, ", name: door, open: true");
+    add_random_wall(p, ", name: gate, open: true");
+    add_random_wall(p, ", name: gate");
+    add_random_wall(p, ", name: door, open: true");
     p->drawn = drawn + 100;
 }
 
@@ -139,7 +142,8 @@ static void write_scene(Passage *p, uint32_t walls, uint32_t others) {
     jox_text_add(&p->yaml,
                  "groups:\n  people: {behaviour: own.lua, set: {goal: east}, at: [[1, 1]");
     for (uint32_t n = 1; n < people; n++)
-        jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw(p, 0.3, 11.7), draw(p, 0.3, 7.7));
+        jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw_number(p, 0.3, 11.7),
+                        draw_number(p, 0.3, 7.7));
     jox_text_printf(&p->yaml,
                     "]}\n"
                     "sources: [{at: west, like: people, rate: %.2f}]\n"
@@ -149,8 +153,9 @@ static void write_scene(Passage *p, uint32_t walls, uint32_t others) {
                     "  - {at: %.2f, every: %.2f, close: gate}\n"
                     "  - {at: %.2f, every: 0.9, close: door}\n"
                     "  - {at: %.2f, every: 0.7, open: door}\n",
-                    draw(p, 0.5, 6.0), draw(p, 0.0, 0.5), draw(p, 0.3, 0.9), draw(p, 0.1, 0.6),
-                    draw(p, 0.3, 0.9), draw(p, 0.0, 0.9), draw(p, 0.0, 0.7));
+                    draw_number(p, 0.5, 6.0), draw_number(p, 0.0, 0.5), draw_number(p, 0.3, 0.9),
+                    draw_number(p, 0.1, 0.6), draw_number(p, 0.3, 0.9), draw_number(p, 0.0, 0.9),
+                    draw_number(p, 0.0, 0.7));
 }
 
 static void write_behaviour(Passage *p) {
@@ -169,7 +174,7 @@ static void write_behaviour(Passage *p) {
 
 /* ---- what people do to it ---- */
 
-static void edit(Passage *p, uint32_t walls) {
+static void edit_walls(Passage *p, uint32_t walls) {
     JoxDiagnostics diagnostics = {0};
     write_scene(p, walls, 2);
     write_test_file("scene.yaml", p->yaml.data);
@@ -182,33 +187,33 @@ static void edit(Passage *p, uint32_t walls) {
 }
 
 /* Some line of an input log; what cannot be done is refused. */
-static void do_something(Passage *p) {
+static void apply_random_line(Passage *p) {
     char line[200];
     JoError error = {0};
-    const double x = draw(p, 3.5, 11.0), y = draw(p, 0.5, 7.0);
-    switch ((int)draw(p, 0.0, 7.0)) {
+    const double x = draw_number(p, 3.5, 11.0), y = draw_number(p, 0.5, 7.0);
+    switch ((int)draw_number(p, 0.0, 7.0)) {
     case 0:
         snprintf(line, sizeof line, "wall w%u %.3f %.3f %.3f %.3f", p->made++, x, y,
-                 draw(p, 3.2, 11.8), draw(p, 0.0, 8.0));
+                 draw_number(p, 3.2, 11.8), draw_number(p, 0.0, 8.0));
         break;
     case 1: {
-        const double w = draw(p, 0.3, 2.0), h = draw(p, 0.3, 2.0);
+        const double w = draw_number(p, 0.3, 2.0), h = draw_number(p, 0.3, 2.0);
         snprintf(line, sizeof line, "wall w%u %.3f %.3f %.3f %.3f %.3f %.3f %.3f %.3f", p->made++,
                  x, y, x + w, y, x + w, y + h, x, y + h);
         break;
     }
     case 2:
-        snprintf(line, sizeof line, "unwall w%d", (int)draw(p, 0.0, p->made + 1.0));
+        snprintf(line, sizeof line, "unwall w%d", (int)draw_number(p, 0.0, p->made + 1.0));
         break;
     case 3:
-        snprintf(line, sizeof line, "spawn people %.3f %.3f", draw(p, 0.2, 11.8), y);
+        snprintf(line, sizeof line, "spawn people %.3f %.3f", draw_number(p, 0.2, 11.8), y);
         break;
     case 4:
         snprintf(line, sizeof line, "%s gate", chance(p, 0.5) ? "open" : "close");
         break;
     default:
-        snprintf(line, sizeof line, "push %d %.0f %.0f", (int)draw(p, 0.0, 20.0),
-                 draw(p, -10000.0, 10000.0), draw(p, -10000.0, 10000.0));
+        snprintf(line, sizeof line, "push %d %.0f %.0f", (int)draw_number(p, 0.0, 20.0),
+                 draw_number(p, -10000.0, 10000.0), draw_number(p, -10000.0, 10000.0));
     }
     jo_scene_input(p->scene, line, &error);
 }
@@ -347,9 +352,9 @@ static void run_passage(Passage *p) {
     }
     for (int n = 0; n < 60; n++) {
         if (n % 20 == 13 && p->number % 3 == 0)
-            edit(p, walls + (n > 20));
+            edit_walls(p, walls + (n > 20));
         if (chance(p, 0.3))
-            do_something(p);
+            apply_random_line(p);
         note_before(p);
         step_scene(p->scene, 1);
         watch_step(p);

@@ -76,7 +76,7 @@ static void a_program_steps_the_world_of_a_scene(void **state) {
     jo_scene_free(scene);
 }
 
-static void note(JoScene *scene, uint64_t hashes[AFTER]) {
+static void record_hashes(JoScene *scene, uint64_t hashes[AFTER]) {
     for (int n = 0; n < AFTER; n++) {
         step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
@@ -92,7 +92,7 @@ static void a_saved_crowd_goes_on_to_the_bit(void **state) {
     step_scene(scene, SAVED);
     assert_true(jox_world_snapshot(scene->world, &saved, &error));
     const JoxExits then = scene->world->state.exits;
-    note(scene, first);
+    record_hashes(scene, first);
     assert_true(scene->world->state.exits.left > then.left);
     for (int run = 0; run < 2; run++) { /* the same scene, and one that has not begun */
         JoScene *restored = run ? other : scene;
@@ -100,7 +100,7 @@ static void a_saved_crowd_goes_on_to_the_bit(void **state) {
             fail_msg("%s", error.text);
         assert_int_equal(restored->world->state.exits.left, then.left);
         assert_string_equal(restored->world->state.exits.items[0].name, "door");
-        note(restored, second);
+        record_hashes(restored, second);
         for (int n = 0; n < AFTER; n++)
             if (first[n] != second[n])
                 fail_msg("run %d: the hashes differ from step %d behind the snapshot on", run, n);
@@ -312,10 +312,10 @@ static void who_has_come_in_is_state(void **state) {
     scene->world->state.population.entered[2] ^= 1;
     assert_true(jo_world_hash(scene->world) != before);
     scene->world->state.population.entered[2] ^= 1;
-    note(scene, first);
+    record_hashes(scene, first);
     if (!jox_world_restore(other->world, saved.data, saved.length, &error))
         fail_msg("%s", error.text);
-    note(other, second);
+    record_hashes(other, second);
     assert_memory_equal(first, second, sizeof first);
     assert_int_equal(other->world->state.agents.count, 5);
     jox_text_free(&saved);

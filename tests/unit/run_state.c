@@ -52,7 +52,7 @@ static void snapshot(JoScene *scene, JoxText *out) {
         fail_msg("%s", error.text);
 }
 
-static void restore(JoScene *scene, const JoxText *from) {
+static void restore_snapshot(JoScene *scene, const JoxText *from) {
     JoError error = {0};
     if (!jox_world_restore(scene->world, from->data, from->length, &error))
         fail_msg("%s", error.text);
@@ -125,7 +125,7 @@ static void a_restored_world_goes_on_to_the_bit(void **state) {
         snapshot(scene, &saved);
         uint64_t then = jo_world_hash(scene->world);
         run_on(scene, first, meddles);
-        restore(scene, &saved);
+        restore_snapshot(scene, &saved);
         assert_true(jo_world_hash(scene->world) == then);
         snapshot(scene, &again);
         JoxSections compared = jox_sections_compare(again.data, again.length);
@@ -133,7 +133,7 @@ static void a_restored_world_goes_on_to_the_bit(void **state) {
         assert_true(jox_sections_end(&compared));
         run_on(scene, second, meddles);
         expect_same(first, second);
-        restore(scene, &saved);
+        restore_snapshot(scene, &saved);
         run_on(scene, second, meddles);
         expect_same(first, second);
         jox_text_free(&saved);
@@ -152,7 +152,7 @@ static void another_world_takes_the_state_over(void **state) {
     step_scene(other, 37);
     snapshot(scene, &saved);
     run_on(scene, first, false);
-    restore(other, &saved);
+    restore_snapshot(other, &saved);
     run_on(other, second, false);
     expect_same(first, second);
     jox_text_free(&saved);
@@ -232,11 +232,11 @@ static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
     assert_true(did->spawned > before.spawned && did->removed > before.removed);
     assert_true(did->bonds.broken > before.bonds.broken);
     assert_true(did->throws > before.throws && before.pickups > 0 && did->opened > before.opened);
-    restore(scene, &saved);
+    restore_snapshot(scene, &saved);
     in_yard(scene, second);
     expect_same(first, second);
     step_scene(other, 40);
-    restore(other, &saved);
+    restore_snapshot(other, &saved);
     in_yard(other, second);
     expect_same(first, second);
     jox_text_free(&saved);

@@ -131,24 +131,14 @@ static void people_closed_in_within_a_solid_stay_and_are_told_of(void **state) {
     "walls:\n" walls                                                                               \
     "groups: {people: {behaviour: own.lua, count: 120, in: hall, fill: random}}\n"
 
-static void edit(JoScene *scene, const char *text) {
-    JoxDiagnostics diagnostics = {0};
-    write_test_file("scene.yaml", text);
-    JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
-    assert_non_null(spec);
-    jox_run_rescene(scene, &spec, 0.0);
-    jox_scene_free(spec);
-    jox_diag_free(&diagnostics);
-}
-
 /* Other walls before it, another start of its ring, the other direction: it is the same wall. */
 static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         EDITED("  - {line: [[0, 0], [10, 0], [10, 6], [0, 6]], closed: true}\n"), SEEK);
     step_scene(scene, 200);
-    edit(scene, EDITED("  - {line: [[20, 0], [20, 6]]}\n"
-                       "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
+    edit_scene(scene, EDITED("  - {line: [[20, 0], [20, 6]]}\n"
+                             "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
     step_scene(scene, 5);
     assert_int_equal(scene->world->scratch.walls.ring_count, 3);
     assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, 0);
@@ -159,9 +149,9 @@ static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
     for (uint32_t i = 0; i < a->count; i++)
         on_it += fabsf(a->x[i] - 9.0f) < 0.7f * 0.2f;
     assert_true(on_it > 2);
-    edit(scene, EDITED("  - {line: [[9, 0], [9, 6]]}\n"
-                       "  - {line: [[20, 0], [20, 6]]}\n"
-                       "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
+    edit_scene(scene, EDITED("  - {line: [[9, 0], [9, 6]]}\n"
+                             "  - {line: [[20, 0], [20, 6]]}\n"
+                             "  - {line: [[10, 6], [10, 0], [0, 0], [0, 6]], closed: true}\n"));
     step_scene(scene, 1);
     assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, on_it);
     all_are_in_the_hall(scene);
@@ -176,9 +166,9 @@ static void ring_that_becomes_solid_came(void **state) {
                                "groups: {people: {behaviour: own.lua, at: [[2, 2], [9, 9]]}}\n";
     JoScene *scene = load_scene_text(OPEN, STAY);
     step_scene(scene, 2);
-    edit(scene, "jostle: 1\n"
-                "walls: [{solid: [[0, 0], [4, 0], [4, 4], [0, 4]]}]\n"
-                "groups: {people: {behaviour: own.lua, at: [[2, 2], [9, 9]]}}\n");
+    edit_scene(scene, "jostle: 1\n"
+                      "walls: [{solid: [[0, 0], [4, 0], [4, 4], [0, 4]]}]\n"
+                      "groups: {people: {behaviour: own.lua, at: [[2, 2], [9, 9]]}}\n");
     step_scene(scene, 1);
     assert_int_equal(counts(scene)->moved_out, 1);
     jo_scene_free(scene);

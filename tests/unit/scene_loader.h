@@ -54,6 +54,30 @@ static inline void step_scene(JoScene *scene, int steps) {
             fail_msg("%s", error.text);
 }
 
+/* Steps by the whole number of steps that is nearest to `seconds`. */
+static inline void step_scene_seconds(JoScene *scene, double seconds) {
+    step_scene(scene, (int)(seconds / scene->world->model.def.dt + 0.5));
+}
+
+static inline JoxPose find_body_pose(const JoScene *scene, const char *name) {
+    const JoxBodies *bodies = scene->world->state.bodies;
+    JoxPose pose;
+    assert_true(jox_bodies_pose(bodies, jox_bodies_find_name(bodies, name), &pose));
+    return pose;
+}
+
+/* Writes another text of the scene's file, and applies it to the running scene as a reload does. */
+static inline void edit_scene(JoScene *scene, const char *text) {
+    JoxDiagnostics diagnostics = {0};
+    write_test_file("scene.yaml", text);
+    JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
+    assert_non_null(spec);
+    jox_text_free(&scene_messages);
+    jox_run_rescene(scene, &spec, 0.0);
+    jox_scene_free(spec);
+    jox_diag_free(&diagnostics);
+}
+
 /* Replaces a machine by a new text of its behaviour, as the watching thread and the step do
    together. False with the reason in `refusal` if the text is refused. */
 static inline bool replace_behaviour_text(JoScene *scene, uint32_t index, const char *text,

@@ -62,7 +62,7 @@ static void take_place(Search *search, Head head, size_t at, size_t before) {
 /* Where the section of an edit begins: by a key of its name, so that it is the same one after
    others came to be listed, and by its number among those of that name. Where the one before it
    begins, in *before. */
-static size_t find(const JoxText *state, const uint8_t *edit, size_t *before) {
+static size_t find_section(const JoxText *state, const uint8_t *edit, size_t *before) {
     Search search = {0};
     memcpy(&search.key, edit, sizeof search.key);
     each_section(state, take_name, &search);
@@ -89,7 +89,7 @@ static double odd_number(uint8_t choice, double was) {
 }
 
 /* A number within a cell of `size` bytes, where it fits. */
-static void put(char *cell, size_t size, const uint8_t *edit) {
+static void put_number(char *cell, size_t size, const uint8_t *edit) {
     uint16_t offset;
     uint64_t value = 0;
     memcpy(&offset, edit + 6, sizeof offset);
@@ -142,8 +142,8 @@ static void resize(JoxText *state, size_t at, size_t before, size_t more) {
     *state = now;
 }
 
-static void show(void *context, const char *section, size_t index, void *cell, size_t size,
-                 bool hashed) {
+static void print_section(void *context, const char *section, size_t index, void *cell, size_t size,
+                          bool hashed) {
     uint64_t *name = context;
     const char *dot = strchr(section, '.');
     JoxHash hash = jox_hash_begin();
@@ -157,15 +157,15 @@ static void show(void *context, const char *section, size_t index, void *cell, s
     }
 }
 
-static void change(JoxText *state, const uint8_t *edit, FuzzWalk *walk, void *context) {
+static void edit_section(JoxText *state, const uint8_t *edit, FuzzWalk *walk, void *context) {
     uint16_t number;
     size_t before = 0;
     memcpy(&number, edit + 4, sizeof number);
-    const size_t at = find(state, edit, &before);
+    const size_t at = find_section(state, edit, &before);
     const Head head = head_at(state, at);
     if (getenv("FUZZ_SHOW")) {
         uint64_t name = head.name;
-        JoxSections s = jox_sections_visit(show, &name);
+        JoxSections s = jox_sections_visit(print_section, &name);
         walk(context, &s);
         fprintf(stderr, "  key %u, of %" PRIu64 " cells of %" PRIu64 " bytes: edit %d of cell %u\n",
                 (unsigned)(head.name & 0xffff), head.count, head.size, edit[2] % 8, number);
@@ -180,7 +180,7 @@ static void change(JoxText *state, const uint8_t *edit, FuzzWalk *walk, void *co
     if (edit[2] % 8 == 6)
         memcpy(cell, cells + edit[8] % head.count * head.size, head.size);
     else
-        put(cell, head.size, edit);
+        put_number(cell, head.size, edit);
 }
 
 static void seal(JoxText *state) {
@@ -193,6 +193,6 @@ static void seal(JoxText *state) {
 
 void fuzz_edit(JoxText *state, const uint8_t *data, size_t size, FuzzWalk *walk, void *context) {
     for (size_t k = 0; k < MOST_EDITS && (k + 1) * EDIT <= size; k++)
-        change(state, data + k * EDIT, walk, context);
+        edit_section(state, data + k * EDIT, walk, context);
     seal(state);
 }

@@ -34,7 +34,7 @@ static int remove_one(const char *path, const struct stat *info, int kind, struc
     return remove(path);
 }
 
-static void remove_folder(void) {
+static void remove_fuzz_folder(void) {
     nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
@@ -48,7 +48,7 @@ const char *fuzz_path(const char *name) {
         snprintf(folder, sizeof folder, "%s/jostle-fuzz-XXXXXX", outer);
         if (!mkdtemp(folder))
             abort();
-        atexit(remove_folder);
+        atexit(remove_fuzz_folder);
     }
     next = (next + 1) % PATHS;
     snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);

@@ -44,7 +44,7 @@ static const char *name_for(Choices *c, const char *key) {
     return ONE_OF(c, OTHERS);
 }
 
-static void number(Choices *c, double least, double greatest, const char *standard) {
+static void add_random_number(Choices *c, double least, double greatest, const char *standard) {
     const double most = greatest > 30 ? 30 : greatest, low = least < -30 ? -30 : least;
     switch (least < greatest ? pick(c, 12) : 1) {
     case 0:
@@ -128,7 +128,7 @@ static void item(Choices *c, const char *of, size_t length) {
     else if (!strcmp(name, "draw") && pick(c, 2))
         jox_text_printf(c->out, "{uniform: [%u, %u]}", pick(c, 3), 3 + pick(c, 9));
     else
-        number(c, 0, 10, "1");
+        add_random_number(c, 0, 10, "1");
 }
 
 /* "wall[2]" is a list of two or more, "place*" a map of names. */
@@ -163,7 +163,7 @@ static void value(Choices *c, const JoxKey *key) {
     char choice[64];
     switch (key->type) {
     case JOX_TYPE_NUMBER:
-        number(c, key->least, key->greatest, key->standard);
+        add_random_number(c, key->least, key->greatest, key->standard);
         break;
     case JOX_TYPE_WHOLE:
         whole(c, key);
@@ -254,7 +254,7 @@ static void groups(Choices *c) {
 }
 
 /* Lists of an owner, each of which may be missing; `first` is always there. */
-static void list(Choices *c, const char *key, const char *owner, const char *first) {
+static void add_entries(Choices *c, const char *key, const char *owner, const char *first) {
     const uint32_t count = pick(c, 4);
     if (!count && !*first)
         return;
@@ -281,17 +281,18 @@ void fuzz_make_scene(const uint8_t *data, size_t size, JoxText *out) {
                     "  - {line: [[0, 0], [%d, 0], [%d, %d], [0, %d]], closed: true}\n"
                     "  - {line: [[12, 2], [12, 8]], name: w0}\n",
                     FUZZ_HALL_X, FUZZ_HALL_X, FUZZ_HALL_Y, FUZZ_HALL_Y);
-    list(&c, "walls", "wall", walls.data);
+    add_entries(&c, "walls", "wall", walls.data);
     jox_text_free(&walls);
-    list(&c, "bodies", "body",
-         "  - {name: b0, shape: {box: {size: [0.5, 0.5, 0.5]}}, at: [10, 2, 0.25], mass: 20, "
-         "tags: [ball, red]}\n");
+    add_entries(
+        &c, "bodies", "body",
+        "  - {name: b0, shape: {box: {size: [0.5, 0.5, 0.5]}}, at: [10, 2, 0.25], mass: 20, "
+        "tags: [ball, red]}\n");
     groups(&c);
     if (pick(&c, 2))
         jox_text_printf(out, "sources: [{at: east, like: %s, rate: %u, keep: %u}]\n",
                         name_for(&c, "like"), 1 + pick(&c, 30), pick(&c, 60));
-    list(&c, "sinks", "sink", "");
-    list(&c, "events", "event", "");
+    add_entries(&c, "sinks", "sink", "");
+    add_entries(&c, "events", "event", "");
     static const char *const TABLES[] = {"forces", "walking", "limits"};
     for (int t = 0; t < 3; t++)
         if (pick(&c, 5) == 4) {

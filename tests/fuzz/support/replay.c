@@ -41,7 +41,7 @@ static size_t mutate(uint8_t *data, size_t size) {
 }
 
 /* In memory of its own size, so that a sanitizer sees every byte that is read behind it. */
-static void give(const uint8_t *data, size_t size) {
+static void run_input(const uint8_t *data, size_t size) {
     uint8_t *copy = malloc(size ? size : 1);
     if (!copy)
         abort();
@@ -51,7 +51,7 @@ static void give(const uint8_t *data, size_t size) {
     inputs++;
 }
 
-static int take(const char *path, const struct stat *info, int kind, struct FTW *walk) {
+static int run_input_file(const char *path, const struct stat *info, int kind, struct FTW *walk) {
     static uint8_t whole[LARGEST], changed[LARGEST];
     (void)info;
     (void)walk;
@@ -65,14 +65,14 @@ static int take(const char *path, const struct stat *info, int kind, struct FTW 
     const size_t size = fread(whole, 1, sizeof whole, file);
     fclose(file);
     fprintf(stderr, "%s\n", path);
-    give(whole, size);
+    run_input(whole, size);
     dice = size;
     for (long m = 0; size > 0 && m < mutations; m++) {
         size_t now = size;
         memcpy(changed, whole, size);
         for (uint32_t k = 1 + roll(4); k > 0; k--)
             now = mutate(changed, now);
-        give(changed, now);
+        run_input(changed, now);
     }
     return 0;
 }
@@ -84,7 +84,7 @@ int main(int argc, char **argv) {
         first = 3;
     }
     for (int a = first; a < argc && status == 0; a++)
-        status = nftw(argv[a], take, 16, FTW_PHYS);
+        status = nftw(argv[a], run_input_file, 16, FTW_PHYS);
     printf("%llu inputs\n", (unsigned long long)inputs);
     return status == 0 && inputs > 0 ? 0 : 1;
 }

@@ -19,7 +19,7 @@ static const struct {
 #undef UNIT
 };
 
-static int run(const char *name) {
+static int run_unit(const char *name) {
     char *arguments[] = {(char *)name, NULL};
     for (size_t n = 0; n < sizeof UNIT_TABLE / sizeof *UNIT_TABLE; n++)
         if (!strcmp(name, UNIT_TABLE[n].name))
@@ -34,7 +34,7 @@ int main(int argc, char **argv) {
     if (argc < 2)
         fprintf(stderr, "usage: %s NAME...\n", argv[0]);
     for (int n = 1; n < argc; n++) {
-        int status = run(argv[n]);
+        int status = run_unit(argv[n]);
         worst = status > worst ? status : worst;
     }
     return worst;
