@@ -363,7 +363,7 @@ static void drive(Caller *c) {
 
 /* The greatest bytes are calls that came later, so that what was found before means the same. */
 static void call(Caller *c) {
-    static void (*const CALLS[])(Caller *) = {add_or_spawn,         act_on_agent, act_on_body,
+    static void (*const CALLS[])(Caller *) = {add_or_spawn, act_on_agent, act_on_body,
                                               act_on_world, ask,          act_on_scene};
     const uint8_t what = take_byte(c);
     if (what >= 248)
