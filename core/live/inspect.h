@@ -3,6 +3,7 @@
 #ifndef JOX_LIVE_INSPECT_H
 #define JOX_LIVE_INSPECT_H
 
+#include "base/format/json_writer.h"
 #include "run/run.h"
 
 /* inspect_graph.c: the value of a parameter and the place that set it. */

@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "live/inspect.h"
+#include "run/set_parameter.h"
 
 /* ---- the place that set a value ---- */
 

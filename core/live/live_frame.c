@@ -5,6 +5,8 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "live/live_parts.h"
+#include "run/figure_listeners.h"
+#include "run/listener.h"
 
 static const float MARGIN = 2.0f; /* m around everything that a scene names */
 static const double LEAN_TIME =

@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "live/live_parts.h"
+#include "run/probe_listener.h"
 
 /* Adds "states": for each machine an array of the number of people in each state; and "fired": for
    each machine an array of how often each transition was taken in the last second. */

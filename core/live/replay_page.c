@@ -3,10 +3,11 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "live/replay_page.h"
-#include "run/run.h"
+#include "run/messages.h"
 
 enum { RECORDING_COOKIE = 0x4a4f5652, MOST_STEPS = 100000 };
 static const double LEAP = 2.5; /* s since the last status beyond which the pace is not measured */

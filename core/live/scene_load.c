@@ -5,6 +5,8 @@
 #include "base/mem.h"
 #include "base/overlay.h"
 #include "live/scene_page.h"
+#include "run/load_scene.h"
+#include "run/messages.h"
 
 /* Forwards a message of the scene to the terminal, and to browsers unless they have it as data. */
 static void forward_scene_message(void *context, const char *text) {

@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "live/inspect.h"
 #include "live/scene_page.h"
+#include "run/input_actions.h"
 #include "world/verbs/verbs.h"
 
 enum { MOST_STEPS = 100000 };

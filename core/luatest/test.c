@@ -14,6 +14,7 @@
 #include "base/mem.h"
 #include "jostle_tools.h"
 #include "luatest/testing.h"
+#include "run/load_scene.h"
 #include "run/run.h"
 
 typedef struct Tests {

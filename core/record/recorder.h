@@ -1,10 +1,9 @@
 /* Writes the trajectories of a run to an SQLite file in the JuPedSim format, version 2, which PedPy
-   reads, with tables of our own for states, forces, bodies and walls (README.md). run/recording.c
-   calls it. A thread of its own writes the frames and commits at least once a second, so that after
-   a crash the file is valid up to the last commit.
-   The caller opens a recorder, names states and groups, gives walls and body parts whenever they
-   change, and each frame by jox_recorder_begin_frame and jox_recorder_submit_frame;
-   jox_recorder_close frees it. */
+   reads, with tables of our own for states, forces, bodies and walls (README.md). The listener
+   run/recording_listener.c calls it. A thread of its own writes the frames and commits at least
+   once a second, so that after a crash the file is valid up to the last commit. The caller opens a
+   recorder, names states and groups, gives walls and body parts whenever they change, and each
+   frame by jox_recorder_begin_frame and jox_recorder_submit_frame; jox_recorder_close frees it. */
 #ifndef JOX_RECORD_RECORDER_H
 #define JOX_RECORD_RECORDER_H
 

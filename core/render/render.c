@@ -17,6 +17,7 @@
 #include "base/mem.h"
 #include "picture/plot.h"
 #include "picture/video.h"
+#include "run/messages.h"
 
 enum { RENDER_COOKIE = 0x4a4f524e, LEAST_SIDE = 320, MOST_SIDE = 8192, MOST_FRAMES = 999999 };
 static const double MOST_FPS = 30.0; /* the default's upper bound */

@@ -8,6 +8,7 @@
 #include "picture/draw.h"
 #include "record/trajectories.h"
 #include "record/trajectory_reader.h"
+#include "run/figure_listeners.h"
 #include "run/run.h"
 
 /* Exactly one of `scene` and `crowd` is set. jox_render_free frees all that it owns. */

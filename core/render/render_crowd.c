@@ -9,6 +9,7 @@
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "render/render.h"
+#include "run/present_frame.h"
 
 /* Above MOST_FOLLOWED people, only a sample of them gets trails. */
 enum { MOST_FOLLOWED = 500, MOST_TRAILS = 2000, MOST_BODY_TRAILS = 200 };

@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "jostle_tools.h"
+#include "run/figure_listeners.h"
 #include "run/run.h"
 
 static void discard_message(void *context, const char *text) {

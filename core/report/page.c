@@ -14,6 +14,11 @@
 #include "record/danger/trust.h"
 #include "report/page_parts.h"
 #include "report/run_subject.h"
+#include "run/figure_listeners.h"
+#include "run/orca_flow_note.h"
+#include "run/probe_listener.h"
+#include "run/results/demand.h"
+#include "run/results/tell.h"
 #include "run/run.h"
 
 enum { MOST_GROUPS = 12 }; /* groups named in the summary */

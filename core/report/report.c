@@ -11,6 +11,7 @@
 #include "picture/probe_files.h"
 #include "report/danger_files.h"
 #include "report/report.h"
+#include "run/messages.h"
 #include "task/children.h"
 
 enum { REPORT_COOKIE = 0x4a4f5250 };

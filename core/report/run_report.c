@@ -16,7 +16,10 @@
 #include "picture/probe_files.h"
 #include "report/danger_files.h"
 #include "report/run_subject.h"
-#include "run/run.h"
+#include "run/figure_listeners.h"
+#include "run/present_frame.h"
+#include "run/probe_listener.h"
+#include "run/results/demand.h"
 #include "task/children.h"
 
 /* s: interval between points of paths, or a step if that is longer */

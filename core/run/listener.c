@@ -8,6 +8,12 @@
 #include "base/mem.h"
 #include "run/run.h"
 
+bool jox_run_is_due(const JoScene *scene, double interval) {
+    const JoWorld *world = scene->world;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(interval / world->model.def.dt + 0.5));
+    return world->state.tick % every == 0;
+}
+
 void *jox_run_listener(const JoScene *scene, const JoxListenerKind *kind) {
     for (uint32_t l = 0; l < scene->listeners.count; l++)
         if (scene->listeners.items[l].kind == kind)

@@ -56,6 +56,9 @@ bool jox_run_tell_frame(JoScene *scene, JoError *error);
 void jox_run_tell_replaced(JoScene *scene, uint32_t machine);
 bool jox_run_tell_end(JoScene *scene, JoError *error);
 void jox_run_release_listeners(JoScene *scene);
+/* Whether the step just done is one of those that come every `interval` seconds; every step if that
+   is longer than the interval. */
+bool jox_run_is_due(const JoScene *scene, double interval);
 
 /* Name of the piece (base/format/pieces.h) of a checkpoint that is the name of a kind of listener,
    a zero, and its sections. */

@@ -5,7 +5,10 @@
 
 #include "base/format/noun.h"
 #include "base/mem.h"
-#include "run/reload_parts.h"
+#include "run/input_log.h"
+#include "run/reload_batch.h"
+#include "run/scene_machines.h"
+#include "run/tags_and_teams.h"
 
 /* "  Circle 31204  Exit 310": agents per state. */
 static void print_census(const JoxMachine *machine, const uint32_t *people, JoxText *out) {

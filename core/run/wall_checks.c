@@ -7,6 +7,7 @@
 #include "base/format/noun.h"
 #include "base/mem.h"
 #include "run/run.h"
+#include "run/wall_checks.h"
 #include "world/routes/hindrance.h"
 
 /* ---- sources ---- */

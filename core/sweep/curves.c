@@ -5,6 +5,9 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "run/figure_listeners.h"
+#include "run/present_frame.h"
+#include "run/probe_listener.h"
 #include "run/run.h"
 #include "sweep/sweep.h"
 

@@ -7,7 +7,8 @@
 
 #include "base/clock.h"
 #include "base/guard.h"
-#include "run/run.h"
+#include "run/messages.h"
+#include "run/read_scene.h"
 
 /* Variants refused for the same reason until reading stops, if none has loaded */
 enum { MOST_ALIKE = 20 };

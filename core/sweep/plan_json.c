@@ -4,6 +4,7 @@
 #include "base/format/json_writer.h"
 #include "base/mem.h"
 #include "picture/draw.h"
+#include "run/present_frame.h"
 #include "run/run.h"
 #include "sweep/sweep.h"
 

@@ -9,9 +9,10 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/format/pieces.h"
 #include "base/guard.h"
-#include "run/run.h"
+#include "run/messages.h"
 #include "sweep/inputs.h"
 #include "sweep/store.h"
 #include "task/children.h"

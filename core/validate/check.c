@@ -13,7 +13,11 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
+#include "run/load_scene.h"
+#include "run/orca_flow_note.h"
+#include "run/read_scene.h"
 #include "run/run.h"
+#include "run/wall_checks.h"
 #include "validate/claims.h"
 
 enum { DEEPEST = 8, MOST_ERRORS = 10000 }; /* greatest depth of nested folders */

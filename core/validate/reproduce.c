@@ -18,6 +18,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/sort.h"
+#include "run/messages.h"
 
 JoReproduceDef jo_default_reproduce_def(void) {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);

@@ -1,6 +1,7 @@
 /* Frames, people, fields and status of a running scene: they match the agents' columns, and making
    them does not change the run. Frames are decoded from their bytes, as a page does. */
 #include "live_bytes.h"
+#include "run/figure_listeners.h"
 
 /* ---- frames ---- */
 

@@ -2,6 +2,7 @@
    told with its line. Scenes lie in a folder beside the shipped behaviours. */
 #include "jostle_tools.h"
 #include "messages.h"
+#include "run/load_scene.h"
 #include "run/run.h"
 #include "unit/test_folder.h"
 

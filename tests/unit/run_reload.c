@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "run/scene_machines.h"
 #include "unit/effort.h"
 #include "unit/scene_loader.h"
 

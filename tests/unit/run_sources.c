@@ -1,4 +1,5 @@
 /* Sources: on which side of walls people come in, how many of those who are due do, and when. */
+#include "run/results/demand.h"
 #include "unit/gate_ball_scene.h"
 
 #define STANDER HEAD "\"Stand\", states = { Stand = { steer = hold } } }\n"

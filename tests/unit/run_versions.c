@@ -1,5 +1,6 @@
 /* New versions of behaviours that bring names with them: tags and teams that no group of the scene
  * has. */
+#include "run/reload.h"
 #include "unit/scene_loader.h"
 
 #define TWO                                                                                        \

@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "messages.h"
 #include "run/run.h"
+#include "run/scene_machines.h"
 #include "unit/test_folder.h"
 
 /* Messages of the scenes since the last load. */

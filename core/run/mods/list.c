@@ -8,7 +8,8 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/pack.h"
-#include "run/run.h"
+#include "run/messages.h"
+#include "run/read_scene.h"
 #include "scene/mods_on.h"
 
 /* ---- listed ---- */

@@ -8,6 +8,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
+#include "run/read_scene.h"
 #include "run/run.h"
 
 typedef struct Page {

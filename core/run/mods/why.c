@@ -7,7 +7,9 @@
 #include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "run/load_scene.h"
 #include "run/mods/settings.h"
+#include "run/read_scene.h"
 
 enum { HEAD, ITEMS }; /* parts of a pack */
 

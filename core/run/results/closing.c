@@ -7,7 +7,13 @@
 #include "base/mem.h"
 #include "jostle_tools.h"
 #include "record/danger/trust.h"
+#include "run/figure_listeners.h"
+#include "run/probe_listener.h"
+#include "run/results/demand.h"
+#include "run/results/kept.h"
 #include "run/run.h"
+#include "run/standstill.h"
+#include "run/tally_scores.h"
 
 static const double WORTH = 10.0; /* s: shorter stands of one person are not mentioned */
 

@@ -1,5 +1,6 @@
 /* People who were due, by sources and at given times, and did not come: in the last lines of a run
    and in its figures. */
+#include "run/results/demand.h"
 #include "base/format/noun.h"
 #include "run/run.h"
 

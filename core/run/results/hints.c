@@ -10,6 +10,7 @@
 #include "base/mem.h"
 #include "base/pack.h"
 #include "run/run.h"
+#include "run/scene_machines.h"
 
 enum { HEAD, ITEMS }; /* parts of a pack */
 enum { MOST_HINTS = 20 };

@@ -3,7 +3,10 @@
 #include <math.h>
 
 #include "base/format/noun.h"
+#include "run/results/kept.h"
 #include "run/run.h"
+#include "run/standstill.h"
+#include "run/wall_checks.h"
 
 void jox_run_say_kept(const JoScene *scene, JoxText *out) {
     const JoxKeptList *list = jox_run_kept(scene);

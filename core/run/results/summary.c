@@ -12,7 +12,13 @@
 #include "jostle_tools.h"
 #include "record/aggregate.h"
 #include "record/danger/trust.h"
+#include "run/figure_listeners.h"
+#include "run/probe_listener.h"
+#include "run/results/demand.h"
+#include "run/results/kept.h"
 #include "run/run.h"
+#include "run/standstill.h"
+#include "run/tally_scores.h"
 #include "simd/isa.h"
 
 JoStats jo_scene_stats(const JoScene *scene) {

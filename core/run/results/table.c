@@ -10,6 +10,7 @@
 #include "base/mem.h"
 #include "base/pack.h"
 #include "jostle_tools.h"
+#include "run/probe_listener.h"
 #include "run/run.h"
 
 enum { HEAD, COLUMNS, NUMBERS, TEXTS }; /* parts of the pack */

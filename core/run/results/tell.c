@@ -8,7 +8,10 @@
 #include "base/guard.h"
 #include "base/pack.h"
 #include "jostle_tools.h"
+#include "run/results/tell.h"
 #include "run/run.h"
+#include "run/standstill.h"
+#include "run/wall_checks.h"
 
 enum { HEAD, ITEMS };      /* parts of a pack */
 enum { MOST_NO_WAYS = 5 }; /* places that are told */

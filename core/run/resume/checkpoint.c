@@ -11,7 +11,9 @@
 #include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "run/read_scene.h"
 #include "run/resume/checkpoint.h"
+#include "run/tags_and_teams.h"
 
 typedef struct Checkpoint {
     char *folder, *note;

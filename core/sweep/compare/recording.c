@@ -8,7 +8,7 @@
 #include "record/aggregate.h"
 #include "record/local.h"
 #include "record/trajectories.h"
-#include "run/run.h"
+#include "run/messages.h"
 #include "sweep/compare/compare.h"
 
 static const float EDGE = 0.5f; /* m: margin of the area around all people */

@@ -4,13 +4,9 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "run/figure_listeners.h"
+#include "run/present_frame.h"
 #include "run/run.h"
-
-bool jox_run_is_due(const JoScene *scene, double interval) {
-    const JoWorld *world = scene->world;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(interval / world->model.def.dt + 0.5));
-    return world->state.tick % every == 0;
-}
 
 /* The listeners of regions, densities and danger each hold one thing that collects, by its address.
  */

@@ -3,7 +3,11 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "run/event_signals.h"
+#include "run/reload.h"
 #include "run/run.h"
+#include "run/starting_people.h"
+#include "run/wall_checks.h"
 
 typedef struct Rescene {
     JoScene *scene;

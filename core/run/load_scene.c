@@ -1,180 +1,26 @@
-/* From a scene's file to a running world. */
-#include <errno.h>
+/* Loads scenes: tries with all mods found, leaves out those that the scene does not load with,
+   tells what is wrong, and frees scenes. The program calls it through jo_scene_load. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_host.h"
+#include "run/build_scene.h"
+#include "run/input_log.h"
+#include "run/load_scene.h"
+#include "run/machine_names.h"
+#include "run/present_frame.h"
+#include "run/read_scene.h"
+#include "run/reload.h"
 #include "run/run.h"
 #include "simd/isa.h"
 
-enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
+enum { SCENE_COOKIE = 0x4a4f5343 };
 
 JoSceneDef jo_default_scene_def(void) {
     return (JoSceneDef){.cookie = SCENE_COOKIE};
-}
-
-static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxPosition position,
-                         JoxDiagnostics *diagnostics) {
-    uint64_t mask = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        int bit = jox_world_tag(world, tags[i]);
-        if (bit < 0)
-            jox_diag_error(diagnostics, position, "too-many-tags", NULL,
-                           "a scene has at most 64 different tags");
-        else
-            mask |= (uint64_t)1 << bit;
-    }
-    return mask;
-}
-
-static void add_bodies(JoScene *scene, JoxDiagnostics *diagnostics) {
-    JoxSceneSpec *spec = scene->spec;
-    for (uint32_t i = 0; i < spec->body_count; i++) {
-        JoxSceneBody *body = &spec->bodies[i];
-        JoxText why = {0};
-        body->def.tags =
-            tag_mask(scene->world, body->tags, body->tag_count, body->position, diagnostics);
-        if (jox_bodies_add(scene->world->state.bodies, &body->def, &why) == JOX_NO_BODY)
-            jox_diag_error(diagnostics, body->position, "bad-body", NULL, "%s",
-                           why.data ? why.data : "this body was refused");
-        jox_text_free(&why);
-    }
-    for (uint32_t g = 0; g < spec->group_count; g++)
-        tag_mask(scene->world, spec->groups[g].tags, spec->groups[g].tag_count,
-                 spec->groups[g].position, diagnostics);
-}
-
-/* Places are copied to the world, which owns them, with one more for each agent that is bound for
-   the opposite side of its circle. */
-static void add_places(JoScene *scene) {
-    const JoxSceneSpec *spec = scene->spec;
-    uint32_t extra = 0;
-    for (uint32_t g = 0; g < spec->group_count; g++)
-        for (uint32_t s = 0; s < spec->groups[g].set_count; s++)
-            if (spec->groups[g].set[s].kind == JOX_SET_ANTIPODE)
-                extra += spec->groups[g].count;
-    JoxPlace *places = jox_alloc((size_t)spec->place_count + extra + 1, sizeof *places);
-    for (uint32_t i = 0; i < spec->place_count; i++)
-        jox_place_copy(&places[i], &spec->places[i]);
-    jox_world_set_places(scene->world, places, spec->place_count, spec->place_count + extra);
-    scene->scope_groups = jox_alloc((size_t)spec->group_count + 1, sizeof *scene->scope_groups);
-    for (uint32_t g = 0; g < spec->group_count; g++)
-        scene->scope_groups[g] =
-            (JoxScopeGroup){jox_strdup(spec->groups[g].name),
-                            spec->groups[g].team ? jox_strdup(spec->groups[g].team) : NULL};
-    scene->scope = (JoxScope){.places = places,
-                              .place_count = spec->place_count,
-                              .groups = scene->scope_groups,
-                              .group_count = spec->group_count,
-                              .walls = &scene->world->model.all_walls,
-                              .complete = true,
-                              .mods = scene->mods->items,
-                              .mod_count = scene->mods->count};
-    jox_run_refresh_names(scene);
-}
-
-/* Reads the log and, since it tells what files were when it began, reads those through it. */
-static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
-    size_t length;
-    char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
-    if (path && !text)
-        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
-                       "cannot read the input log '%s': %s", path, jox_file_why(errno));
-    if (text && jox_diag_check_text(diagnostics, path, text, length))
-        jox_input_parse(&scene->input, path, text, length, diagnostics);
-    if (text) {
-        jox_run_before(&scene->overlay, &scene->input);
-        jox_diag_attach_source(diagnostics, path, text, length);
-        scene->input_path = jox_strdup(path);
-        jox_sha256_hex(text, length, scene->input_sha256);
-    }
-    jox_free(text);
-}
-
-static void complain(void *context, const char *text) {
-    jox_run_tell(context, text);
-}
-
-static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
-    JoxLuaLimits limits = jox_lua_default_limits();
-    limits.hook_instructions = (uint64_t)spec->limits.instructions;
-    limits.step_instructions = (uint64_t)spec->limits.step_instructions;
-    limits.load_instructions = (uint64_t)spec->limits.load_instructions;
-    limits.memory = (size_t)(spec->limits.memory * (1 << 20));
-    limits.block = (size_t)(spec->limits.block * (1 << 20));
-    limits.source = (size_t)(spec->limits.source * (1 << 10));
-    limits.print_lines = (uint32_t)spec->limits.print;
-    return limits;
-}
-
-/* Specification and world, with the first `count` mods. */
-static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
-                  JoxDiagnostics *diagnostics) {
-    if (def->input_log)
-        load_input(scene, def->input_log, diagnostics);
-    JoxSceneSpec *spec = scene->spec = jox_run_load_spec(def, scene->mods, count, diagnostics);
-    if (!spec)
-        return;
-    JoWorldDef world = jo_default_world_def();
-    world.dt = spec->step;
-    world.seed = spec->seed;
-    world.threads = def->threads;
-    world.isa = def->isa;
-    world.jobs = def->jobs;
-    world.gravity = spec->gravity;
-    world.forces = spec->forces;
-    world.literal = spec->literal;
-    world.lost_people = (JoLost)spec->lost_people;
-    world.lost_bodies = (JoLost)spec->lost_bodies;
-    scene->world = jox_world_create(&world);
-    jox_world_set_timed(scene->world, true);
-    scene->world->record = jox_run_record_act;
-    scene->world->record_context = scene;
-    scene->world->model.reinserts_bodies = def->resumable;
-    jox_world_set_walking(scene->world, &spec->walking);
-    if (!def->input_log)
-        load_input(scene, spec->input, diagnostics);
-    scene->world->state.input = scene->input; /* the world's from here on */
-    scene->input = (JoxInputLog){0};
-    if (spec->periodic_x || spec->periodic_y) {
-        JoxV2 size = jox_sub(spec->high, spec->low);
-        scene->world->state.agents.origin = spec->low;
-        scene->world->state.agents.period =
-            (JoxV2){spec->periodic_x ? size.x : 0.0f, spec->periodic_y ? size.y : 0.0f};
-    }
-    jox_world_set_walls(scene->world, &spec->walls);
-    const JoxLuaLimits limits = script_limits(spec);
-    scene->lua = jox_lua_create(&limits);
-    jox_lua_attach(scene->lua, &scene->world->machines, complain, scene); /* loading may print */
-    jox_run_take_names(scene);
-    add_bodies(scene, diagnostics);
-    add_places(scene);
-    if (!jox_run_load_machines(scene, diagnostics))
-        return;
-    JoxMachineRun *machines = &scene->world->machines;
-    machines->call = jox_lua_call;
-    machines->bracket = jox_lua_bracket_hooks;
-    machines->hook_sections = jox_lua_sections;
-    machines->call_context = scene->lua;
-    if (diagnostics->errors == 0 && def->dry) {
-        jox_run_check_names(scene, diagnostics);
-    } else if (diagnostics->errors == 0) {
-        jox_run_populate(scene, diagnostics);
-        jox_run_check_names(scene, diagnostics);
-        jox_run_check_step(scene, diagnostics);
-        jox_run_check_sources(scene, diagnostics);
-        jox_run_check_journeys(scene, diagnostics);
-        jox_run_name_events(scene, diagnostics);
-        jox_run_collect_regions(scene);
-        if (!def->no_density)
-            jox_run_collect_local(scene, NULL);
-        jox_run_collect_standing(scene);
-        jox_run_collect_probes(scene);
-    }
 }
 
 /* The def outlives the caller's texts: a reload reads the scene as it was read first. */
@@ -255,7 +101,7 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
         const uint32_t all = scene->mods->count;
         if (count < all) { /* with all of them it fails: that is known */
             scene->mods->count = count;
-            build(scene, def, count, &now);
+            jox_run_build(scene, def, count, &now);
             scene->mods->count = all;
         }
         leave_overlay(scene, before);
@@ -280,7 +126,7 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
     const JoxOverlay *before = use_overlay(scene, def);
     scene->mods = jox_run_find_mods(def, without, mod_problems);
     *culprit = -1;
-    build(scene, def, scene->mods->count, diagnostics);
+    jox_run_build(scene, def, scene->mods->count, diagnostics);
     leave_overlay(scene, before);
     for (uint32_t f = 0; scene->spec && f < scene->spec->file_count; f++)
         jox_diag_attach_source(diagnostics, scene->spec->files[f].path, scene->spec->files[f].text,

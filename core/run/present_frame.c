@@ -3,10 +3,11 @@
 #include <math.h>
 
 #include "base/mem.h"
+#include "run/present_frame.h"
 #include "run/run.h"
 
 /* Columns that the world has not in this form. */
-struct JoxRunFrame {
+typedef struct JoxRunFrame {
     JoxFrame frame;
     float *vx, *vy, *force;
     size_t vx_capacity, vy_capacity, force_capacity;
@@ -17,7 +18,7 @@ struct JoxRunFrame {
     uint32_t *state, state_count;
     uint64_t made;  /* the tick of the frame, plus 1 */
     uint32_t parts; /* that it has */
-};
+} JoxRunFrame;
 
 /* All states of all machines in one list, which a reload may change, and each person's. */
 static void list_states(JoxRunFrame *f, const JoWorld *world) {

@@ -1,6 +1,8 @@
 /* The scene's probes, which look at the frames of a run. */
+#include "run/probe_listener.h"
 #include "base/assert.h"
 #include "base/mem.h"
+#include "run/present_frame.h"
 #include "run/run.h"
 
 typedef struct Probes {

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "run/input_log.h"
 #include "run/run.h"
 
 /* ---- what a run is made of ---- */
@@ -21,7 +22,7 @@ static void log_made(JoScene *scene, JoxFiles *told, const char *path, const cha
         jox_run_log(scene, &entry);
 }
 
-void jox_run_log_origin(JoScene *scene) {
+static void log_origin(JoScene *scene) {
     const JoWorld *world = scene->world;
     JoxFiles told = {0};
     char seed[32];
@@ -77,7 +78,7 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     fprintf(scene->log, "# input log of jostle %s: scene %s, seed %llu, dt %.9g s%s\n",
             jo_version(), scene->def.path, (unsigned long long)world->model.def.seed,
             world->model.def.dt, world->state.tick ? ", begun in mid-run" : "");
-    jox_run_log_origin(scene);
+    log_origin(scene);
     return jox_run_logged(scene, error);
 }
 

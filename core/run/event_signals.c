@@ -1,6 +1,7 @@
 /* The names that the events of a scene use. */
 #include <string.h>
 
+#include "run/event_signals.h"
 #include "run/run.h"
 
 enum { MOST_NAMES = 256 };

@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "run/input_log.h"
 #include "run/run.h"
 
 void jox_run_log(JoScene *scene, JoxInputEntry *entry) {

@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "nav/spots/spots.h"
 #include "run/run.h"
+#include "run/starting_people.h"
 
 /* Names that a group sets must be known to every behaviour of its mix. */
 static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGroupValue *sets,

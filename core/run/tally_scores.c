@@ -4,8 +4,9 @@
 
 #include "base/text.h"
 #include "run/run.h"
+#include "run/tally_scores.h"
 
-double jox_run_tally(const JoScene *scene, const JoxTally *tally) {
+static double take_tally(const JoScene *scene, const JoxTally *tally) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachineSet *set = scene->world->machines.set;
     double sum = 0, least = INFINITY, greatest = -INFINITY;
@@ -43,7 +44,7 @@ void jox_run_add_tally(const JoScene *scene, JoxJson *json) {
         return;
     jox_json_object(json, "tally");
     for (uint32_t t = 0; t < spec->tally_count; t++)
-        jox_json_number(json, spec->tallies[t].name, jox_run_tally(scene, &spec->tallies[t]));
+        jox_json_number(json, spec->tallies[t].name, take_tally(scene, &spec->tallies[t]));
     jox_json_end(json);
 }
 
@@ -63,7 +64,7 @@ static void say_ahead(const JoScene *scene, JoxText *out) {
     bool equal = false;
     for (uint32_t t = 0; t < spec->tally_count; t++) {
         const JoxTally *tally = &spec->tallies[t];
-        const double value = jox_run_tally(scene, tally);
+        const double value = take_tally(scene, tally);
         if (!isfinite(value) || (t && !are_rivals(tally, &spec->tallies[0])))
             return;
         equal = value == most || (equal && value < most);
@@ -84,7 +85,7 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     for (uint32_t t = 0; t < spec->tally_count; t++) {
         const JoxTally *tally = &spec->tallies[t];
-        const double value = jox_run_tally(scene, tally);
+        const double value = take_tally(scene, tally);
         jox_text_printf(out, "%s%.60s ", t ? ", " : " ", tally->name);
         if (isfinite(value))
             jox_text_printf(out, "%.4g%s%.20s", value, tally->unit ? " " : "",

@@ -5,6 +5,8 @@
 #include "base/format/noun.h"
 #include "base/mem.h"
 #include "run/run.h"
+#include "run/standstill.h"
+#include "run/wall_checks.h"
 #include "world/routes/hindrance.h"
 
 static const double LOOK = 1.0;   /* s between looks at each person */

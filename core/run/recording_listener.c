@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "record/recorder.h"
+#include "run/present_frame.h"
 #include "run/run.h"
 
 static const double FRAME = 0.1; /* s between recorded frames where nothing else is asked for */

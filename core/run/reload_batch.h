@@ -1,11 +1,14 @@
 /* What the files reload*.c share. */
-#ifndef JOX_RUN_RELOAD_PARTS_H
-#define JOX_RUN_RELOAD_PARTS_H
+#ifndef JOX_RUN_RELOAD_BATCH_H
+#define JOX_RUN_RELOAD_BATCH_H
 
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "run/reload.h"
 #include "run/run.h"
+#include "run/watch/changes.h"
+#include "run/watch/watch.h"
 
 /* One machine of a batch. */
 typedef struct JoxChange {

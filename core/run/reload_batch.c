@@ -8,7 +8,11 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
-#include "run/reload_parts.h"
+#include "run/machine_names.h"
+#include "run/read_scene.h"
+#include "run/reload_batch.h"
+#include "run/scene_machines.h"
+#include "run/tags_and_teams.h"
 
 void jox_batch_free(JoxBatch *batch) {
     for (uint32_t c = 0; c < batch->count; c++) {

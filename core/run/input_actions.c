@@ -6,7 +6,11 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "run/input_actions.h"
+#include "run/input_log.h"
+#include "run/reload.h"
 #include "run/run.h"
+#include "run/set_parameter.h"
 #include "world/verbs/verbs.h"
 
 /* ---- actions ---- */

@@ -1,6 +1,9 @@
 /* One step of a running scene, and its end. */
 #include "base/assert.h"
 #include "base/guard.h"
+#include "run/input_actions.h"
+#include "run/input_log.h"
+#include "run/reload.h"
 #include "run/run.h"
 
 static bool step(JoScene *scene, JoError *error) {

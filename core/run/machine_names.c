@@ -1,132 +1,14 @@
-/* Machines of a scene: loaded, linked to those that they become, held against each other and
-   against what the scene measures. */
+/* Checks the names that machines use of each other and of the scene. load_scene.c calls it once all
+   machines are loaded; reload_batch.c, for the own values of one machine. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/format/path.h"
-#include "base/mem.h"
-#include "base/overlay.h"
+#include "run/machine_names.h"
 #include "run/run.h"
-
-static int32_t find_machine(const JoxMachineRun *machines, const char *path) {
-    for (uint32_t m = 0; m < machines->set->count; m++)
-        if (strcmp(machines->set->items[m]->path, path) == 0)
-            return (int32_t)m;
-    return -1;
-}
-
-const char *jox_run_made(const JoxSceneSpec *spec, const char *path) {
-    for (uint32_t g = 0; g < spec->group_count; g++)
-        for (uint32_t m = 0; m < spec->groups[g].mix_count; m++)
-            if (spec->groups[g].mix[m].text && !strcmp(spec->groups[g].mix[m].behaviour, path))
-                return spec->groups[g].mix[m].text;
-    return NULL;
-}
-
-int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
-    JoxMachineRun *machines = &scene->world->machines;
-    int32_t known = find_machine(machines, path);
-    if (known >= 0)
-        return known;
-    if (machines->set->count == JOX_MOST_MACHINES) {
-        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "too-many", NULL,
-                       "a scene has at most %d behaviours", JOX_MOST_MACHINES);
-        return -1;
-    }
-    const char *made = jox_run_made(scene->spec, path);
-    JoxMachine *machine = jox_lua_load_text(scene->lua, path, made, made ? strlen(made) : 0,
-                                            &scene->scope, diagnostics);
-    if (!machine)
-        return -1;
-    jox_run_number_belongings(scene, machine);
-    jox_run_take_kept(machine);
-    return (int32_t)jox_machines_add(machines, machine);
-}
-
-/* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
-static bool find_behaviour(const JoScene *scene, const char *from, const char *name,
-                           char path[1024]) {
-    static const char *const FOLDERS[] = {"", JOX_DATADIR "/behaviours/", NULL};
-    return jox_mod_find(scene->mods->items, scene->mods->count, name, path) ||
-           jox_path_find(from, name, ".lua", FOLDERS, path);
-}
-
-bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,
-                         char path[1024], JoxDiagnostics *diagnostics) {
-    const JoxState *state = &machine->states[number];
-    JoxPosition at = {state->become_file, state->become_line, state->become_column, 0};
-    if (number == machine->start) {
-        jox_diag_error(diagnostics, at, "bad-value", "Begin in another state",
-                       "the state that agents start in cannot become another machine at once");
-        return false;
-    }
-    if (!strstr(state->become, "..") && *state->become != '/' &&
-        find_behaviour(scene, machine->path, state->become, path)) {
-        jox_path_clean(path);
-        return true;
-    }
-    jox_diag_error(diagnostics, at, "missing-file",
-                   "A plain name: of a file beside this one, or of the library",
-                   "there is no behaviour '%.100s' to become", state->become);
-    return false;
-}
-
-bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
-    bool good = true;
-    for (uint32_t s = 0; s < machine->state_count; s++) {
-        char path[1024];
-        if (!machine->states[s].become)
-            continue;
-        int32_t index = jox_run_find_become(scene, machine, s, path, diagnostics)
-                            ? jox_run_machine(scene, path, diagnostics)
-                            : -1;
-        machine->states[s].become_machine = index;
-        good = good && index >= 0;
-    }
-    return good;
-}
-
-/* Shows the line of an error that is in a behaviour's file. */
-static void attach(const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diagnostics) {
-    for (uint32_t f = 0; f < count; f++) {
-        size_t length;
-        char *text = jox_read_file(files[f].path, 1 << 20, &length);
-        if (text)
-            jox_diag_attach_source(diagnostics, files[f].path, text, length);
-        jox_free(text);
-    }
-}
-
-bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxSceneSpec *spec = scene->spec;
-    JoxMachineRun *machines = &scene->world->machines;
-    bool good = true;
-    for (uint32_t g = 0; g < spec->group_count; g++)
-        for (uint32_t m = 0; m < spec->groups[g].mix_count; m++) {
-            const char *path = spec->groups[g].mix[m].behaviour;
-            bool failed_before = false;
-            for (uint32_t h = 0; h <= g; h++)
-                for (uint32_t k = 0; k < (h == g ? m : spec->groups[h].mix_count); k++)
-                    failed_before |= !strcmp(spec->groups[h].mix[k].behaviour, path);
-            if (failed_before || jox_run_machine(scene, path, diagnostics) >= 0)
-                continue;
-            good = false;
-        }
-    for (uint32_t m = 0; m < machines->set->count; m++) /* grows while it goes on */
-        good &= jox_run_link(scene, machines->set->built[m], diagnostics);
-    for (uint32_t m = 0; good && m < machines->set->count; m++) {
-        const JoxMachine *machine = machines->set->built[m];
-        const size_t before = diagnostics->count;
-        uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
-        jox_run_check_belongings(scene, machine, files, count,
-                                 (const JoxMachine *const *)machines->set->built,
-                                 machines->set->count, diagnostics);
-        if (diagnostics->count > before)
-            attach(files, count, diagnostics);
-    }
-    return good && diagnostics->errors == 0;
-}
+#include "run/scene_machines.h"
+#include "run/tally_scores.h"
+#include "run/wall_checks.h"
 
 static bool is_signalled(const JoxMachineRun *machines, const char *text) {
     for (uint32_t m = 0; m < machines->set->count; m++) {
@@ -259,7 +141,7 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
             slot->name, machine->name);
     }
     if (diagnostics->count > before)
-        attach(files, count, diagnostics);
+        jox_run_attach_sources(files, count, diagnostics);
 }
 
 /* Where a state or memory of others is named first. */
@@ -345,7 +227,7 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
                               "no machine of the scene makes memory '%s' public", name->text);
         }
         if (diagnostics->count > before)
-            attach(files, count, diagnostics);
+            jox_run_attach_sources(files, count, diagnostics);
     }
     jox_run_check_tally(scene, diagnostics);
 }
@@ -376,91 +258,4 @@ void jox_run_check_use(const JoScene *scene, const JoxMod *mod, JoxDiagnostics *
         jox_diag_warn(diagnostics, folder, "unused-mod",
                       "Files in its patches/ change scenes and behaviours",
                       "mod %s changes nothing of this scene: it has no patches", mod->name);
-}
-
-/* ---- what is measured of those whom it does not suit ---- */
-
-static const char WAY_OUT[] =
-    "Where capacities matter: walker.lua, or time_gap = crowd.time_gap in the behaviour's defaults";
-
-/* The first probe whose figures are those of a flow. */
-static const JoxProbeDef *flow_of(const JoxSceneSpec *spec) {
-    for (uint32_t p = 0; p < spec->probe_count; p++)
-        if (spec->probes[p].kind == JOX_PROBE_FLOW || spec->probes[p].kind == JOX_PROBE_MEASURE)
-            return &spec->probes[p];
-    return NULL;
-}
-
-static bool goes_somewhere(const JoxState *state) {
-    for (uint32_t t = 0; t < state->steer_count; t++)
-        switch (state->steer[t].kind) {
-        case JOX_STEER_SEEK:
-        case JOX_STEER_ORBIT:
-        case JOX_STEER_QUEUE:
-        case JOX_STEER_FOLLOW:
-        case JOX_STEER_FORMATION:
-        case JOX_STEER_GATHER:
-        case JOX_STEER_WANDER:
-        case JOX_STEER_DRIFT:
-        case JOX_STEER_ALONG:
-        case JOX_STEER_FIELD:
-            return true;
-        default:
-            break;
-        }
-    return false;
-}
-
-/* Whether who is in the state may keep a time gap, which makes them walk by the walking law. */
-static bool keeps_time_gap(const JoxMachine *machine, const JoxState *state) {
-    const JoxValue *gap = &state->param[JOX_PARAM_time_gap];
-    if (gap->kind == JOX_VALUE_UNSET)
-        gap = &machine->defaults[JOX_PARAM_time_gap];
-    if (gap->kind == JOX_VALUE_OWN) {
-        const JoxDist *dist = &machine->own[gap->index].dist;
-        return dist->kind != JOX_DIST_CONSTANT || dist->a > 0.0;
-    }
-    return gap->kind == JOX_VALUE_EXPRESSION || gap->number > 0.0;
-}
-
-static bool is_given(const JoxGroup *group) {
-    for (uint32_t s = 0; s < group->set_count; s++)
-        if (strcmp(group->set[s].name, jox_parameters[JOX_PARAM_time_gap].name) == 0)
-            return true;
-    return false;
-}
-
-static const JoxMachine *machine_of(const JoScene *scene, const JoxGroupMix *mix) {
-    const JoxMachineSet *set = scene->world->machines.set;
-    for (uint32_t m = 0; m < set->count; m++)
-        if (strcmp(set->items[m]->path, mix->behaviour) == 0)
-            return set->items[m];
-    return NULL;
-}
-
-static const JoxState *by_orca(const JoxMachine *machine) {
-    for (uint32_t s = 0; machine && s < machine->state_count; s++)
-        if (goes_somewhere(&machine->states[s]) && !keeps_time_gap(machine, &machine->states[s]))
-            return &machine->states[s];
-    return NULL;
-}
-
-bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxProbeDef *probe = flow_of(scene->spec);
-    for (uint32_t g = 0; probe && g < scene->spec->group_count; g++) {
-        const JoxGroup *group = &scene->spec->groups[g];
-        for (uint32_t m = 0; m < group->mix_count && !is_given(group); m++) {
-            const JoxMachine *machine = machine_of(scene, &group->mix[m]);
-            const JoxState *state = by_orca(machine);
-            if (!state)
-                continue;
-            jox_diag_add(diagnostics, JOX_SEVERITY_NOTE, group->mix[m].position, "orca-flow",
-                         WAY_OUT, NULL, NULL,
-                         "probe '%.60s' measures a flow, and in state %.60s of %.60s the people of "
-                         "group '%.60s' choose velocities by ORCA, which is not fit for capacities",
-                         probe->name, state->name, machine->name, group->name);
-            return true;
-        }
-    }
-    return false;
 }

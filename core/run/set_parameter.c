@@ -2,7 +2,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "run/reload.h"
 #include "run/run.h"
+#include "run/set_parameter.h"
 
 enum { MOST_NAMES = 256 };
 

@@ -10,7 +10,8 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "run/reload_parts.h"
+#include "run/input_log.h"
+#include "run/reload_batch.h"
 #include "task/thread.h"
 
 enum { MEMORY_ROOM = 8 }; /* slots that a new version may add without a copy of all */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "run/read_scene.h"
 #include "run/run.h"
 
 static bool has_all(const char *const *texts, size_t count) {

@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "run/run.h"
+#include "run/tags_and_teams.h"
 
 /* Text in memory by which a resumed run gets them. */
 const char jox_run_names_path[] = "<tags and teams>";

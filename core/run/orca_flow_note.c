@@ -1,0 +1,91 @@
+/* Looks for groups that walk by ORCA in scenes whose probes measure flow. `jostle check` and
+   reports add the note. */
+#include <string.h>
+
+#include "run/orca_flow_note.h"
+#include "run/run.h"
+
+static const char WAY_OUT[] =
+    "Where capacities matter: walker.lua, or time_gap = crowd.time_gap in the behaviour's defaults";
+
+/* The first probe whose figures are those of a flow. */
+static const JoxProbeDef *flow_of(const JoxSceneSpec *spec) {
+    for (uint32_t p = 0; p < spec->probe_count; p++)
+        if (spec->probes[p].kind == JOX_PROBE_FLOW || spec->probes[p].kind == JOX_PROBE_MEASURE)
+            return &spec->probes[p];
+    return NULL;
+}
+
+static bool goes_somewhere(const JoxState *state) {
+    for (uint32_t t = 0; t < state->steer_count; t++)
+        switch (state->steer[t].kind) {
+        case JOX_STEER_SEEK:
+        case JOX_STEER_ORBIT:
+        case JOX_STEER_QUEUE:
+        case JOX_STEER_FOLLOW:
+        case JOX_STEER_FORMATION:
+        case JOX_STEER_GATHER:
+        case JOX_STEER_WANDER:
+        case JOX_STEER_DRIFT:
+        case JOX_STEER_ALONG:
+        case JOX_STEER_FIELD:
+            return true;
+        default:
+            break;
+        }
+    return false;
+}
+
+/* Whether who is in the state may keep a time gap, which makes them walk by the walking law. */
+static bool keeps_time_gap(const JoxMachine *machine, const JoxState *state) {
+    const JoxValue *gap = &state->param[JOX_PARAM_time_gap];
+    if (gap->kind == JOX_VALUE_UNSET)
+        gap = &machine->defaults[JOX_PARAM_time_gap];
+    if (gap->kind == JOX_VALUE_OWN) {
+        const JoxDist *dist = &machine->own[gap->index].dist;
+        return dist->kind != JOX_DIST_CONSTANT || dist->a > 0.0;
+    }
+    return gap->kind == JOX_VALUE_EXPRESSION || gap->number > 0.0;
+}
+
+static bool is_given(const JoxGroup *group) {
+    for (uint32_t s = 0; s < group->set_count; s++)
+        if (strcmp(group->set[s].name, jox_parameters[JOX_PARAM_time_gap].name) == 0)
+            return true;
+    return false;
+}
+
+static const JoxMachine *machine_of(const JoScene *scene, const JoxGroupMix *mix) {
+    const JoxMachineSet *set = scene->world->machines.set;
+    for (uint32_t m = 0; m < set->count; m++)
+        if (strcmp(set->items[m]->path, mix->behaviour) == 0)
+            return set->items[m];
+    return NULL;
+}
+
+static const JoxState *by_orca(const JoxMachine *machine) {
+    for (uint32_t s = 0; machine && s < machine->state_count; s++)
+        if (goes_somewhere(&machine->states[s]) && !keeps_time_gap(machine, &machine->states[s]))
+            return &machine->states[s];
+    return NULL;
+}
+
+bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxProbeDef *probe = flow_of(scene->spec);
+    for (uint32_t g = 0; probe && g < scene->spec->group_count; g++) {
+        const JoxGroup *group = &scene->spec->groups[g];
+        for (uint32_t m = 0; m < group->mix_count && !is_given(group); m++) {
+            const JoxMachine *machine = machine_of(scene, &group->mix[m]);
+            const JoxState *state = by_orca(machine);
+            if (!state)
+                continue;
+            jox_diag_add(diagnostics, JOX_SEVERITY_NOTE, group->mix[m].position, "orca-flow",
+                         WAY_OUT, NULL, NULL,
+                         "probe '%.60s' measures a flow, and in state %.60s of %.60s the people of "
+                         "group '%.60s' choose velocities by ORCA, which is not fit for capacities",
+                         probe->name, state->name, machine->name, group->name);
+            return true;
+        }
+    }
+    return false;
+}

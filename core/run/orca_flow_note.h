@@ -1,0 +1,12 @@
+/* Notes where a scene measures flow of people who walk by ORCA, which is not fit for capacities. */
+#ifndef JOX_RUN_ORCA_FLOW_NOTE_H
+#define JOX_RUN_ORCA_FLOW_NOTE_H
+
+#include "base/format/diag.h"
+#include "jostle.h"
+
+/* Adds a note if a probe measures flow and a group walks by ORCA in place of the walking law, for
+   the first such group. False: there is none. */
+bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics);
+
+#endif

@@ -1,0 +1,10 @@
+/* Troubles of a run in one sentence. */
+#ifndef JOX_RUN_RESULTS_TELL_H
+#define JOX_RUN_RESULTS_TELL_H
+
+#include "jostle.h"
+
+/* Returns what jo_scene_troubles tells, in one sentence; NULL: nothing. Freed by jox_free. */
+char *jox_run_troubles(const JoScene *scene);
+
+#endif

@@ -1,0 +1,130 @@
+/* Loads the machines of a scene's groups, and links each state that becomes another machine to it.
+   load_scene.c calls it; reload_swap.c links again after a swap. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/format/path.h"
+#include "base/mem.h"
+#include "base/overlay.h"
+#include "run/run.h"
+#include "run/scene_machines.h"
+#include "run/tags_and_teams.h"
+
+static int32_t find_machine(const JoxMachineRun *machines, const char *path) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (strcmp(machines->set->items[m]->path, path) == 0)
+            return (int32_t)m;
+    return -1;
+}
+
+const char *jox_run_made(const JoxSceneSpec *spec, const char *path) {
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        for (uint32_t m = 0; m < spec->groups[g].mix_count; m++)
+            if (spec->groups[g].mix[m].text && !strcmp(spec->groups[g].mix[m].behaviour, path))
+                return spec->groups[g].mix[m].text;
+    return NULL;
+}
+
+static int32_t load_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
+    JoxMachineRun *machines = &scene->world->machines;
+    int32_t known = find_machine(machines, path);
+    if (known >= 0)
+        return known;
+    if (machines->set->count == JOX_MOST_MACHINES) {
+        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "too-many", NULL,
+                       "a scene has at most %d behaviours", JOX_MOST_MACHINES);
+        return -1;
+    }
+    const char *made = jox_run_made(scene->spec, path);
+    JoxMachine *machine = jox_lua_load_text(scene->lua, path, made, made ? strlen(made) : 0,
+                                            &scene->scope, diagnostics);
+    if (!machine)
+        return -1;
+    jox_run_number_belongings(scene, machine);
+    jox_run_take_kept(machine);
+    return (int32_t)jox_machines_add(machines, machine);
+}
+
+/* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
+static bool find_behaviour(const JoScene *scene, const char *from, const char *name,
+                           char path[1024]) {
+    static const char *const FOLDERS[] = {"", JOX_DATADIR "/behaviours/", NULL};
+    return jox_mod_find(scene->mods->items, scene->mods->count, name, path) ||
+           jox_path_find(from, name, ".lua", FOLDERS, path);
+}
+
+bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,
+                         char path[1024], JoxDiagnostics *diagnostics) {
+    const JoxState *state = &machine->states[number];
+    JoxPosition at = {state->become_file, state->become_line, state->become_column, 0};
+    if (number == machine->start) {
+        jox_diag_error(diagnostics, at, "bad-value", "Begin in another state",
+                       "the state that agents start in cannot become another machine at once");
+        return false;
+    }
+    if (!strstr(state->become, "..") && *state->become != '/' &&
+        find_behaviour(scene, machine->path, state->become, path)) {
+        jox_path_clean(path);
+        return true;
+    }
+    jox_diag_error(diagnostics, at, "missing-file",
+                   "A plain name: of a file beside this one, or of the library",
+                   "there is no behaviour '%.100s' to become", state->become);
+    return false;
+}
+
+bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
+    bool good = true;
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        char path[1024];
+        if (!machine->states[s].become)
+            continue;
+        int32_t index = jox_run_find_become(scene, machine, s, path, diagnostics)
+                            ? load_machine(scene, path, diagnostics)
+                            : -1;
+        machine->states[s].become_machine = index;
+        good = good && index >= 0;
+    }
+    return good;
+}
+
+void jox_run_attach_sources(const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diagnostics) {
+    for (uint32_t f = 0; f < count; f++) {
+        size_t length;
+        char *text = jox_read_file(files[f].path, 1 << 20, &length);
+        if (text)
+            jox_diag_attach_source(diagnostics, files[f].path, text, length);
+        jox_free(text);
+    }
+}
+
+bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxSceneSpec *spec = scene->spec;
+    JoxMachineRun *machines = &scene->world->machines;
+    bool good = true;
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        for (uint32_t m = 0; m < spec->groups[g].mix_count; m++) {
+            const char *path = spec->groups[g].mix[m].behaviour;
+            bool failed_before = false;
+            for (uint32_t h = 0; h <= g; h++)
+                for (uint32_t k = 0; k < (h == g ? m : spec->groups[h].mix_count); k++)
+                    failed_before |= !strcmp(spec->groups[h].mix[k].behaviour, path);
+            if (failed_before || load_machine(scene, path, diagnostics) >= 0)
+                continue;
+            good = false;
+        }
+    for (uint32_t m = 0; m < machines->set->count; m++) /* grows while it goes on */
+        good &= jox_run_link(scene, machines->set->built[m], diagnostics);
+    for (uint32_t m = 0; good && m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->built[m];
+        const size_t before = diagnostics->count;
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
+        jox_run_check_belongings(scene, machine, files, count,
+                                 (const JoxMachine *const *)machines->set->built,
+                                 machines->set->count, diagnostics);
+        if (diagnostics->count > before)
+            jox_run_attach_sources(files, count, diagnostics);
+    }
+    return good && diagnostics->errors == 0;
+}
