@@ -2,8 +2,6 @@
  */
 #include <math.h>
 
-#include "run/read_scene.h"
-#include "run/reload.h"
 #include "unit/scene_loader.h"
 
 #define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"

@@ -5,8 +5,6 @@
 #include "base/number/random.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
-#include "run/read_scene.h"
-#include "run/reload.h"
 #include "unit/gate_ball_scene.h"
 
 enum { SCENES = 500, MOST_PEOPLE = 512, MOST_RINGS = 256 };

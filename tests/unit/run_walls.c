@@ -3,8 +3,6 @@
 #include <math.h>
 
 #include "geom/wall_way.h"
-#include "run/read_scene.h"
-#include "run/reload.h"
 #include "unit/gate_ball_scene.h"
 
 #define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"

@@ -5,6 +5,8 @@
 
 #include "base/mem.h"
 #include "messages.h"
+#include "run/read_scene.h"
+#include "run/reload.h"
 #include "run/run.h"
 #include "run/scene_machines.h"
 #include "unit/test_folder.h"
