@@ -39,8 +39,8 @@ typedef struct JoxForceStep {
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
     const JoxWallGrid *walls; /* grid that jox_nav_touching_walls returns; NULL: no walls */
-    const float *clear2; /* m2, until agents move: no wall hides neighbours nearer than this; NULL:
-                            unknown */
+    const float *unhidden2;   /* m2, until agents move: no wall hides neighbours nearer than this;
+                                 NULL: unknown */
     JoxPool *pool;
     double time; /* s: simulated time at the start of the step */
     uint64_t seed;

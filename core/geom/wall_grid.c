@@ -168,7 +168,7 @@ bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
     return false;
 }
 
-float jox_wall_grid_clear2(const JoxWallGrid *g, JoxV2 from) {
+float jox_wall_grid_unhidden_distance2(const JoxWallGrid *g, JoxV2 from) {
     const float SLACK = 1e-5f; /* relative to coordinates: exceeds the rounding of sides */
     const float size = fabsf(from.x) + fabsf(from.y);
     uint32_t count;

@@ -40,20 +40,21 @@ static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point
 /* Returns whether an edge within the grid's reach of `from` separates it from `to`: agents do not
    touch through walls. Points on an edge are separated from points beyond it. */
 bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
-/* Returns a squared distance, m2: no wall separates a point from others nearer than its root, since
-   these are on the same side of the lines through all edges within the grid's reach. INFINITY
-   without such edges. */
-float jox_wall_grid_clear2(const JoxWallGrid *grid, JoxV2 from);
-/* Returns whether all edges are farther than `reach` m from agent `of`. `clear2`:
-   jox_wall_grid_clear2 by agent; NULL: unknown. The grid's reach must be at least `reach`. */
-static inline bool jox_wall_grid_is_clear(const float *clear2, uint32_t of, float reach) {
-    return clear2 && reach * reach < clear2[of];
+/* Returns the square, m2, of the distance from `from` within which no wall hides anything: all
+   points there are on the same side of the lines through all edges within the grid's reach.
+   INFINITY without such edges. */
+float jox_wall_grid_unhidden_distance2(const JoxWallGrid *grid, JoxV2 from);
+/* Returns whether all edges are farther than `reach` m from agent `of`. `unhidden2`:
+   jox_wall_grid_unhidden_distance2 by agent; NULL: unknown. The grid's reach must be at least
+   `reach`. */
+static inline bool jox_wall_grid_is_clear(const float *unhidden2, uint32_t of, float reach) {
+    return unhidden2 && reach * reach < unhidden2[of];
 }
-/* Kernel: jox_wall_grid_clear2 of many points, with the same bits. Reads and writes whole
-   packets. */
-typedef void JoxWallClearKernel(const JoxWallGrid *grid, const float *x, const float *y,
-                                uint32_t count, float *clear2);
-#define X(name, isa) JoxWallClearKernel jox_wall_clear_##name;
+/* Kernel: jox_wall_grid_unhidden_distance2 of many points, with the same bits. Reads and writes
+   whole packets. */
+typedef void JoxWallUnhiddenKernel(const JoxWallGrid *grid, const float *x, const float *y,
+                                   uint32_t count, float *unhidden2);
+#define X(name, isa) JoxWallUnhiddenKernel jox_wall_unhidden_##name;
 JOX_ISAS(X)
 #undef X
 /* Returns whether the segments p -> q and a -> b cross; an end on the other segment counts as on

@@ -27,9 +27,9 @@ static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats p
 }
 
 /* Does jox_wall_grid_is_clear for a packet of agents from `first` on, with a reach, m, for each. */
-static inline JoxMask jox_wall_grid_clear_lanes(const float *clear2, uint32_t first,
+static inline JoxMask jox_wall_grid_clear_lanes(const float *unhidden2, uint32_t first,
                                                 JoxFloats reach) {
-    return clear2 ? jf_lt(reach * reach, jf_load(clear2 + first)) : jm_of_bits(0);
+    return unhidden2 ? jf_lt(reach * reach, jf_load(unhidden2 + first)) : jm_of_bits(0);
 }
 
 #endif

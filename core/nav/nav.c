@@ -11,7 +11,7 @@ static const float MOST_WALL_REACH = 1e4f;
 JoxNav *jox_nav_create(const JoxWalkLaw *walk) {
     JoxNav *nav = jox_alloc(1, sizeof *nav);
     nav->walk = walk;
-    nav->clear_reach = -1.0f;
+    nav->unhidden_reach = -1.0f;
     nav->isa = jox_isa_resolve(JO_ISA_WIDEST);
     nav->memory = &nav->own_memory;
     return nav;
@@ -34,7 +34,7 @@ void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     jox_wall_grid_free(&nav->grid);
     jox_spots_free(&nav->spots);
     nav->grid.walls = walls;
-    nav->clear_reach = -1.0f;
+    nav->unhidden_reach = -1.0f;
 }
 
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
@@ -50,8 +50,8 @@ const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neig
     return &nav->grid;
 }
 
-const float *jox_nav_clear2(const JoxNav *nav) {
-    return nav->clear_reach == nav->grid.reach ? nav->clear2 : NULL;
+const float *jox_nav_unhidden2(const JoxNav *nav) {
+    return nav->unhidden_reach == nav->grid.reach ? nav->unhidden2 : NULL;
 }
 
 void jox_nav_sections(JoxNav *nav, JoxSections *s) {
@@ -81,7 +81,7 @@ void jox_nav_free(JoxNav *nav) {
     jox_free(nav->chunk_relaxed);
     jox_free(nav->headings);
     jox_free(nav->chunk_reach);
-    jox_free(nav->clear2);
+    jox_free(nav->unhidden2);
     jox_free(nav->gap_draws);
     jox_stage_memory_free(&nav->own_memory);
     jox_free(nav);
@@ -95,5 +95,5 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
     nav->headings = jox_realloc(nav->headings, n, sizeof(JoxHeading));
     nav->chunk_reach = jox_realloc(nav->chunk_reach, n / JOX_NAV_GRAIN + 1, sizeof(float));
-    nav->clear2 = jox_realloc(nav->clear2, n + JOX_LANES, sizeof(float));
+    nav->unhidden2 = jox_realloc(nav->unhidden2, n + JOX_LANES, sizeof(float));
 }

@@ -48,9 +48,9 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
    walls. */
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
                                           const JoxAgents *agents, float passing);
-/* Returns jox_wall_grid_clear2 of each agent by that grid, m2, if it is known since prefer; else
-   NULL. */
-const float *jox_nav_clear2(const JoxNav *nav);
+/* Returns jox_wall_grid_unhidden_distance2 of each agent by that grid, m2, if it is known since
+   prefer; else NULL. */
+const float *jox_nav_unhidden2(const JoxNav *nav);
 /* End of prefer: writes the aims of all agents; of those that keep a time gap and plan in this
    step, also walk (the velocity that the walking law wants among others and walls), eagerness and
    course. `time`: simulated, s; `interval`: since the last plan, s. */

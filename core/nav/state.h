@@ -68,10 +68,11 @@ struct JoxNav {
     uint32_t capacity;
     JoxDrift *chunk_drift; /* per chunk of move, within a step */
     uint32_t *chunk_relaxed;
-    JoxHeading *headings;   /* filled by walk, and read by solve where agents walk by the law */
-    float *chunk_reach;     /* m: per chunk of walk; below 0 without walkers */
-    float *clear2;          /* m2: jox_wall_grid_clear2 of each agent, filled by walk or by solve */
-    float clear_reach;      /* m: reach of the wall grid when clear2 was filled; -1: it was not */
+    JoxHeading *headings; /* filled by walk, and read by solve where agents walk by the law */
+    float *chunk_reach;   /* m: per chunk of walk; below 0 without walkers */
+    float *unhidden2; /* m2: jox_wall_grid_unhidden_distance2 of each agent, filled by walk or by
+                         solve */
+    float unhidden_reach; /* m: reach of the wall grid when unhidden2 was filled; -1: it was not */
     JoxGapDraws *gap_draws; /* draws of walk, for gap_room agents, gap_stream and gap_knots */
     uint32_t gap_room;
     uint64_t gap_stream, gap_knots[2];

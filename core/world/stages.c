@@ -62,7 +62,7 @@ void jox_stage_push(const JoxPushStage *s) {
                          .objects = s->objects,
                          .walls = jox_nav_touching_walls(s->nav, s->neighbours, s->agents,
                                                          jox_force_passing_reach(s->forces_of)),
-                         .clear2 = jox_nav_clear2(s->nav),
+                         .unhidden2 = jox_nav_unhidden2(s->nav),
                          .pool = s->pool,
                          .dt = s->substep->dt,
                          .time = s->substep->end - s->substep->dt,

@@ -1,5 +1,5 @@
-/* Tests jox_wall_grid_clear2: no point within its distance is separated by a wall, and every
-   instruction set gives the same result. */
+/* Tests jox_wall_grid_unhidden_distance2: no point within its distance is separated by a wall, and
+   every instruction set gives the same result. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,8 +13,8 @@
 
 enum { WALLS = 12, POINTS = 603, ROUNDS = 40, AIMS = 24 };
 
-#define X(name, isa) [isa] = jox_wall_clear_##name,
-static JoxWallClearKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#define X(name, isa) [isa] = jox_wall_unhidden_##name,
+static JoxWallUnhiddenKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 static float draw_in_range(uint32_t round, uint32_t *drawn, double least, double most) {
@@ -38,14 +38,14 @@ static void make_random_walls(JoxWalls *walls, uint32_t round, uint32_t *drawn, 
 }
 
 static uint32_t expect_no_nearer_separation(const JoxWallGrid *g, uint32_t round, uint32_t *drawn,
-                                            JoxV2 from, float clear2) {
+                                            JoxV2 from, float unhidden2) {
     uint32_t beyond = 0;
-    for (uint32_t k = 0; k < AIMS && clear2 < INFINITY; k++) {
-        const float angle = draw_in_range(round, drawn, 0, 6.2831853), length = sqrtf(clear2);
+    for (uint32_t k = 0; k < AIMS && unhidden2 < INFINITY; k++) {
+        const float angle = draw_in_range(round, drawn, 0, 6.2831853), length = sqrtf(unhidden2);
         const JoxV2 way = {length * cosf(angle), length * sinf(angle)};
         for (float share = 0.9999f; share > 0.0f; share -= 0.3333f) {
             const JoxV2 offset = jox_scale(way, share);
-            if (jox_length2(offset) < clear2)
+            if (jox_length2(offset) < unhidden2)
                 assert_false(jox_wall_grid_separates(g, from, jox_add(from, offset)));
         }
         beyond += jox_wall_grid_separates(g, from, jox_add(from, jox_scale(way, 1.5f)));
@@ -61,7 +61,7 @@ static void points_within_clear_distance_are_not_separated(void **state) {
         JoxWalls walls = {0};
         JoxWallGrid grid = {.walls = &walls};
         uint32_t drawn = 0;
-        float x[POINTS + 16] = {0}, y[POINTS + 16] = {0}, clear2[POINTS + 16];
+        float x[POINTS + 16] = {0}, y[POINTS + 16] = {0}, unhidden2[POINTS + 16];
         make_random_walls(&walls, round, &drawn, far);
         if (round != 7) /* without a grid: no walls */
             jox_wall_grid_fit(&grid, 1.5f);
@@ -72,16 +72,17 @@ static void points_within_clear_distance_are_not_separated(void **state) {
                 x[i] = walls.vertices[i % walls.count].point.x;
                 y[i] = walls.vertices[i % walls.count].point.y;
             }
-            const float own = jox_wall_grid_clear2(&grid, (JoxV2){x[i], y[i]});
+            const float own = jox_wall_grid_unhidden_distance2(&grid, (JoxV2){x[i], y[i]});
             clear += own > 0.01f && own < INFINITY;
             beyond += expect_no_nearer_separation(&grid, round, &drawn, (JoxV2){x[i], y[i]}, own);
         }
         for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
             if (!jox_isa_runs(isa))
                 continue;
-            KERNELS[isa](&grid, x, y, POINTS, clear2);
+            KERNELS[isa](&grid, x, y, POINTS, unhidden2);
             for (uint32_t i = 0; i < POINTS; i++)
-                assert_true(clear2[i] == jox_wall_grid_clear2(&grid, (JoxV2){x[i], y[i]}));
+                assert_true(unhidden2[i] ==
+                            jox_wall_grid_unhidden_distance2(&grid, (JoxV2){x[i], y[i]}));
         }
         jox_wall_grid_free(&grid);
         jox_walls_free(&walls);

@@ -86,7 +86,8 @@ static void find_packet(JoxFindPacket *p) {
         const JoxFloats reach = jf_load(a->breadth + p->first) + touch;
         p->walls = jm_bits(jox_wall_grid_near_lanes(f->step.walls, jf_load(a->x + p->first),
                                                     jf_load(a->y + p->first)));
-        p->walled = p->walls & ~jm_bits(jox_wall_grid_clear_lanes(f->step.clear2, p->first, reach));
+        p->walled =
+            p->walls & ~jm_bits(jox_wall_grid_clear_lanes(f->step.unhidden2, p->first, reach));
     }
     ji_store(p->count, ji_set(0));
     if (seen)

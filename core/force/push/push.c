@@ -54,9 +54,9 @@ static uint32_t list_reachable(const JoxForces *f, uint32_t i, JoxV2 aim, uint32
    edge, at `offset`. */
 static bool is_target_hidden(const JoxForces *f, uint32_t i, uint32_t other, JoxV2 offset) {
     const JoxAgents *a = f->step.agents;
-    const float *clear2 = f->step.clear2, d2 = jox_length2(offset);
+    const float *unhidden2 = f->step.unhidden2, d2 = jox_length2(offset);
     const bool images = a->period.x > 0.0f || a->period.y > 0.0f;
-    if (!f->step.walls || (clear2 && !images && d2 < clear2[i] && d2 < clear2[other]))
+    if (!f->step.walls || (unhidden2 && !images && d2 < unhidden2[i] && d2 < unhidden2[other]))
         return false;
     const JoxV2 centre = {a->x[i], a->y[i]};
     return jox_force_is_walled_off(f, centre, jox_add(centre, offset));

@@ -128,7 +128,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                     .neighbours = neighbours,
                     .objects = objects,
                     .touched = touched && touched->agents ? touched : NULL,
-                    .clear2 = jox_nav_clear2(nav),
+                    .unhidden2 = jox_nav_unhidden2(nav),
                     .served = jox_minf(nav->grid.reach, jox_wall_images_reach(agents->period)),
                     .dt = (float)dt,
                     .response = (float)response,
@@ -145,7 +145,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
         move.from = !move.from;
     }
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle_range, &move);
-    nav->clear_reach = -1.0f;
+    nav->unhidden_reach = -1.0f;
     add_step_drift(nav, agents->count);
     jox_nav_place_strays(nav, agents);
 }

@@ -12,7 +12,7 @@ typedef struct JoxMove {
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
     const JoxContactPlanes *touched; /* NULL: contacts were not searched for */
-    const float *clear2;             /* m2, at the agents' old positions; NULL: unknown */
+    const float *unhidden2;          /* m2, at the agents' old positions; NULL: unknown */
     float served;                    /* m: walls are known as far as this from the old positions */
     float dt;                        /* s */
     float response, on_the_way;      /* shares of the way to the planned velocity: at the end of the

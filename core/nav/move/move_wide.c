@@ -56,7 +56,7 @@ static inline uint32_t find_near_walls(const JoxMove *m, uint32_t first, JoxVect
     const JoxFloats reach = jf_sqrt(way2) + jf_load(m->agents->breadth + first);
     const JoxMask far = jf_lt(served * served, way2);
     const JoxMask clear =
-        jm_and(jf_le(reach, served), jox_wall_grid_clear_lanes(m->clear2, first, reach));
+        jm_and(jf_le(reach, served), jox_wall_grid_clear_lanes(m->unhidden2, first, reach));
     if (jm_bits(clear) == JOX_ALL_LANES)
         return 0;
     const JoxMask near = jm_without(jox_wall_grid_near_lanes(grid, from.x, from.y), clear);

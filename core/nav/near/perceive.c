@@ -32,7 +32,7 @@ float jox_nav_sight(const JoxAgents *a) {
 
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {
     reserve_neighbours(out, agents);
-    nav->clear_reach = -1.0f;
+    nav->unhidden_reach = -1.0f;
     JoxPerceive perceive = {nav, agents, out, jox_nav_sight(agents)};
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, perceive_range, &perceive);
     JOX_CHECK(jox_neighbours_check(out, agents));

@@ -41,7 +41,7 @@ static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
    neither avoids the other. */
 static bool is_hidden_by_wall(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) {
     const float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST, d2 = jox_length2(offset);
-    if (!s->touched || d2 > near * near || (s->clear2 && d2 < s->clear2[i]))
+    if (!s->touched || d2 > near * near || (s->unhidden2 && d2 < s->unhidden2[i]))
         return false;
     return jox_nav_is_behind_wall(s->nav, (JoxV2){s->agents->x[i], s->agents->y[i]}, offset);
 }
@@ -112,7 +112,7 @@ uint32_t jox_solve_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
     const float tau = jox_param(a, JOX_PARAM_wall_horizon, i), radius = a->breadth[i];
     const float range = tau * jox_param(a, JOX_PARAM_max_speed, i) + radius;
-    if (!s->nav->grid.first || jox_wall_grid_is_clear(s->clear2, i, range))
+    if (!s->nav->grid.first || jox_wall_grid_is_clear(s->unhidden2, i, range))
         return 0;
     return jox_orca_walls(&s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]},
                           radius, tau, range, out, JOX_MOST_WALLS);

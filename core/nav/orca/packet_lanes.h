@@ -94,7 +94,7 @@ static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, cons
     const JoxFloats d2 = q->x * q->x + q->y * q->y;
     const JoxFloats near = q->radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     const JoxMask far = jf_lt(near * near, d2);
-    return ~jm_bits(s->clear2 ? jm_or(far, jf_lt(d2, jf_load(s->clear2 + first))) : far);
+    return ~jm_bits(s->unhidden2 ? jm_or(far, jf_lt(d2, jf_load(s->unhidden2 + first))) : far);
 }
 
 /* Returns those of `lanes` that avoid their neighbour, whose indices are given. `scalar_tested`:

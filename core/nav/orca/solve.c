@@ -12,10 +12,10 @@
 #include "nav/orca/wish_lanes.h"
 #include "simd/four.h"
 
-#define X(name, isa) [isa] = {jox_solve_packets_##name, jox_wall_clear_##name},
+#define X(name, isa) [isa] = {jox_solve_packets_##name, jox_wall_unhidden_##name},
 static const struct Kernels {
     JoxSolveKernel *solve;
-    JoxWallClearKernel *clear;
+    JoxWallUnhiddenKernel *unhidden;
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
@@ -65,9 +65,9 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const JoxSolve *s = context;
     const JoxAgents *a = s->agents;
-    if (s->clear2 && s->nav->clear_reach != s->nav->grid.reach)
-        KERNELS[s->nav->isa].clear(&s->nav->grid, a->x + begin, a->y + begin, end - begin,
-                                   s->clear2 + begin);
+    if (s->unhidden2 && s->nav->unhidden_reach != s->nav->grid.reach)
+        KERNELS[s->nav->isa].unhidden(&s->nav->grid, a->x + begin, a->y + begin, end - begin,
+                                      s->unhidden2 + begin);
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa].solve(s, begin, end);
 }
 
@@ -110,15 +110,15 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
                       .touched = use_made_planes(touched),
                       .planning_time = (float)planning->planning_time,
                       .plans = planning->plans,
-                      .clear2 = nav->grid.walls ? nav->clear2 : NULL,
+                      .unhidden2 = nav->grid.walls ? nav->unhidden2 : NULL,
                       .stream = jox_random_stream(planning->seed),
                       .moment = pick_aside_moment(planning->time)};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, find_wall_reach(agents, solve.planning_time));
     JOX_CHECK(jox_motions_check(neighbours, agents));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
-    if (solve.clear2)
-        nav->clear_reach = nav->grid.reach;
+    if (solve.unhidden2)
+        nav->unhidden_reach = nav->grid.reach;
     uint32_t relaxed = 0;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
         relaxed += nav->chunk_relaxed[chunk];

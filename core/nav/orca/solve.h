@@ -29,7 +29,7 @@ typedef struct JoxSolve {
     const JoxContactPlanes *touched; /* NULL: contacts were not searched for */
     float planning_time;             /* s */
     bool plans;                      /* false: agents that want to get on keep their plans */
-    float *clear2; /* m2, nav's: no wall hides neighbours nearer than this; NULL: unknown */
+    float *unhidden2; /* m2, nav's: no wall hides neighbours nearer than this; NULL: unknown */
     uint64_t stream, moment; /* random stream, and moment of the draws for turning aside */
 } JoxSolve;
 

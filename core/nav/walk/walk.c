@@ -15,11 +15,12 @@
 static const float SIGHT = 1.5f; /* m: least distance within which walls hide agents */
 static const double KNOTS = 2.0; /* s between the knots of the random walk of a time gap */
 
-#define X(name, isa) [isa] = {jox_walk_aim_##name, jox_walk_packets_##name, jox_wall_clear_##name},
+#define X(name, isa)                                                                               \
+    [isa] = {jox_walk_aim_##name, jox_walk_packets_##name, jox_wall_unhidden_##name},
 static const struct Kernels {
     JoxAimKernel *aim;
     JoxWalkKernel *walk;
-    JoxWallClearKernel *clear;
+    JoxWallUnhiddenKernel *unhidden;
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
@@ -37,8 +38,8 @@ static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
     const JoxAgents *a = w->agents;
     jox_interleave(&w->nav->headings[begin], a->aim_x + begin, a->aim_y + begin, a->way + begin,
                    a->bound + begin, end - begin);
-    KERNELS[w->nav->isa].clear(&w->nav->grid, a->x + begin, a->y + begin, end - begin,
-                               w->nav->clear2 + begin);
+    KERNELS[w->nav->isa].unhidden(&w->nav->grid, a->x + begin, a->y + begin, end - begin,
+                                  w->nav->unhidden2 + begin);
 }
 
 static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -112,6 +113,6 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
     walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, head_range, &walk);
-    nav->clear_reach = nav->grid.reach;
+    nav->unhidden_reach = nav->grid.reach;
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, walk_range, &walk);
 }

@@ -40,7 +40,7 @@ typedef struct Packet {
     uint32_t ahead_count, crossing_count;
     JoxVector aim;
     JoxFloats speed, gap, eager, radius; /* wanted speed, m/s; time gap, s; eagerness; radius, m */
-    JoxFloats clear2;    /* m2: no wall hides neighbours within this squared distance */
+    JoxFloats unhidden2; /* m2: no wall hides neighbours within this squared distance */
     JoxFloats beside2;   /* weight of the squared lateral distance beside the way, minus 1 */
     JoxFloats per_time;  /* 1/s: speed per metre of room behind an agent ahead */
     JoxFloats per_cross; /* 1/s: speed per metre of free path */
@@ -122,7 +122,7 @@ static inline __attribute__((always_inline)) Minded find_minded(const Packet *p,
         JoxFloats heading[4];
         jf_records(&p->w->nav->headings[0].aim_x, others, heading);
         const JoxMindsLanes how = jox_minds_lanes(a, i, others, heading, offset);
-        const JoxMask hidden = jf_le(p->clear2, jv_dot(offset, offset));
+        const JoxMask hidden = jf_le(p->unhidden2, jv_dot(offset, offset));
         JoxMask minds = jm_and(there, jm_or(how.ahead, how.crossing));
         const uint32_t doubtful = jm_bits(minds) & (scalar_tested | jm_bits(hidden));
         if (doubtful)
@@ -471,13 +471,13 @@ static void begin_walk_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxMask wants = jm_of_bits(p->lanes);
     p->gap = jf_select(wants, jox_time_gaps(p->w, first, p->lanes, p->eager), one);
     p->speed = jf_select(wants, speed, one);
-    p->clear2 = jf_load(p->w->nav->clear2 + first);
-    p->near_walls = p->lanes & jm_bits(jf_lt(p->clear2, jf_set(INFINITY)));
+    p->unhidden2 = jf_load(p->w->nav->unhidden2 + first);
+    p->near_walls = p->lanes & jm_bits(jf_lt(p->unhidden2, jf_set(INFINITY)));
     const JoxFloats keep =
         (float)p->w->law->wall_radius * jox_param_lanes(a, JOX_PARAM_radius, first);
     const JoxFloats reach = keep + p->speed * (float)p->w->law->wall_time;
     p->at_walls =
-        p->near_walls & ~jm_bits(jox_wall_grid_clear_lanes(p->w->nav->clear2, first, reach));
+        p->near_walls & ~jm_bits(jox_wall_grid_clear_lanes(p->w->nav->unhidden2, first, reach));
     const JoxFloats foreseen = (float)law->ahead_share * p->gap;
     const JoxFloats flank = (float)law->flank / (one - (float)law->flank_eager * p->eager);
     p->beside2 = squared(flank) - one;
