@@ -20,8 +20,8 @@ void jox_chunks_grow(JoxChunkList *list, uint32_t chunks, size_t need) {
 bool jox_force_is_walled_off(const JoxForces *f, JoxV2 from, JoxV2 to) {
     /* Tests from either end, as the grid lists edges up to half of the distance only. */
     const JoxWallGrid *walls = f->step.walls;
-    return walls &&
-           (jox_wall_grid_separates(walls, from, to) || jox_wall_grid_separates(walls, to, from));
+    return walls && (jox_wall_grid_has_wall_between(walls, from, to) ||
+                     jox_wall_grid_has_wall_between(walls, to, from));
 }
 
 /* Removes the agents from `found` that a wall separates from agent i. Returns how many are left. */

@@ -133,8 +133,8 @@ static Piece gather_piece(const JoxEntrance *e, uint32_t from, bool *listed, uin
                                  y + 1 < e->rows ? cell + e->columns : cell};
         for (int n = 0; n < 4; n++) {
             if (listed[next[n]] || e->cells[next[n]] != JOX_FLOOR_BEYOND ||
-                jox_wall_grid_separates(e->grid, find_cell_middle(e, cell),
-                                        find_cell_middle(e, next[n])))
+                jox_wall_grid_has_wall_between(e->grid, find_cell_middle(e, cell),
+                                               find_cell_middle(e, next[n])))
                 continue;
             listed[next[n]] = true;
             list[first + piece.count++] = next[n];
@@ -271,7 +271,7 @@ bool jox_entrance_is_open(const JoxEntrance *e, JoxV2 p) {
                 continue;
             const uint32_t cell = (uint32_t)row * e->columns + (uint32_t)column;
             if (e->cells[cell] == JOX_FLOOR_OPEN &&
-                !jox_wall_grid_separates(e->grid, p, find_cell_middle(e, cell)))
+                !jox_wall_grid_has_wall_between(e->grid, p, find_cell_middle(e, cell)))
                 return true;
         }
     return false;

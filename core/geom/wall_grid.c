@@ -158,7 +158,7 @@ bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {
     return (p_side > 0.0f) != (q_side > 0.0f) && (a_side > 0.0f) != (b_side > 0.0f);
 }
 
-bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
+bool jox_wall_grid_has_wall_between(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(g, from, &count);
     for (uint32_t k = 0; k < count; k++)

@@ -39,7 +39,7 @@ static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point
 }
 /* Returns whether an edge within the grid's reach of `from` separates it from `to`: agents do not
    touch through walls. Points on an edge are separated from points beyond it. */
-bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
+bool jox_wall_grid_has_wall_between(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
 /* Returns the square, m2, of the distance from `from` within which no wall hides anything: all
    points there are on the same side of the lines through all edges within the grid's reach.
    INFINITY without such edges. */

@@ -91,7 +91,7 @@ void jox_nav_place_strays(JoxNav *nav, const JoxAgents *agents);
 /* Returns whether a wall stands between the point `at` and the point at `offset` from it, as far as
    the grid of walls reaches. */
 static inline bool jox_nav_is_behind_wall(const JoxNav *nav, JoxV2 at, JoxV2 offset) {
-    return nav->grid.first && jox_wall_grid_separates(&nav->grid, at, jox_add(at, offset));
+    return nav->grid.first && jox_wall_grid_has_wall_between(&nav->grid, at, jox_add(at, offset));
 }
 
 /* Grain of all loops over agents. It is fixed, so that chunks are the same for any number of

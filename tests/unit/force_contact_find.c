@@ -161,7 +161,7 @@ static bool find_plain_touch(JoxForces *f, uint32_t i, uint32_t other, bool wall
             return false;
     }
     JoxV2 at = {a->x[i], a->y[i]};
-    if (walls && jox_wall_grid_separates(f->step.walls, at, jox_sub(at, offset)))
+    if (walls && jox_wall_grid_has_wall_between(f->step.walls, at, jox_sub(at, offset)))
         return false;
     f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap < 0.0f;
     *out = make_plain_pair(f, i, other, jox_unit(offset), gap, squeeze);

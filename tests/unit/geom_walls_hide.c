@@ -46,9 +46,9 @@ static uint32_t expect_no_nearer_separation(const JoxWallGrid *g, uint32_t round
         for (float share = 0.9999f; share > 0.0f; share -= 0.3333f) {
             const JoxV2 offset = jox_scale(way, share);
             if (jox_length2(offset) < unhidden2)
-                assert_false(jox_wall_grid_separates(g, from, jox_add(from, offset)));
+                assert_false(jox_wall_grid_has_wall_between(g, from, jox_add(from, offset)));
         }
-        beyond += jox_wall_grid_separates(g, from, jox_add(from, jox_scale(way, 1.5f)));
+        beyond += jox_wall_grid_has_wall_between(g, from, jox_add(from, jox_scale(way, 1.5f)));
     }
     return beyond;
 }

@@ -21,7 +21,8 @@ static bool find_touch(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *t
     if (!(gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))
         return false;
     JoxV2 own = {a->x[i], a->y[i]};
-    if (at.gap > 0.0f && f->step.walls && jox_wall_grid_separates(f->step.walls, own, at.point))
+    if (at.gap > 0.0f && f->step.walls &&
+        jox_wall_grid_has_wall_between(f->step.walls, own, at.point))
         return false;
     JOX_ASSERT(jox_is_unit(at.normal));
     JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};

@@ -135,8 +135,8 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
         if (!(lanes >> lane & 1))
             continue;
         JoxV2 at = {a->x[i], a->y[i]};
-        if ((p->walls >> lane & 1) &&
-            jox_wall_grid_separates(f->step.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
+        if ((p->walls >> lane & 1) && jox_wall_grid_has_wall_between(
+                                          f->step.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
             continue;
         f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap[lane] < 0.0f;
         const JoxFoundPair pair = {.other = other[lane],
