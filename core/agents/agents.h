@@ -215,9 +215,9 @@ static inline bool jox_stands_pressed(const JoxAgents *agents, uint32_t i) {
 static inline bool jox_is_same_of_all(const void *cells, size_t size, uint32_t count) {
     return memcmp(cells, (const char *)cells + size, (count - 1) * size) == 0;
 }
-/* Returns whether agent i does not avoid agent j, because one of them approaches or holds the
-   other. Only contacts keep them apart. */
-static inline bool jox_is_close_to(const JoxAgents *agents, uint32_t i, uint32_t j) {
+/* Returns whether agent i approaches agent j, or one of them holds the other: then i does not avoid
+   j, and only contacts keep them apart. */
+static inline bool jox_approaches_or_holds(const JoxAgents *agents, uint32_t i, uint32_t j) {
     const uint32_t other = agents->id[j] + 1;
     return agents->approached[i] == other || agents->grasped[i] == other ||
            agents->grasped[j] == agents->id[i] + 1;

@@ -50,7 +50,7 @@ bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
     const JoxAgents *a = s->agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     return (a->tags[j] & a->ignore[i]) ||
-           (s->touched && (jox_is_close_to(a, i, j) || is_touched(s->touched, i, j))) ||
+           (s->touched && (jox_approaches_or_holds(a, i, j) || is_touched(s->touched, i, j))) ||
            is_hidden_by_wall(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
 }
 

@@ -92,7 +92,7 @@ static uint32_t find_passed_over(const Packet *p, uint32_t lanes, JoxInts others
     jv_store(x, y, 0, offset);
     for (; lanes; lanes &= lanes - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(lanes), i = p->first + lane;
-        if ((a->tags[index[lane]] & a->ignore[i]) || jox_is_close_to(a, i, index[lane]) ||
+        if ((a->tags[index[lane]] & a->ignore[i]) || jox_approaches_or_holds(a, i, index[lane]) ||
             ((p->near_walls >> lane & 1) &&
              jox_nav_is_behind_wall(p->w->nav, (JoxV2){a->x[i], a->y[i]},
                                     (JoxV2){x[lane], y[lane]})))
