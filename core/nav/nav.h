@@ -117,7 +117,7 @@ typedef struct JoxBirthWish {
     /* Place of the birth, within a box. An agent is shifted within it if it has room; one that
        `stays`, nowhere else. Places in the same step have different numbers from 1 on. NULL and 0:
        no place. */
-    bool (*holds)(const void *place, JoxV2 spot);
+    bool (*contains)(const void *place, JoxV2 spot);
     const void *place;
     JoxV2 low, high; /* m */
     uint32_t place_number;
@@ -136,12 +136,12 @@ static inline bool jox_birth_succeeds(JoxBirthSpot spot) {
 }
 /* Finds the nearest free spot on a spiral, with no wall between it and the point; without one *spot
    is the point itself. All searches of births between two steps look at 5 million spots together,
-   later ones at 1,000 each. Changes nothing; call jox_nav_born for an agent that is born there
-   before the next call. */
+   later ones at 1,000 each. Changes nothing; call jox_nav_note_birth for an agent that is born
+   there before the next call. */
 JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *agents, const JoxBirthWish *wish,
                                 JoxV2 *spot);
-/* Tells that the last agent was added on the spot found for it. */
-void jox_nav_born(JoxNav *nav, const JoxAgents *agents, uint32_t agent);
+/* Enters the agent that was added last, on the spot found for it, in the table of the searches. */
+void jox_nav_note_birth(JoxNav *nav, const JoxAgents *agents, uint32_t agent);
 /* Frees the tables of the searches, before agents move. */
 void jox_nav_end_births(JoxNav *nav);
 /* Finds a free spot for an existing agent, which is to stand at *at. */

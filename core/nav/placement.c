@@ -38,22 +38,22 @@ static JoxBirthSpot find_spot_in(JoxSpots *t, const JoxWallGrid *grid, const Jox
                                  JoxV2 *spot) {
     JoxSpotWish search = {.at = wish->at,
                           .radius = wish->radius,
-                          .holds = wish->holds,
+                          .contains = wish->contains,
                           .place = wish->place,
                           .low = wish->low,
                           .high = wish->high,
                           .kind = wish->place_number};
-    JOX_ASSERT(!wish->holds == !wish->place_number && (wish->holds || !wish->stays));
+    JOX_ASSERT(!wish->contains == !wish->place_number && (wish->contains || !wish->stays));
     *spot = wish->at;
     if (jox_walls_contain(grid->walls, wish->at))
         return JOX_BIRTH_IN_SOLID;
     if (jox_spots_is_free(t, grid, wish->at, wish->radius))
         return JOX_BIRTH_AS_WISHED;
     t->ended = false;
-    if (wish->holds && jox_spots_find(t, grid, &search, spot))
+    if (wish->contains && jox_spots_find(t, grid, &search, spot))
         return JOX_BIRTH_SHIFTED;
     const bool ended = t->ended;
-    search.holds = NULL;
+    search.contains = NULL;
     search.kind = 0;
     const bool found = !wish->stays && jox_spots_find(t, grid, &search, spot);
     JOX_ASSERT(!found || !grid->walls ||
@@ -71,7 +71,7 @@ JoxBirthSpot jox_nav_find_birth(JoxNav *nav, const JoxAgents *a, const JoxBirthW
     return found;
 }
 
-void jox_nav_born(JoxNav *nav, const JoxAgents *a, uint32_t agent) {
+void jox_nav_note_birth(JoxNav *nav, const JoxAgents *a, uint32_t agent) {
     JoxSpots *t = &nav->spots;
     JOX_ASSERT(t->agents == a && t->count + 1 == a->count && t->next_id + 1 == a->next_id);
     if (t->mask < a->count) { /* the table is too small: the next birth makes a larger one */

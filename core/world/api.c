@@ -236,7 +236,7 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
     a->machine[i] = JOX_NO_MACHINE;
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         jox_param_set(a, p, i, jox_parameter_store((JoxParameter)p, values[p]));
-    jox_nav_born(world->scratch.nav, a, i);
+    jox_nav_note_birth(world->scratch.nav, a, i);
     world->state.statistics.shifted_at_birth += found == JOX_BIRTH_SHIFTED;
     return jox_world_handle(world, i);
 }

@@ -194,7 +194,7 @@ JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
     jox_machines_spawn(&world->machines, i, index, set.own, set.memory);
     JOX_ASSERT(world->state.agents.id[i] == id);
     JOX_ASSERT(jox_param(&world->state.agents, JOX_PARAM_radius, i) == wish->radius);
-    jox_nav_born(world->scratch.nav, &world->state.agents, i);
+    jox_nav_note_birth(world->scratch.nav, &world->state.agents, i);
     world->state.statistics.shifted_at_birth += found == JOX_BIRTH_SHIFTED;
     return found;
 }
@@ -332,7 +332,7 @@ void jox_world_set_groups(JoWorld *world, const JoxGroup *groups, uint32_t count
     model->group_count = count;
 }
 
-static bool area_holds(const void *area, JoxV2 spot) {
+static bool area_contains(const void *area, JoxV2 spot) {
     return jox_area_contains(area, spot);
 }
 
@@ -350,7 +350,7 @@ static JoxPlaced place_group(JoWorld *world, uint32_t number) {
         JoxBirth birth = jox_world_birth_of(world, number, group->positions[i]);
         JoxBirthWish *wish = &birth.wish;
         if (index && jox_area_extent(&area, &wish->low, &wish->high)) {
-            wish->holds = area_holds;
+            wish->contains = area_contains;
             wish->place = index;
             wish->place_number = number + 1;
             wish->stays = true;

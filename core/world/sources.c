@@ -89,7 +89,7 @@ static uint32_t pick_door(const JoWorld *world, uint32_t s, uint32_t doors, uint
     return (uint32_t)(u * doors);
 }
 
-static bool floor_holds(const void *entrance, JoxV2 spot) {
+static bool floor_contains(const void *entrance, JoxV2 spot) {
     return jox_entrance_holds(entrance, spot);
 }
 
@@ -97,8 +97,11 @@ static bool floor_holds(const void *entrance, JoxV2 spot) {
 static JoxBirthWish wish_on(const JoxEntrance *entrance, JoxV2 at, uint32_t number) {
     const JoxPlace *floor = &entrance->floor;
     const float beside = jox_place_is_spot(floor) ? floor->radius : JOX_ENTRANCE_REACH;
-    JoxBirthWish wish = {
-        .at = at, .holds = floor_holds, .place = entrance, .place_number = number, .stays = true};
+    JoxBirthWish wish = {.at = at,
+                         .contains = floor_contains,
+                         .place = entrance,
+                         .place_number = number,
+                         .stays = true};
     jox_bounds(floor->points, floor->count, &wish.low, &wish.high);
     wish.low = jox_sub(wish.low, (JoxV2){beside, beside});
     wish.high = jox_add(wish.high, (JoxV2){beside, beside});

@@ -185,7 +185,7 @@ static JoxSearched resume_search(const JoxSearched *last, const JoxWallGrid *gri
 
 /* Returns how far a search looks, m: no farther than a corner of its place. */
 static float limit_distance(const JoxSpotWish *wish) {
-    if (!wish->holds)
+    if (!wish->contains)
         return JOX_SPOTS_FARTHEST;
     const JoxV2 corner = {jox_maxf(wish->at.x - wish->low.x, wish->high.x - wish->at.x),
                           jox_maxf(wish->at.y - wish->low.y, wish->high.y - wish->at.y)};
@@ -193,8 +193,8 @@ static float limit_distance(const JoxSpotWish *wish) {
 }
 
 static bool is_in_place(const JoxSpotWish *wish, JoxV2 spot) {
-    return !wish->holds ||
-           (jox_is_within(spot, wish->low, wish->high) && wish->holds(wish->place, spot));
+    return !wish->contains ||
+           (jox_is_within(spot, wish->low, wish->high) && wish->contains(wish->place, spot));
 }
 
 /* Returns whether a free spot can be reached: no wall lies between, and no solid covers it.

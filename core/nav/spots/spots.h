@@ -42,7 +42,7 @@ typedef struct JoxSpotWish {
     float radius; /* m */
     /* Where the spot has to lie, within a box; NULL: anywhere. Wishes with the same place have the
        same `kind`. */
-    bool (*holds)(const void *place, JoxV2 spot);
+    bool (*contains)(const void *place, JoxV2 spot);
     const void *place;
     JoxV2 low, high; /* m */
     uint32_t kind;
