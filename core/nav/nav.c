@@ -66,7 +66,7 @@ void jox_nav_sections(JoxNav *nav, JoxSections *s) {
         jox_wall_grid_reset(&nav->grid, nav->grid.reach);
 }
 
-void jox_nav_forget(JoxNav *nav) {
+void jox_nav_invalidate_order(JoxNav *nav) {
     nav->drift = jox_drift_unknown();
     jox_spots_free(&nav->spots);
 }

@@ -34,7 +34,7 @@ void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
    is not state, as results are the same in any order. */
 void jox_nav_sections(JoxNav *nav, JoxSections *sections);
 /* Tells that the agents' order has changed: the next step sorts them anew. */
-void jox_nav_forget(JoxNav *nav);
+void jox_nav_invalidate_order(JoxNav *nav);
 
 /* Sorts the agents by the cells of the grid every eighth tick, and when agents were added; agents
    that left are taken out of the grid. The order depends on positions and ids alone. All indices

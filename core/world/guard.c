@@ -209,7 +209,7 @@ static void mend(JoWorld *w, const Column *columns, int cause) {
             w->scratch.lost.ids[w->scratch.lost.count++] = a->id[i];
         }
     }
-    jox_nav_forget(w->scratch.nav); /* some lie elsewhere than they were sorted */
+    jox_nav_invalidate_order(w->scratch.nav); /* some lie elsewhere than they were sorted */
 }
 
 /* Ends the world, or tells of what was lost and that it goes on. */

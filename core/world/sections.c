@@ -158,7 +158,7 @@ bool jox_world_restore(JoWorld *world, const void *data, size_t size, JoError *e
 void jox_world_forget(JoWorld *w) {
     jox_agents_forget(&w->state.agents);
     jox_machines_forget(&w->machines);
-    jox_nav_forget(w->scratch.nav);
+    jox_nav_invalidate_order(w->scratch.nav);
     w->scratch.substep = (JoxSubstep){0}; /* no step has been done from here */
     jox_bodies_objects(w->state.bodies, &w->scratch.objects);
 }

@@ -219,7 +219,7 @@ static void add_people(Encounter *e, uint64_t number, Kind kind) {
         a->x[i] += (a->x[0] - a->x[i]) * (float)between(number, 100 + 20 * i + 7, 0.0, 0.9);
         a->y[i] += (a->y[0] - a->y[i]) * (float)between(number, 100 + 20 * i + 8, 0.0, 0.9);
     }
-    jox_nav_forget(e->world->scratch.nav);
+    jox_nav_invalidate_order(e->world->scratch.nav);
 }
 
 /* Boxes, cylinders and balls, one to either side, so that none lies in another. */
@@ -440,7 +440,7 @@ static void those_at_rest_stay_so(void **state) {
             a->x[i] = (float)between(number, 10 + i, -0.5, 0.5);
             a->y[i] = (float)between(number, 20 + i, -0.5, 0.5);
         }
-        jox_nav_forget(e.world->scratch.nav);
+        jox_nav_invalidate_order(e.world->scratch.nav);
         Growth g = watch(&e, 2.0, false);
         if (g.step > GROWS || g.all > GROWS)
             fail_msg("number %u, at dt %g: a step adds %.3g J, and %.3g J in all", (unsigned)number,

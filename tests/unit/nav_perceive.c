@@ -104,7 +104,7 @@ static void scatter(JoxNav *nav, JoxAgents *a) {
         a->y[j] = at.y;
     }
     nav->stray_count = 0;
-    jox_nav_forget(nav);
+    jox_nav_invalidate_order(nav);
 }
 
 /* Moves agents over periodic edges, and lists them as strays. */

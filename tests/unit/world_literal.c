@@ -49,7 +49,7 @@ static void place(JoWorld *w, uint32_t id, double x, double y, double vx, double
     a->y[i] = a->prev_y[i] = (float)y;
     a->vx[i] = (float)vx;
     a->vy[i] = (float)vy;
-    jox_nav_forget(w->scratch.nav);
+    jox_nav_invalidate_order(w->scratch.nav);
 }
 
 static void want(JoWorld *w, uint32_t id, double x, double y) {
