@@ -110,7 +110,7 @@ void jox_linear_program_check(const JoxHalfPlane *half_planes, uint32_t count, f
                               JoxV2 velocity);
 
 /* Lists an agent that crossed a periodic edge. Any thread may call it. */
-static inline void jox_nav_stray(JoxNav *nav, uint32_t agent) {
+static inline void jox_nav_list_stray(JoxNav *nav, uint32_t agent) {
     const uint32_t k = __atomic_fetch_add(&nav->stray_count, 1, __ATOMIC_RELAXED);
     if (k < JOX_MOST_STRAYS)
         nav->strays[k] = agent;

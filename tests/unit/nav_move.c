@@ -99,7 +99,7 @@ static JoxDrift move_by_loops(Crowd *c) {
         drift = jox_drift_of_both(drift, (JoxDrift){jox_length(way), way, way});
         if (jox_agents_wrap(a, i)) {
             if (isfinite(a->x[i]) && isfinite(a->y[i]))
-                jox_nav_stray(c->nav, i);
+                jox_nav_list_stray(c->nav, i);
             else
                 drift.farthest = INFINITY;
         }

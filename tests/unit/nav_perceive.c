@@ -115,7 +115,7 @@ static void send_over_edges(JoxNav *nav, JoxAgents *a) {
         if (period <= 0.0f || shift == 0.0f)
             continue;
         a->x[i] = fminf(fmaxf(a->x[i] + shift, 0.0f), period - 0.01f);
-        jox_nav_stray(nav, i);
+        jox_nav_list_stray(nav, i);
     }
     jox_nav_place_strays(nav, a);
 }

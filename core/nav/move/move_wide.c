@@ -130,7 +130,7 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         for (uint32_t lane = 0; out >> lane; lane++)
             if ((out >> lane & 1) && jox_agents_wrap(a, i + lane)) {
                 if (isfinite(a->x[i + lane]) && isfinite(a->y[i + lane]))
-                    jox_nav_stray(m->nav, i + lane);
+                    jox_nav_list_stray(m->nav, i + lane);
                 else
                     farthest = INFINITY; /* its new position is not known yet */
             }
