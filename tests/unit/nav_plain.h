@@ -95,7 +95,7 @@ static inline bool plain_best_on_border(const JoxHalfPlane *half_planes, uint32_
     /* Ties are broken slightly to the right: two agents that meet head-on would else stand
        forever. */
     if (objective->directed)
-        wanted = jox_sub(wanted, jox_scale(jox_left(wanted), JOX_RIGHT_SHARE));
+        wanted = jox_sub(wanted, jox_scale(jox_left(wanted), JOX_ASIDE_RIGHT_FIRST));
     float t = jox_clampf(jox_dot(direction, jox_sub(wanted, foot)), low, high);
     float gain = objective->directed ? jox_dot(objective->direction, direction) : 0.0f;
     if (gain > PROGRAM_EPSILON || gain < -PROGRAM_EPSILON)

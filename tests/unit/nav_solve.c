@@ -157,8 +157,8 @@ static void close_solve_crowd(Crowd *c) {
 }
 
 static JoxV2 turn_right(JoxV2 wanted, float turn) {
-    const float right = JOX_RIGHT_SHARE + JOX_ASIDE_RIGHT * turn;
-    const float on = 1.0f - JOX_ASIDE_BACK * turn;
+    const float right = JOX_ASIDE_RIGHT_FIRST + JOX_ASIDE_RIGHT_STUCK * turn;
+    const float on = 1.0f - JOX_ASIDE_BACK_STUCK * turn;
     return jox_v2(on * wanted.x + right * wanted.y, on * wanted.y - right * wanted.x);
 }
 

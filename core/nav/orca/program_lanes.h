@@ -64,7 +64,7 @@ static inline JoxMask jox_border_lanes(const JoxRow *rows, uint32_t row, JoxFloa
    farthest along it. */
 static inline JoxVector jox_along_border_lanes(const JoxBorder *b, JoxVector wanted,
                                                const JoxVector *towards) {
-    const JoxFloats epsilon = jf_set(1e-5f), share = jf_set(JOX_RIGHT_SHARE);
+    const JoxFloats epsilon = jf_set(1e-5f), share = jf_set(JOX_ASIDE_RIGHT_FIRST);
     if (towards)
         wanted = (JoxVector){wanted.x - (-wanted.y * share), wanted.y - wanted.x * share};
     JoxVector away = {wanted.x - b->foot.x, wanted.y - b->foot.y};

@@ -8,12 +8,12 @@
 #include "simd/isa.h"
 
 /* How far an agent that stands before others turns its preferred velocity aside, as shares of its
-   length: JOX_RIGHT_SHARE to the right at first; when it has not moved for some seconds, up to
-   JOX_ASIDE_RIGHT more to the right and JOX_ASIDE_BACK less ahead. Symmetric crowds lock in an arch
-   that all agents have to leave at different angles. */
-#define JOX_RIGHT_SHARE 0.25f
-#define JOX_ASIDE_RIGHT 1.0f
-#define JOX_ASIDE_BACK 1.2f
+   length: JOX_ASIDE_RIGHT_FIRST to the right at first; when it has not moved for some seconds, up
+   to JOX_ASIDE_RIGHT_STUCK more to the right and JOX_ASIDE_BACK_STUCK less ahead. Symmetric crowds
+   lock in an arch that all agents have to leave at different angles. */
+#define JOX_ASIDE_RIGHT_FIRST 0.25f
+#define JOX_ASIDE_RIGHT_STUCK 1.0f
+#define JOX_ASIDE_BACK_STUCK 1.2f
 
 enum {
     JOX_MOST_WALLS = 16,

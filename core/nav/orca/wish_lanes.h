@@ -42,8 +42,8 @@ static inline JoxMask jox_is_kept_off(const JoxWish *wish, JoxVector normal, Jox
 
 /* Returns a preferred velocity turned to the right, by `turn` (0 to 1, jox_turn_aside). */
 static inline JoxVector jox_turn_wish(JoxVector w, JoxFloats turn) {
-    const JoxFloats right = JOX_RIGHT_SHARE + JOX_ASIDE_RIGHT * turn;
-    const JoxFloats on = 1.0f - JOX_ASIDE_BACK * turn;
+    const JoxFloats right = JOX_ASIDE_RIGHT_FIRST + JOX_ASIDE_RIGHT_STUCK * turn;
+    const JoxFloats on = 1.0f - JOX_ASIDE_BACK_STUCK * turn;
     return (JoxVector){on * w.x + right * w.y, on * w.y - right * w.x};
 }
 
