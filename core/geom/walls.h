@@ -15,7 +15,7 @@ typedef struct JoxWallVertex {
     JoxV2 direction; /* unit vector to next */
     uint32_t next, previous;
     bool convex;    /* the ring turns left here (ends of polylines count as convex) */
-    bool came;      /* the edge was closed or added after people were last moved out of new walls */
+    bool is_new;    /* the edge was closed or added after people were last moved out of new walls */
     bool covered;   /* images: an edge already lies there, so grids omit this one */
     bool continued; /* images: no corner, as a wall continues straight here (wall_images.h) */
 } JoxWallVertex;
@@ -75,13 +75,13 @@ typedef struct JoxWallOpenings {
     float width;    /* m: sum over all parts */
 } JoxWallOpenings;
 void jox_walls_openings(const JoxWalls *walls, const JoxV2 line[2], JoxWallOpenings *out);
-/* Marks all edges of a ring as came. */
-void jox_walls_ring_came(JoxWalls *walls, uint32_t ring);
-/* Marks closed edges as came that were not closed in `before` between the same points and with the
+/* Marks all edges of a ring as new. */
+void jox_walls_mark_ring_new(JoxWalls *walls, uint32_t ring);
+/* Marks closed edges as new that were not closed in `before` between the same points and with the
    same solidity, or that were marked there. Returns whether there are any. */
 bool jox_walls_mark_new(JoxWalls *walls, const JoxWalls *before);
-/* Removes all marks of came. */
-void jox_walls_clear_came(JoxWalls *walls);
+/* Removes all marks of new edges. */
+void jox_walls_clear_new_marks(JoxWalls *walls);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

@@ -113,15 +113,15 @@ static NewSolids list_new_solids(const JoxWalls *walls) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         struct NewSolid *solid = &solids.items[solids.count];
-        bool came = false;
+        bool is_new = false;
         *solid = (struct NewSolid){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, r};
         for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {
             const JoxV2 p = walls->vertices[i].point;
-            came |= walls->vertices[i].came;
+            is_new |= walls->vertices[i].is_new;
             solid->low = (JoxV2){jox_minf(solid->low.x, p.x), jox_minf(solid->low.y, p.y)};
             solid->high = (JoxV2){jox_maxf(solid->high.x, p.x), jox_maxf(solid->high.y, p.y)};
         }
-        solids.count += ring->solid && came;
+        solids.count += ring->solid && is_new;
     }
     return solids;
 }
@@ -152,10 +152,10 @@ static bool is_near_new_edge(const JoxWallGrid *grid, JoxV2 p, float clear) {
     for (uint32_t e = 0; e < count; e++) {
         const JoxWallVertex *v = &vertices[edges[e]];
         const JoxV2 q = jox_segment_nearest(v->point, vertices[v->next].point, p);
-        bool seen = v->came && jox_length2(jox_sub(p, q)) < clear * clear;
+        bool seen = v->is_new && jox_length2(jox_sub(p, q)) < clear * clear;
         for (uint32_t o = 0; o < count && seen; o++) {
             const JoxWallVertex *other = &vertices[edges[o]];
-            seen = other->came ||
+            seen = other->is_new ||
                    !jox_edge_lies_between(other->point, vertices[other->next].point, p, q);
         }
         if (seen)

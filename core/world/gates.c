@@ -19,8 +19,8 @@ void jox_world_wall_came(JoWorld *world) {
     world->state.walls_set = false;
     if (world->state.agents.count == 0)
         return;
-    jox_walls_ring_came(walls, walls->ring_count - 1);
-    world->state.walls_came = true;
+    jox_walls_mark_ring_new(walls, walls->ring_count - 1);
+    world->state.has_new_walls = true;
 }
 
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
@@ -40,7 +40,7 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
     world->model.made_vertex = world->model.all_walls.count;
     jox_world_lay_made(world);
     if (world->state.agents.count > 0) /* else there is nobody to be in their way */
-        world->state.walls_came |= jox_walls_mark_new(&world->model.all_walls, &old);
+        world->state.has_new_walls |= jox_walls_mark_new(&world->model.all_walls, &old);
     jox_walls_free(&old);
     change(world);
 }
@@ -65,8 +65,8 @@ static void lay(JoWorld *world, const JoxMadeWall *made) {
     JOX_ASSERT(walls->ring_count == ring + 1);
     jox_walls_name(walls, ring, made->name, made->open);
     walls->rings[ring].set = true;
-    if (made->came)
-        jox_walls_ring_came(walls, ring);
+    if (made->is_new)
+        jox_walls_mark_ring_new(walls, ring);
 }
 
 void jox_world_lay_made(JoWorld *world) {
@@ -101,12 +101,12 @@ bool jox_world_make_wall(JoWorld *world, const char *name, const JoxV2 *points, 
     for (uint32_t r = 0; r < walls->ring_count; r++) /* it is as others of its name are */
         if (walls->rings[r].name && strcmp(walls->rings[r].name, name) == 0)
             made.open = walls->rings[r].open;
-    made.came = !made.open;
+    made.is_new = !made.open;
     jox_world_mark_made(world);
     JOX_RESERVE(state->made, state->made_capacity, state->made_count + 1);
     state->made[state->made_count++] = made;
     lay(world, &made);
-    state->walls_came |= !made.open;
+    state->has_new_walls |= !made.open;
     change(world);
     return true;
 }
@@ -138,12 +138,12 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
             continue;
         ring->open = open;
         if (!open)
-            jox_walls_ring_came(&world->model.all_walls, r);
+            jox_walls_mark_ring_new(&world->model.all_walls, r);
         if (world->state.made_count > 0 && r >= world->model.made_ring) {
             world->state.made[r - world->model.made_ring].open = open;
-            world->state.made[r - world->model.made_ring].came |= !open;
+            world->state.made[r - world->model.made_ring].is_new |= !open;
         }
-        world->state.walls_came |= !open;
+        world->state.has_new_walls |= !open;
         change(world);
     }
     return count;
@@ -197,16 +197,16 @@ static void clear_new_walls(JoWorld *world) {
                         a->id[cleared.first_stuck], (double)a->x[cleared.first_stuck],
                         (double)a->y[cleared.first_stuck]);
     }
-    jox_walls_clear_came(&world->model.all_walls);
-    jox_walls_clear_came(&world->scratch.walls);
-    jox_walls_clear_came(&world->scratch.images.walls);
+    jox_walls_clear_new_marks(&world->model.all_walls);
+    jox_walls_clear_new_marks(&world->scratch.walls);
+    jox_walls_clear_new_marks(&world->scratch.images.walls);
     for (uint32_t m = 0; m < world->state.made_count; m++)
-        world->state.made[m].came = 0;
-    world->state.walls_came = false;
+        world->state.made[m].is_new = 0;
+    world->state.has_new_walls = false;
 }
 
 void jox_world_settle_walls(JoWorld *world) {
     jox_world_raise_walls(world);
-    if (world->state.walls_came)
+    if (world->state.has_new_walls)
         clear_new_walls(world);
 }

@@ -12,7 +12,7 @@ static void restore_made(JoWorld *w, JoxSections *s) {
     bool good = w->state.made_count <= JOX_MOST_MADE_WALLS;
     for (uint32_t m = 0; good && m < w->state.made_count; m++) {
         const JoxMadeWall *made = &w->state.made[m];
-        good = (made->count == 2 || made->count == 4) && made->open <= 1 && made->came <= 1 &&
+        good = (made->count == 2 || made->count == 4) && made->open <= 1 && made->is_new <= 1 &&
                made->name[0] && memchr(made->name, 0, sizeof made->name);
         for (uint32_t p = 0; good && p < 4; p++)
             good = fabsf(made->points[p].x) <= 1e4f && fabsf(made->points[p].y) <= 1e4f;
@@ -31,7 +31,7 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     const uint32_t own = w->state.made_count > 0 ? w->model.made_vertex : walls->count;
     if (s->mode == JOX_SECTIONS_RESTORE) {
         jox_world_mark_made(w);
-        jox_walls_clear_came(walls);
+        jox_walls_clear_new_marks(walls);
     }
     for (uint32_t v = 0; v < own; v++)
         jox_hash_add(&shape, &walls->vertices[v].point, sizeof walls->vertices[v].point);
@@ -48,9 +48,9 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     }
     JOX_SECTION(s, "walls_version", w->state.walls_version);
     JOX_SECTION(s, "walls_set", w->state.walls_set);
-    JOX_SECTION(s, "walls_came", w->state.walls_came);
-    for (uint32_t v = 0; w->state.walls_came && v < own; v++) /* of made walls they say it */
-        JOX_SECTION(s, "came", walls->vertices[v].came);
+    JOX_SECTION(s, "walls_came", w->state.has_new_walls);
+    for (uint32_t v = 0; w->state.has_new_walls && v < own; v++) /* of made walls they say it */
+        JOX_SECTION(s, "came", walls->vertices[v].is_new);
     if (s->mode == JOX_SECTIONS_RESTORE && !s->failed && w->state.walls_set) {
         w->state.walls_set = false;
         jox_world_raise_walls(w);

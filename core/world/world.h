@@ -69,7 +69,7 @@ typedef struct JoxMadeWall {
     JoxV2 points[4]; /* m */
     uint32_t count;  /* 2: thin; 4: a solid */
     uint32_t open;   /* 0 or 1 */
-    uint32_t came;   /* the same: it rose after people were last cleared out of walls that came */
+    uint32_t is_new; /* 0 or 1: added or closed after people were last moved out of new walls */
 } JoxMadeWall;
 enum { JOX_MOST_MADE_WALLS = 4096 };
 
@@ -88,9 +88,9 @@ typedef struct JoxWorldState {
     JoxMadeWall *made;      /* walls that were added to those of the model, in order */
     uint32_t made_count;
     size_t made_capacity;
-    bool walls_set;  /* scratch.walls, its images, nav and bodies are as all_walls says */
-    bool walls_came; /* some edges of walls are marked as such, and people may stand there */
-    JoxExits exits;  /* figures of the run, which no step reads */
+    bool walls_set;     /* scratch.walls, its images, nav and bodies are as all_walls says */
+    bool has_new_walls; /* some edges of walls are marked as such, and people may stand there */
+    JoxExits exits;     /* figures of the run, which no step reads */
     JoxStatistics statistics; /* likewise */
 } JoxWorldState;
 

@@ -1,4 +1,4 @@
-/* Marks the edges of walls that closed or were added (`came`), out of which the world then moves
+/* Marks the edges of walls that closed or were added (`is_new`), out of which the world then moves
    people. Called when gates close and scenes are edited. */
 #include <string.h>
 
@@ -10,7 +10,7 @@
 /* An undirected edge: the lesser end first. */
 typedef struct Edge {
     JoxV2 a, b;
-    bool solid, came;
+    bool solid, is_new;
 } Edge;
 
 static int compare_points(JoxV2 a, JoxV2 b) {
@@ -33,7 +33,7 @@ static Edge get_edge(const JoxWalls *walls, uint32_t v, bool solid) {
     const JoxV2 a = walls->vertices[v].point;
     const JoxV2 b = walls->vertices[walls->vertices[v].next].point;
     const bool turned = compare_points(a, b) > 0;
-    return (Edge){turned ? b : a, turned ? a : b, solid, walls->vertices[v].came};
+    return (Edge){turned ? b : a, turned ? a : b, solid, walls->vertices[v].is_new};
 }
 
 /* Lists the closed edges in order; the caller frees them. */
@@ -50,14 +50,14 @@ static Edge *list_standing(const JoxWalls *walls, uint32_t *count) {
     return edges;
 }
 
-/* Returns whether an edge is in the list, and was not marked as came there. */
+/* Returns whether an edge is in the list, and was not marked as new there. */
 static bool was_closed(const Edge *list, uint32_t count, const Edge *edge) {
     uint32_t low = 0, high = count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
         const int order = compare_edges(&list[middle], edge, NULL);
         if (order == 0)
-            return !list[middle].came;
+            return !list[middle].is_new;
         if (order < 0)
             low = middle + 1;
         else
@@ -66,11 +66,11 @@ static bool was_closed(const Edge *list, uint32_t count, const Edge *edge) {
     return false;
 }
 
-void jox_walls_ring_came(JoxWalls *walls, uint32_t ring) {
+void jox_walls_mark_ring_new(JoxWalls *walls, uint32_t ring) {
     const struct JoxWallRing *r = &walls->rings[ring];
     JOX_ASSERT(ring < walls->ring_count);
     for (uint32_t i = 0; i < r->count; i++)
-        walls->vertices[r->first + i].came = true;
+        walls->vertices[r->first + i].is_new = true;
 }
 
 bool jox_walls_mark_new(JoxWalls *walls, const JoxWalls *before) {
@@ -82,15 +82,15 @@ bool jox_walls_mark_new(JoxWalls *walls, const JoxWalls *before) {
         for (uint32_t i = 0; i < ring->count && !ring->open; i++) {
             const Edge edge = get_edge(walls, ring->first + i, ring->solid);
             JoxWallVertex *v = &walls->vertices[ring->first + i];
-            v->came |= !was_closed(list, count, &edge);
-            any |= v->came;
+            v->is_new |= !was_closed(list, count, &edge);
+            any |= v->is_new;
         }
     }
     jox_free(list);
     return any;
 }
 
-void jox_walls_clear_came(JoxWalls *walls) {
+void jox_walls_clear_new_marks(JoxWalls *walls) {
     for (uint32_t v = 0; v < walls->count; v++)
-        walls->vertices[v].came = false;
+        walls->vertices[v].is_new = false;
 }
