@@ -372,13 +372,13 @@ static void close_column(void *context, void **column, size_t size) {
     }
 }
 
-/* Counts in moved_up by how many places agents moved up. */
+/* Adds to index_drop by how much the indices of the agents that stay drop. */
 static void note_moves(JoxAgents *a, const Leaving *leaving) {
     for (uint32_t k = 0; k < leaving->count; k++) {
         const uint32_t begin = leaving->index[k] - k;
         const uint32_t end = k + 1 < leaving->count ? leaving->index[k + 1] - k - 1 : a->count;
         for (uint32_t i = begin; i < end; i++)
-            a->moved_up[i] += k + 1;
+            a->index_drop[i] += k + 1;
     }
 }
 

@@ -67,9 +67,9 @@ typedef enum JoxForceRole {
     X(STATE, float, eager)    /* eagerness, 0 to 1, raised by the crowd */                         \
     X(STATE, float, course_x) /* course: recent direction of walking, unit or (0, 0) */            \
     X(STATE, float, course_y)                                                                      \
-    X(STATE, uint32_t, bound) /* reference to the place it heads for by a field */                 \
-    X(SCRATCH, float, way)    /* length of the way to that place, m */                             \
-    X(SCRATCH, float, aim_x)  /* direction of the preferred velocity, unit or (0, 0) */            \
+    X(STATE, uint32_t, bound)   /* reference to the place it heads for by a field; 0: none */      \
+    X(SCRATCH, float, way_left) /* length of the way to that place, m */                           \
+    X(SCRATCH, float, aim_x)    /* direction of the preferred velocity, unit or (0, 0) */          \
     X(SCRATCH, float, aim_y)                                                                       \
     X(SCRATCH, float, walk_x) /* velocity chosen by the walking law */                             \
     X(SCRATCH, float, walk_y)                                                                      \
@@ -81,28 +81,28 @@ typedef enum JoxForceRole {
     X(STATE, float, compression) /* sum of |f.n| of contacts over circumference, N/m */            \
     /* greatest push from any one direction, N: the most, over directions d, of sum max(f.d, 0) */ \
     X(STATE, float, load)                                                                          \
-    X(SCRATCH, float, given_x) /* external force of the last step, N, for display */               \
-    X(SCRATCH, float, given_y)                                                                     \
-    X(SCRATCH, uint32_t, moved_up) /* places moved up in memory since velocities were chosen */    \
-    X(SCRATCH, float, forced_x)    /* velocity that the forces yield by the end of the step */     \
+    X(SCRATCH, float, last_ext_x) /* external force of the last step, N, for display */            \
+    X(SCRATCH, float, last_ext_y)                                                                  \
+    X(SCRATCH, uint32_t, index_drop) /* index when velocities were chosen, minus present index */  \
+    X(SCRATCH, float, forced_x)      /* velocity that the forces yield by the end of the step */   \
     X(SCRATCH, float, forced_y)                                                                    \
     X(SCRATCH, float, breadth)      /* radius of contacts, m */                                    \
     X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0): none */              \
     X(SCRATCH, float, half_plane_y)                                                                \
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \
     X(SCRATCH, float, speed_limit)       /* greatest speed in this step, m/s */                    \
-    X(SCRATCH, float, density)   /* 1/m2, from the distance of the farthest neighbour kept */      \
-    X(HINT, float, search)       /* radius that held the neighbours last time; 0 unknown */        \
-    X(HINT, uint32_t, cell)      /* cell in navigation's grid when that was made */                \
-    X(SCRATCH, uint8_t, failed)  /* 1 if the linear program was infeasible */                      \
-    X(STATE, uint8_t, contacts)  /* agents and bodies touched this step */                         \
-    X(STATE, uint8_t, removed)   /* 1: leaves the world at the end of the step */                  \
-    X(STATE, uint32_t, entered)  /* tick at which the state was entered */                         \
-    X(STATE, float, lasts)       /* drawn duration of the state, s; INFINITY if none */            \
-    X(STATE, uint32_t, was_true) /* bit per transition: its condition held in the last step */     \
-    X(STATE, int32_t, goal)      /* index of the place aimed at, or -1 */                          \
-    X(STATE, float, still)       /* s since it last moved 0.25 m */                                \
-    X(STATE, float, still_x)     /* position at that time */                                       \
+    X(SCRATCH, float, density)    /* 1/m2, from the distance of the farthest neighbour kept */     \
+    X(HINT, float, search_radius) /* m, held the neighbours last time; 0: unknown */               \
+    X(HINT, uint32_t, cell)       /* cell of navigation's grid when agents were sorted */          \
+    X(SCRATCH, uint8_t, failed)   /* 1 if the linear program was infeasible */                     \
+    X(STATE, uint8_t, contacts)   /* agents and bodies touched this step */                        \
+    X(STATE, uint8_t, removed)    /* 1: leaves the world at the end of the step */                 \
+    X(STATE, uint32_t, entered)   /* tick at which the state was entered */                        \
+    X(STATE, float, lasts)        /* drawn duration of the state, s; INFINITY if none */           \
+    X(STATE, uint32_t, was_true)  /* bit per transition: its condition held in the last step */    \
+    X(STATE, int32_t, goal)       /* index of the place aimed at, or -1 */                         \
+    X(STATE, float, still)        /* time since it last moved 0.25 m, s */                         \
+    X(STATE, float, still_x)      /* position when it last had moved so far */                     \
     X(STATE, float, still_y)                                                                       \
     X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
@@ -113,9 +113,9 @@ typedef enum JoxForceRole {
     X(STATE, uint64_t, ignore)     /* tags of agents and bodies that are not avoided */            \
     X(STATE, uint64_t, push_only)  /* tags that are pushed; 0: all */                              \
     X(STATE, uint32_t, approach)   /* reference to the body approached, not anticipated */         \
-    X(STATE, uint32_t, approached) /* 1 + id of the agent that is approached; 0: none */           \
+    X(STATE, uint32_t, approached) /* 1 + id of the agent that it approaches; 0: none */           \
     X(STATE, uint32_t, grasped)    /* 1 + id of the agent that it holds on to; 0: none */          \
-    X(STATE, uint8_t, held)        /* number of agents that hold on to it */
+    X(STATE, uint8_t, held)        /* how many agents hold on to it (`grasped`) */
 
 #define JOX_NO_MACHINE UINT16_MAX
 

@@ -41,7 +41,7 @@ void jox_nav_invalidate_order(JoxNav *nav);
    change. */
 void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
 /* perceive: finds exactly the `neighbours` nearest within each agent's own `perception`, nearest
-   first, ties by id; also writes `search` and `density`. Grows `out` as needed. */
+   first, ties by id; also writes `search_radius` and `density`. Grows `out` as needed. */
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool);
 /* Returns the grid of walls, which serves queries as far as any agent touches, and half as far as
    any agent pushes or passes a force on, over a gap of at most `passing` metres; NULL without

@@ -34,7 +34,7 @@ void jox_neighbours_check(const JoxNeighbours *n, const JoxAgents *a) {
         const float perception = jox_param(a, JOX_PARAM_perception, i);
         float before = 0.0f;
         JOX_ASSERT(count <= n->stride && count <= (uint32_t)jox_param(a, JOX_PARAM_neighbours, i));
-        JOX_ASSERT(a->density[i] >= 0.0f && a->search[i] > 0.0f);
+        JOX_ASSERT(a->density[i] >= 0.0f && a->search_radius[i] > 0.0f);
         for (uint32_t k = count; k < n->stride; k++) /* kernels read these unused entries too */
             JOX_ASSERT(n->index[jox_neighbour_at(n, i, k)] < n->agents);
         for (uint32_t k = 0; k < count; k++) {

@@ -21,7 +21,7 @@ enum { JOX_MOST_STRAYS = 64 };
 /* Where an agent heads, as others look it up: its aim (unit vector; 0 while it stands), the rest of
    its way, m, and the reference to the place that it is bound for (0: none). */
 typedef struct JoxHeading {
-    float aim_x, aim_y, way;
+    float aim_x, aim_y, way_left;
     int32_t bound;
 } JoxHeading;
 
@@ -58,8 +58,8 @@ struct JoxNav {
     uint32_t rows, columns, cell_capacity;
     uint32_t *cell_first; /* rows * columns + 1 entries */
     uint32_t sorted_count, sorted_next_id;
-    JoxDrift drift; /* since the agents were sorted */
-    float search;   /* m: mean search radius when the agents were sorted */
+    JoxDrift drift;      /* since the agents were sorted */
+    float search_radius; /* m: mean over agents, when they were sorted */
     /* Strays: agents that crossed a periodic edge since the sort. They stand far from their cells,
        so every search that sees an edge looks at all of them. If they exceed the room, the agents
        are sorted again. */

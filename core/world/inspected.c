@@ -29,12 +29,12 @@ static void end(JoWorld *w, uint32_t n) {
 /* The forces of the last step. */
 static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     const JoxAgents *a = &w->state.agents;
-    const JoxV2 body = jox_force_of_bodies(w->scratch.forces, i + a->moved_up[i]);
+    const JoxV2 body = jox_force_of_bodies(w->scratch.forces, i + a->index_drop[i]);
 #define PART(X, keep, role, name, label)                                                           \
     seen->forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
     JOX_FORCE_TERMS(PART, )
 #undef PART
-    seen->forces[JOX_FORCE_PART_ext] = (JoxV2){a->given_x[i], a->given_y[i]}; /* used up since */
+    seen->forces[JOX_FORCE_PART_ext] = (JoxV2){a->last_ext_x[i], a->last_ext_y[i]};
     seen->forces[JOX_FORCE_PART_contact] = jox_sub(seen->forces[JOX_FORCE_PART_contact], body);
     seen->forces[JOX_FORCE_PART_body] = body;
 }

@@ -48,11 +48,11 @@ void jox_stage_prefer(const JoxPreferStage *s) {
                      s->substep->interval, s->substep->plans, s->pool);
 }
 
-/* What was given for this step alone; `given` shows it until the next. */
-static void use_up(float *ext, float *given, uint32_t count) {
+/* Zeroes the external force, which is given for one step; keeps it in `last` for display. */
+static void use_up_external(float *ext, float *last, uint32_t count) {
     const size_t size = count * sizeof *ext;
-    if (size && memcmp(given, ext, size) != 0)
-        memcpy(given, ext, size);
+    if (size && memcmp(last, ext, size) != 0)
+        memcpy(last, ext, size);
     jox_mem_fill(ext, 0, size);
 }
 
@@ -86,13 +86,13 @@ void jox_stage_push(const JoxPushStage *s) {
     jox_inspect_pushed(s->inspection, s->agents, s->forces_of);
     if (!s->substep->last)
         return;
-    use_up(s->agents->ext_x, s->agents->given_x, s->agents->count);
-    use_up(s->agents->ext_y, s->agents->given_y, s->agents->count);
+    use_up_external(s->agents->ext_x, s->agents->last_ext_x, s->agents->count);
+    use_up_external(s->agents->ext_y, s->agents->last_ext_y, s->agents->count);
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
     JoxForceTotals totals = jox_force_totals(s->forces_of);
-    jox_mem_fill(s->agents->moved_up, 0, s->agents->count * sizeof *s->agents->moved_up);
+    jox_mem_fill(s->agents->index_drop, 0, s->agents->count * sizeof *s->agents->index_drop);
     s->statistics->contact_passes += totals.passes;
     if (totals.residual > s->statistics->contact_residual)
         s->statistics->contact_residual = (double)totals.residual;

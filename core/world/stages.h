@@ -37,7 +37,7 @@ typedef struct JoxPerceiveStage {
     JoxPool *pool;
     JoxBodies *bodies; /* their objects are told, nothing is changed */
     JoxNav *nav;
-    JoxAgents *agents; /* their order; search, density, failed */
+    JoxAgents *agents; /* their order; search_radius, density, failed */
     JoxNeighbours *neighbours;
     JoxObjects *objects;
     JoxStatistics *statistics;

@@ -199,7 +199,7 @@ static void compare_agent_neighbours(const JoxAgents *a, const JoxNeighbours *n)
             assert_true(n->crowding2[i] == all[JOX_CROWD_RANK].d2);
         float reach = most && count == most ? sqrtf(all[count - 1].d2) : perception;
         float area = 3.14159265f * jox_maxf(reach * reach, 0.0025f);
-        assert_true(a->search[i] == jox_maxf(reach, 0.01f));
+        assert_true(a->search_radius[i] == jox_maxf(reach, 0.01f));
         assert_true(a->density[i] == (float)count / area);
         compare_touching(a, n, i, most ? reach : 0.0f, all);
     }

@@ -196,7 +196,8 @@ static inline Minds plain_minds(const JoxAgents *a, uint32_t i, uint32_t j, JoxV
     if (other.x == 0.0f && other.y == 0.0f)
         return MINDS_CROSSING;
     if (a->bound[i] && a->bound[i] == a->bound[j]) {
-        bool first = a->way[j] != a->way[i] ? a->way[j] < a->way[i] : a->id[j] < a->id[i];
+        bool first = a->way_left[j] != a->way_left[i] ? a->way_left[j] < a->way_left[i]
+                                                      : a->id[j] < a->id[i];
         return first ? MINDS_AHEAD : MINDS_NOT;
     }
     if (jox_dot(own, other) > 0.5f)

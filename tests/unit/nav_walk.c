@@ -26,7 +26,8 @@ typedef enum Minds { MINDS_NOT, MINDS_AHEAD, MINDS_CROSSING } Minds;
 static Minds find_minds(const JoxAgents *a, uint32_t i, JoxV2 offset) {
     const uint32_t j = 1 - i;
     const float side = i == 0 ? 1.0f : -1.0f;
-    const JoxFloats heading[4] = {a->aim_x[j], a->aim_y[j], a->way[j], jox_float_of(a->bound[j])};
+    const JoxFloats heading[4] = {a->aim_x[j], a->aim_y[j], a->way_left[j],
+                                  jox_float_of(a->bound[j])};
     const JoxMindsLanes minds =
         jox_minds_lanes(a, i, (JoxInts)j, heading, (JoxVector){side * offset.x, side * offset.y});
     assert_false(minds.ahead && minds.crossing);
@@ -53,11 +54,11 @@ static void nearer_to_shared_goal_goes_first(void **state) {
     set_up_pair(&a);
     const JoxV2 behind = {-1.0f, 0.2f}; /* the way left counts, not the position */
     a.bound[0] = a.bound[1] = 4;
-    a.way[0] = 5.0f;
-    a.way[1] = 4.0f;
+    a.way_left[0] = 5.0f;
+    a.way_left[1] = 4.0f;
     assert_int_equal(find_minds(&a, 0, behind), MINDS_AHEAD);
     assert_int_equal(find_minds(&a, 1, behind), MINDS_NOT);
-    a.way[1] = 5.0f; /* a tie: the older goes first */
+    a.way_left[1] = 5.0f; /* a tie: the older goes first */
     assert_int_equal(find_minds(&a, 0, behind), MINDS_NOT);
     assert_int_equal(find_minds(&a, 1, behind), MINDS_AHEAD);
     set_heading(&a, 1, 180.0); /* around a corner, their headings may be opposite */
@@ -101,8 +102,8 @@ static void standing_agent_is_passed(void **state) {
     assert_int_equal(find_minds(&a, 0, (JoxV2){2.0f, 0.0f}), MINDS_CROSSING);
     assert_int_equal(find_minds(&a, 0, (JoxV2){-2.0f, 0.0f}), MINDS_CROSSING);
     a.bound[0] = a.bound[1] = 2; /* also for agents bound for the same place */
-    a.way[0] = 9.0f;
-    a.way[1] = 3.0f;
+    a.way_left[0] = 9.0f;
+    a.way_left[1] = 3.0f;
     assert_int_equal(find_minds(&a, 0, (JoxV2){2.0f, 0.0f}), MINDS_CROSSING);
     jox_agents_free(&a);
 }
@@ -120,8 +121,8 @@ static void exactly_one_of_two_follows(void **state) {
             u[n] = jox_random_unit(11, k, 0, JOX_DRAW_FILL, n);
         set_heading(&a, 0, 360.0 * u[0]);
         set_heading(&a, 1, 360.0 * u[1]);
-        a.way[0] = (float)floor(4.0 * u[2]);
-        a.way[1] = (float)floor(4.0 * u[3]);
+        a.way_left[0] = (float)floor(4.0 * u[2]);
+        a.way_left[1] = (float)floor(4.0 * u[3]);
         const JoxV2 offset = {(float)jox_cos(7.0 * u[4]), (float)jox_sin(7.0 * u[4])};
         assert_int_equal((find_minds(&a, 0, offset) == MINDS_AHEAD) +
                              (find_minds(&a, 1, offset) == MINDS_AHEAD),

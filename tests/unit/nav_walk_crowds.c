@@ -79,7 +79,7 @@ static void set_wishes(Crowd *c) {
         JoxV2 pref = transform(c->frame, jox_scale(draw_heading(k), 0.3f + 1.4f * draw_walk(k, 4)));
         a->pref_x[i] = draw_walk(k, 6) < 0.1f ? 0.0f : pref.x;
         a->pref_y[i] = draw_walk(k, 6) < 0.1f ? 0.0f : pref.y;
-        a->way[i] = 20.0f * draw_walk(k, 7);
+        a->way_left[i] = 20.0f * draw_walk(k, 7);
         a->speed_limit[i] = 3.0f;
         a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
     }

@@ -66,7 +66,7 @@ static void add_law_agent(Packet *p, double x, double y) {
     a->course_x[i] = (float)jox_cos(heading);
     a->course_y[i] = (float)jox_sin(heading);
     a->bound[i] = draw_law_value(p, 0.0, 1.0) < 0.5 ? 1 : 0;
-    a->way[i] = (float)draw_law_value(p, 0.0, 9.0);
+    a->way_left[i] = (float)draw_law_value(p, 0.0, 9.0);
     jox_param_set(a, JOX_PARAM_radius, i, (float)draw_law_value(p, 0.15, 0.25));
     jox_param_set(a, JOX_PARAM_time_gap, i, (float)draw_law_value(p, 0.4, 1.6));
 }

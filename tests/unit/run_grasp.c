@@ -79,10 +79,10 @@ static void a_hold_pulls_both_alike(void **state) {
     int held = 0, told = 0;
     for (int n = 0; n < 60; n++) {
         step_pair(&p, 1);
-        assert_float_equal(p.a->given_x[p.one] + p.a->given_x[p.other], 0, 1e-4);
-        assert_float_equal(p.a->given_y[p.one] + p.a->given_y[p.other], 0, 1e-4);
-        assert_true(p.a->given_x[p.one] >= 0.0f); /* towards whom it holds */
-        most = jox_maxf(most, p.a->given_x[p.one]);
+        assert_float_equal(p.a->last_ext_x[p.one] + p.a->last_ext_x[p.other], 0, 1e-4);
+        assert_float_equal(p.a->last_ext_y[p.one] + p.a->last_ext_y[p.other], 0, 1e-4);
+        assert_true(p.a->last_ext_x[p.one] >= 0.0f); /* towards whom it holds */
+        most = jox_maxf(most, p.a->last_ext_x[p.one]);
         assert_int_equal(p.a->held[p.other], p.a->grasped[p.one] == 2);
         assert_int_equal(p.a->held[p.one], 0);
         held += p.a->held[p.other];
@@ -130,7 +130,7 @@ static void grips_are_within_bounds(void **state) {
         Pair p = load_pair(APART("0.7"), GRIPS[n]);
         for (int k = 0; k < 20; k++) {
             step_pair(&p, 1);
-            const float pull = p.a->given_x[p.one];
+            const float pull = p.a->last_ext_x[p.one];
             assert_true(n < 2 ? pull == 0.0f : pull >= 0.0f && pull <= 5000.0f);
         }
         jo_scene_free(p.scene);

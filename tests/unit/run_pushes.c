@@ -15,7 +15,7 @@
 
 static float force_on(const JoScene *scene, uint32_t id) {
     const JoxAgents *a = &scene->world->state.agents;
-    return a->given_x[jox_agents_find(a, id)];
+    return a->last_ext_x[jox_agents_find(a, id)];
 }
 
 static void a_push_reaches_whoever_stands_there_while_it_lasts(void **state) {

@@ -39,7 +39,7 @@ static void store_bound_place(const Asking *q, uint32_t k, const JoxField *field
     if (!jox_walks(a, i) || !field)
         return;
     a->bound[i] = jox_reference((int32_t)q->place);
-    a->way[i] = way;
+    a->way_left[i] = way;
 }
 
 /* Writes the direction of an agent; straight towards the target where no way is known. */

@@ -25,8 +25,8 @@ static float compute_mean_search(const JoxAgents *a, JoxV2 extent) {
     double sum = 0.0;
     uint32_t searched = 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        sum += (double)a->search[i];
-        searched += a->search[i] > 0.0f;
+        sum += (double)a->search_radius[i];
+        searched += a->search_radius[i] > 0.0f;
     }
     if (searched)
         return (float)(sum / searched);
@@ -53,9 +53,9 @@ static float fit_cells(JoxNav *nav, const JoxAgents *a) {
         high.y = jox_maxf(high.y, a->y[i]);
     }
     const JoxV2 extent = jox_sub(high, nav->low);
-    nav->search = compute_mean_search(a, extent);
-    float width = clamp_cell_side(CELL_WIDTH, nav->search),
-          height = clamp_cell_side(CELL_HEIGHT, nav->search);
+    nav->search_radius = compute_mean_search(a, extent);
+    float width = clamp_cell_side(CELL_WIDTH, nav->search_radius),
+          height = clamp_cell_side(CELL_HEIGHT, nav->search_radius);
     const float most = CELLS_LEAST + CELLS_EACH * (float)a->count;
     while ((extent.x / width + 1.0f) * (extent.y / height + 1.0f) > most) {
         width *= 1.5f;

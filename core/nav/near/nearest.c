@@ -118,7 +118,7 @@ static void write_nearest(const JoxPerceive *p, uint32_t i, float perception,
     const JoxAgents *a = p->agents;
     bool full = found->most > 0 && found->count == found->most;
     float reach = full ? sqrtf(read_distance2(found->keys[found->count - 1])) : perception;
-    a->search[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
+    a->search_radius[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
     a->density[i] =
         (float)found->count / ((float)JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
     const float touch = jox_touch_most(p->out);

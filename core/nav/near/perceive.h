@@ -9,7 +9,7 @@
 
 typedef struct JoxPerceive {
     const JoxNav *nav;
-    JoxAgents *agents; /* writes search, density */
+    JoxAgents *agents; /* writes search_radius, density */
     JoxNeighbours *out;
     float sight; /* m: limit of every perception; INFINITY: none */
 } JoxPerceive;
@@ -19,8 +19,8 @@ typedef struct JoxPerceive {
 #define JOX_SEARCH_LEAST 0.01f    /* m: least radius that is stored */
 #define JOX_DENSITY_LEAST 0.0025f /* m2: least squared radius in a density */
 
-/* Finds the neighbours, the agents within touch range, `search` and `density` of agents [begin,
-   end). `begin` is a multiple of JOX_LANES. */
+/* Finds the neighbours, the agents within touch range, `search_radius` and `density` of agents
+   [begin, end). `begin` is a multiple of JOX_LANES. */
 typedef void JoxPerceiveKernel(const JoxPerceive *perceive, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxPerceiveKernel jox_perceive_packets_##name;
 JOX_ISAS(X)

@@ -348,7 +348,8 @@ static void write_found(const Packet *packet, const Found *f, uint32_t lanes,
     if (jm_bits(f->full))
         reach = jf_select(f->full, jf_sqrt(pick_farthest2(packet, f)), perception);
     JoxFloats area = jf_max(reach * reach, jf_set(JOX_DENSITY_LEAST));
-    store_floats(p->agents->search + packet->first, mask, jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
+    store_floats(p->agents->search_radius + packet->first, mask,
+                 jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
     store_floats(p->agents->density + packet->first, mask,
                  ji_to_floats(f->count) / ((float)JOX_PI * area));
     store_bytes(p->out->count + packet->first, mask, f->count);
@@ -367,7 +368,8 @@ static void find_touching(const Packet *packet, JoxMask sees) {
     const JoxFloats radius = jox_param_lanes(p->agents, JOX_PARAM_radius, packet->first);
     JoxFloats range = radius + p->out->widest + JOX_TOUCH_LEAST;
     range = jf_min(range + JOX_TOUCH_MOST, jf_set(p->sight));
-    JoxFloats reach = jf_select(sees, jf_load(p->agents->search + packet->first), jf_set(0.0f));
+    JoxFloats reach =
+        jf_select(sees, jf_load(p->agents->search_radius + packet->first), jf_set(0.0f));
     const uint32_t lacking = packet->lanes & jm_bits(jf_lt(reach, range));
     store_bytes(p->out->touch_count + packet->first, jm_of_bits(packet->lanes),
                 ji_set(JOX_TOUCH_IS_SEEN));
@@ -397,9 +399,9 @@ static void perceive_packet(Packet *packet) {
     const uint32_t i = packet->first;
     const JoxFloats perception =
         jf_min(jox_param_lanes(a, JOX_PARAM_perception, i), jf_set(p->sight));
-    const JoxFloats last = jf_load(a->search + i), zero = jf_set(0.0f);
+    const JoxFloats last = jf_load(a->search_radius + i), zero = jf_set(0.0f);
     const JoxInts most = jf_to_ints(jox_param_lanes(a, JOX_PARAM_neighbours, i));
-    const JoxFloats first = jf_set(jox_maxf(p->nav->search, JOX_SEARCH_LEAST));
+    const JoxFloats first = jf_set(jox_maxf(p->nav->search_radius, JOX_SEARCH_LEAST));
     JoxFloats radius = jf_select(jf_lt(zero, last), last + JOX_SEARCH_SLACK, first);
     jf_store(packet->at_x, jf_load(a->x + i));
     jf_store(packet->at_y, jf_load(a->y + i));

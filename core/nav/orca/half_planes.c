@@ -60,7 +60,7 @@ static bool find_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, const J
                               const JoxPair *q, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
     const JoxVector velocity = {a->vx[j], a->vy[j]};
-    const JoxFloats heading[4] = {a->aim_x[j], a->aim_y[j], a->way[j],
+    const JoxFloats heading[4] = {a->aim_x[j], a->aim_y[j], a->way_left[j],
                                   jox_float_of((uint32_t)a->bound[j])};
     const JoxWalkerGap gap = jox_walker_gap(s->nav->walk, self, q);
     const JoxMindsLanes minds = jox_minds_lanes(a, i, (JoxInts)j, heading, (JoxVector){q->x, q->y});

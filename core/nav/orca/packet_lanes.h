@@ -291,7 +291,7 @@ static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
 static inline bool jox_sees_over_edges(const JoxPacket *p) {
     const JoxAgents *a = p->s->agents;
     const JoxFloats margin = jf_set(1e-3f); /* m: more than the rounding of positions */
-    const JoxFloats reach = jf_load(a->search + p->first) + margin;
+    const JoxFloats reach = jf_load(a->search_radius + p->first) + margin;
     JoxMask over = jm_of_bits(0);
     for (int axis = 0; axis < 2; axis++) {
         const float origin = axis ? a->origin.y : a->origin.x;

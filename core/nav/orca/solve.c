@@ -169,7 +169,7 @@ typedef struct Touched {
    indices. */
 static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
                          const JoxContactPlanes *in_step, Touched *out) {
-    const uint32_t was = i + a->moved_up[i];
+    const uint32_t was = i + a->index_drop[i];
     *out = (Touched){.all = {.planes = out->planes, .agents = i + 1}};
     JOX_RESERVE_ZEROED(out->all.starts, out->all.starts_capacity, i + 1);
     JOX_RESERVE_ZEROED(out->all.people, out->all.people_capacity, i + 1);
@@ -186,7 +186,7 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
         out->planes[k].other = UINT32_MAX; /* until the agent is found again below */
         for (uint32_t m = 0; m < n->count[i]; m++) {
             const uint32_t j = n->index[jox_neighbour_at(n, i, m)];
-            if (j + a->moved_up[j] == other)
+            if (j + a->index_drop[j] == other)
                 out->planes[k].other = j;
         }
     }

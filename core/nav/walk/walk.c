@@ -36,8 +36,8 @@ static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
     (void)worker;
     const JoxWalk *w = context;
     const JoxAgents *a = w->agents;
-    jox_interleave(&w->nav->headings[begin], a->aim_x + begin, a->aim_y + begin, a->way + begin,
-                   a->bound + begin, end - begin);
+    jox_interleave(&w->nav->headings[begin], a->aim_x + begin, a->aim_y + begin,
+                   a->way_left + begin, a->bound + begin, end - begin);
     KERNELS[w->nav->isa].unhidden(&w->nav->grid, a->x + begin, a->y + begin, end - begin,
                                   w->nav->unhidden2 + begin);
 }

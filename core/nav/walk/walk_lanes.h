@@ -34,7 +34,7 @@ typedef struct JoxMindsLanes {
    stands, is crossing. `heading`: the neighbours' JoxHeading, member by member. */
 static inline JoxMindsLanes jox_minds_lanes(const JoxAgents *a, uint32_t first, JoxInts others,
                                             const JoxFloats heading[4], JoxVector offset) {
-    const JoxFloats zero = jf_set(0.0f), way = jf_load(a->way + first);
+    const JoxFloats zero = jf_set(0.0f), way = jf_load(a->way_left + first);
     const JoxVector own = {jf_load(a->aim_x + first), jf_load(a->aim_y + first)};
     // cppcheck-suppress ctuArrayIndex
     const JoxVector aim = {heading[0], heading[1]};
