@@ -9,7 +9,7 @@
 #include "live/scene_page.h"
 #include "run/messages.h"
 #include "run/reload.h"
-#include "run/results/tell.h"
+#include "run/results/result_structs.h"
 
 enum { VIEW_COOKIE = 0x4a4f5644 };
 static const double LATE = 0.1; /* s of delay that later steps make up for; more is dropped */

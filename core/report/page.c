@@ -18,7 +18,7 @@
 #include "run/orca_flow_note.h"
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
-#include "run/results/tell.h"
+#include "run/results/result_structs.h"
 #include "run/run.h"
 
 enum { MOST_GROUPS = 12 }; /* groups named in the summary */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/format/pieces.h"
-#include "run/results/tell.h"
+#include "run/results/result_structs.h"
 #include "run/run.h"
 #include "sweep/sweep.h"
 

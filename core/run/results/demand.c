@@ -1,10 +1,10 @@
-/* People who were due, by sources and at given times, and did not come: in the last lines of a run
-   and in its figures. */
+/* People whom sources or start times had due and who did not come in: for the closing lines of a
+   run and for its figures. */
 #include "run/results/demand.h"
 #include "base/format/noun.h"
 #include "run/run.h"
 
-enum { MOST_TOLD = 5 }; /* sources that are named */
+enum { MOST_TOLD = 5 }; /* sources named in the closing lines */
 
 JoxDemand jox_run_demand(const JoScene *scene, uint32_t source) {
     const double late = jox_source_waiting(scene->world, source),
@@ -35,8 +35,8 @@ void jox_run_add_demand(const JoScene *scene, JoxJson *json) {
     jox_json_end(json);
 }
 
-/* Whether walls leave somebody room to come in at one of a source's places. */
-static bool has_floor(const JoScene *scene, uint32_t source) {
+/* Returns whether an entrance of the source has floor that is free of walls. */
+static bool has_free_entrance(const JoScene *scene, uint32_t source) {
     for (uint32_t d = 0; d < jox_source_doors(scene->world, source); d++)
         if (jox_source_entrance(scene->world, source, d)->area > 0.0)
             return true;
@@ -61,7 +61,7 @@ void jox_run_say_demand(const JoScene *scene, JoxText *out) {
                         jox_noun(due, (uint64_t)demand.due, "person|people"));
         jox_source_name(scene->world, s, out);
         jox_text_printf(out, "' (%.200s:%d) %s.", at.file, at.line,
-                        has_floor(scene, s) ? "was full" : "lies in walls");
+                        has_free_entrance(scene, s) ? "was full" : "lies in walls");
         if (demand.did_not_come > 0.0)
             jox_text_printf(out, " It has ended: %s did not come.",
                             jox_noun(due, (uint64_t)demand.did_not_come, "person|people"));

@@ -1,6 +1,6 @@
-/* What of the behaviours came to nothing in a run: states that nobody entered, transitions that
-   never fired, goals that nobody reached, cycles without time, distances beyond sight. It is worked
-   out from counts that the machines keep (machine/counts.c), when it is asked for. */
+/* Hints at parts of behaviours that had no effect in a run: states that nobody entered, transitions
+   that never fired, goals that nobody reached, cycles that take no time, distances beyond sight.
+   They are derived on request from the counts that machines keep (JoxMachineCounts). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,44 +14,45 @@
 
 enum { HEAD, ITEMS }; /* parts of a pack */
 enum { MOST_HINTS = 20 };
-static const double ALWAYS = 0.9;       /* share of the steps */
-static const double SHORTEST = 20.0;    /* s, of a run in which something ought to have happened */
-static const double STEPS_STAYED = 1.5; /* in a state, on average, that lasts no time */
-enum { OFTEN = 100 };                   /* transitions between two states, of a cycle */
+static const double ALWAYS = 0.9;        /* share of the steps in which a state had people */
+static const double SHORTEST_RUN = 20.0; /* s: shorter runs prove nothing about transitions */
+static const double STEPS_STAYED = 1.5;  /* mean stay, steps, up to which a state takes no time */
+enum { OFTEN = 100 };                    /* least departures from each state of a cycle */
 
-/* One machine as it is judged. */
-typedef struct Judged {
+/* A machine that is examined. */
+typedef struct Examined {
     const JoScene *scene;
     const JoxMachine *machine;
     const JoxMachineCounts *counts;
-    double seconds; /* that this version ran */
-    bool is_over;   /* the whole of the scene's duration */
-    uint64_t goals; /* bits of targets of which it was said: those below 64 */
+    double seconds; /* that this version of the machine ran */
+    bool is_over;   /* it ran for the whole duration of the scene */
+    uint64_t goals; /* mask of targets that have a hint already; those below 64 alone */
     JoxPack *pack;
     JoHints *head;
-} Judged;
+} Examined;
 
-static uint64_t taken_of(const Judged *j, const JoxState *from, uint32_t transition) {
+static uint64_t count_taken(const Examined *j, const JoxState *from, uint32_t transition) {
     return j->counts->taken[from->first_transition + transition];
 }
 
-static const JoxStateCounts *counts_of(const Judged *j, const JoxState *state) {
+static const JoxStateCounts *state_counts(const Examined *j, const JoxState *state) {
     return &j->counts->states[state - j->machine->states];
 }
 
-static uint64_t times_entered(const Judged *j, uint32_t state) {
+static uint64_t count_entered(const Examined *j, uint32_t state) {
     const JoxMachine *m = j->machine;
     uint64_t times = 0;
     for (uint32_t s = 0; s < m->state_count; s++)
         for (uint32_t t = 0; t < m->states[s].transition_count; t++)
             if (m->states[s].transitions[t].to == state)
-                times += taken_of(j, &m->states[s], t);
+                times += count_taken(j, &m->states[s], t);
     return times;
 }
 
-/* Adds one at the place of a transition's key, or of the transition. */
-static void add(const Judged *j, JoHintKind kind, const JoxState *from, const JoxTransition *t,
-                const char *way_out, JoxText *text) {
+/* Adds a hint that points at the `when` of a transition, or else at the transition. Takes `text`.
+ */
+static void add_hint(const Examined *j, JoHintKind kind, const JoxState *from,
+                     const JoxTransition *t, const char *way_out, JoxText *text) {
     char path[300];
     JoxWritten written = {0};
     if (j->head->count < MOST_HINTS) {
@@ -73,27 +74,27 @@ static void add(const Judged *j, JoHintKind kind, const JoxState *from, const Jo
     jox_text_free(text);
 }
 
-/* ---- what never happened ---- */
+/* ---- transitions that never fired ---- */
 
 static bool is_place(const JoxMachine *m, int16_t target) {
     return target >= 0 && (m->targets[target].kind < JOX_TARGET_NEAREST ||
                            m->targets[target].kind == JOX_TARGET_HOME);
 }
 
-/* Whether what an instruction asks for is bound to come about as time goes on, where a behaviour
-   does what it is meant to. *asks: whether it asks for anything. */
-static bool is_expected(const JoxMachine *m, const JoxInstruction *in, bool *asks) {
+/* Returns whether the test of an instruction becomes true in time if the behaviour works as meant,
+   as reaching a place does. Sets *tests if the instruction tests anything. */
+static bool is_expected(const JoxMachine *m, const JoxInstruction *in, bool *tests) {
     switch ((JoxOp)in->op) {
     case JOX_OP_INSIDE:
     case JOX_OP_NEAR:
-        *asks = true;
+        *tests = true;
         return is_place(m, in->op == JOX_OP_NEAR ? in->target : in->place) &&
                (in->op == JOX_OP_NEAR || in->target < 0);
     case JOX_OP_CROSSES:
     case JOX_OP_FIRST_IN:
     case JOX_OP_LASTED:
     case JOX_OP_MEMORY:
-        *asks = true;
+        *tests = true;
         return true;
     case JOX_OP_NOW:
         return in->arg == JOX_NOW_x || in->arg == JOX_NOW_y || in->arg == JOX_NOW_time;
@@ -102,20 +103,20 @@ static bool is_expected(const JoxMachine *m, const JoxInstruction *in, bool *ask
     }
 }
 
-/* Whether a transition ought to have been taken by somebody in the end. */
-static bool ought_to_fire(const Judged *j, const JoxTransition *t) {
+/* Returns whether somebody should have taken the transition by the end of the run. */
+static bool should_have_fired(const Examined *j, const JoxTransition *t) {
     const JoxMachine *m = j->machine;
-    bool asks = false, expected = true;
+    bool tests = false, expected = true;
     if (t->when < 0 || t->when_hook >= 0 || t->chance.kind != JOX_VALUE_UNSET)
         return false;
     const JoxExpression *e = &m->expressions[t->when];
     for (uint32_t k = 0; k < e->count && expected; k++)
-        expected = is_expected(m, &e->code[k], &asks);
-    return expected && asks;
+        expected = is_expected(m, &e->code[k], &tests);
+    return expected && tests;
 }
 
-/* The place that a state goes to and its transition waits for, or -1. */
-static int16_t goal_of(const JoxMachine *m, const JoxState *state, const JoxTransition *t) {
+/* Returns the target that the state steers to and its transition waits for, or -1. */
+static int16_t find_goal(const JoxMachine *m, const JoxState *state, const JoxTransition *t) {
     const JoxExpression *e = &m->expressions[t->when];
     for (uint32_t k = 0; k < e->count; k++) {
         const JoxInstruction *in = &e->code[k];
@@ -128,9 +129,9 @@ static int16_t goal_of(const JoxMachine *m, const JoxState *state, const JoxTran
     return -1;
 }
 
-static void judge_transition(Judged *j, const JoxState *from, const JoxTransition *t) {
+static void examine_transition(Examined *j, const JoxState *from, const JoxTransition *t) {
     const char *to = j->machine->states[t->to].name;
-    const int16_t goal = goal_of(j->machine, from, t);
+    const int16_t goal = find_goal(j->machine, from, t);
     JoxText text = {0};
     const uint64_t bit = goal >= 0 && goal < 64 ? (uint64_t)1 << goal : 0;
     if (goal >= 0 && j->goals & bit)
@@ -139,13 +140,14 @@ static void judge_transition(Judged *j, const JoxState *from, const JoxTransitio
         j->goals |= bit;
         jox_text_printf(&text, "nobody in state '%s' reached '%s' in %.0f s", from->name,
                         j->machine->targets[goal].name, j->seconds);
-        add(j, JO_HINT_GOAL, from, t,
+        add_hint(
+            j, JO_HINT_GOAL, from, t,
             "See with --view where they stand: is there a way, and is the run long enough, or is "
             "it meant so?",
             &text);
         return;
     }
-    const bool entered = times_entered(j, t->to) > 0 || j->counts->states[t->to].spent > 0;
+    const bool entered = count_entered(j, t->to) > 0 || j->counts->states[t->to].spent > 0;
     if (entered)
         jox_text_printf(
             &text,
@@ -157,14 +159,14 @@ static void judge_transition(Judged *j, const JoxState *from, const JoxTransitio
                         "nobody was ever in state '%s': in %.0f s the transition to it was never "
                         "taken, though somebody was always in '%s'",
                         to, j->seconds, from->name);
-    add(j, entered ? JO_HINT_TRANSITION : JO_HINT_STATE, from, t,
-        "The live page (--view) shows what its condition is made of; take it out if it is not "
-        "needed",
-        &text);
+    add_hint(j, entered ? JO_HINT_TRANSITION : JO_HINT_STATE, from, t,
+             "The live page (--view) shows what its condition is made of; take it out if it is not "
+             "needed",
+             &text);
 }
 
-/* Where sinks take people out, they may be gone before a transition sees them arrive. */
-static bool has_sink(const Judged *j) {
+/* Returns whether sinks removed people, maybe before a transition saw them arrive. */
+static bool sinks_removed_people(const Examined *j) {
     const JoxExits *exits = &j->scene->world->state.exits;
     bool any = false;
     for (uint32_t e = 0; e < exits->count; e++)
@@ -172,50 +174,52 @@ static bool has_sink(const Judged *j) {
     return any;
 }
 
-static void judge_transitions(Judged *j) {
+static void examine_transitions(Examined *j) {
     const JoxMachine *m = j->machine;
     const double steps = j->seconds / j->scene->world->model.def.dt;
-    if (!j->is_over || j->seconds < SHORTEST || j->counts->before_count || has_sink(j))
+    if (!j->is_over || j->seconds < SHORTEST_RUN || j->counts->before_count ||
+        sinks_removed_people(j))
         return;
     for (uint32_t s = 0; s < m->state_count; s++) {
         const JoxState *from = &m->states[s];
-        if ((double)counts_of(j, from)->steps < ALWAYS * steps)
+        if ((double)state_counts(j, from)->steps < ALWAYS * steps)
             continue;
         for (uint32_t t = 0; t < from->transition_count; t++)
-            if (taken_of(j, from, t) == 0 && ought_to_fire(j, &from->transitions[t]))
-                judge_transition(j, from, &from->transitions[t]);
+            if (count_taken(j, from, t) == 0 && should_have_fired(j, &from->transitions[t]))
+                examine_transition(j, from, &from->transitions[t]);
     }
 }
 
 /* ---- cycles without time ---- */
 
-/* The transition by which most leave a state that lasts a step on average, and is left often; -1.
- */
-static int32_t way_on(const Judged *j, uint32_t state) {
+/* Returns the transition by which at least half of the agents leave a state, if they leave it often
+   and after a step on average; else -1. */
+static int32_t find_main_transition(const Examined *j, uint32_t state) {
     const JoxState *from = &j->machine->states[state];
     uint64_t left = 0, most = 0;
-    int32_t way = -1;
+    int32_t main = -1;
     for (uint32_t t = 0; t < from->transition_count; t++) {
-        const uint64_t taken = taken_of(j, from, t);
+        const uint64_t taken = count_taken(j, from, t);
         left += taken;
         if (taken > most) {
             most = taken;
-            way = (int32_t)t;
+            main = (int32_t)t;
         }
     }
     const double spent = (double)j->counts->states[state].spent;
-    return left >= OFTEN && 2 * most >= left && spent <= STEPS_STAYED * (double)left ? way : -1;
+    return left >= OFTEN && 2 * most >= left && spent <= STEPS_STAYED * (double)left ? main : -1;
 }
 
-/* Follows the ways on from a state; whether they lead back to it, by states that come after it. */
-static bool goes_round(const Judged *j, uint32_t first, JoxText *text) {
+/* Follows the main transitions from a state. Returns whether they lead back to it through states of
+   higher index, so that each cycle is found once; `text` names the states. */
+static bool follow_cycle(const Examined *j, uint32_t first, JoxText *text) {
     uint32_t state = first;
     jox_text_printf(text, "people went round '%s'", j->machine->states[first].name);
     for (uint32_t n = 0; n < j->machine->state_count; n++) {
-        const int32_t way = way_on(j, state);
-        if (way < 0)
+        const int32_t next = find_main_transition(j, state);
+        if (next < 0)
             return false;
-        state = j->machine->states[state].transitions[way].to;
+        state = j->machine->states[state].transitions[next].to;
         jox_text_printf(text, " -> '%s'", j->machine->states[state].name);
         if (state <= first)
             return state == first;
@@ -223,26 +227,26 @@ static bool goes_round(const Judged *j, uint32_t first, JoxText *text) {
     return false;
 }
 
-static void judge_cycles(const Judged *j) {
+static void examine_cycles(const Examined *j) {
     for (uint32_t s = 0; s < j->machine->state_count; s++) {
         const JoxState *from = &j->machine->states[s];
-        const int32_t way = way_on(j, s);
+        const int32_t next = find_main_transition(j, s);
         JoxText text = {0};
-        if (way < 0 || !goes_round(j, s, &text)) {
+        if (next < 0 || !follow_cycle(j, s, &text)) {
             jox_text_free(&text);
             continue;
         }
         jox_text_printf(&text, ", a state a step, %llu times",
-                        (unsigned long long)taken_of(j, from, (uint32_t)way));
-        add(j, JO_HINT_CYCLE, from, &from->transitions[way],
-            "Let one of its conditions wait for something, as after(1)", &text);
+                        (unsigned long long)count_taken(j, from, (uint32_t)next));
+        add_hint(j, JO_HINT_CYCLE, from, &from->transitions[next],
+                 "Let one of its conditions wait for something, as after(1)", &text);
     }
 }
 
 /* ---- sight ---- */
 
-/* Whether the load has said it: perception is a number of the behaviour. */
-static bool was_linted(const JoxMachine *m, const JoxState *state, double asked) {
+/* Returns whether loading already warned of it, as perception is a number in the behaviour. */
+static bool was_warned_at_load(const JoxMachine *m, const JoxState *state, double asked) {
     const JoxValue *value = &state->param[JOX_PARAM_perception];
     if (value->kind == JOX_VALUE_UNSET)
         value = &m->defaults[JOX_PARAM_perception];
@@ -251,33 +255,34 @@ static bool was_linted(const JoxMachine *m, const JoxState *state, double asked)
     return value->kind == JOX_VALUE_CONST && asked > value->number;
 }
 
-static void judge_sight_of(const Judged *j, const JoxState *from, const JoxTransition *t) {
+static void examine_sight_of(const Examined *j, const JoxState *from, const JoxTransition *t) {
     const JoxMachine *m = j->machine;
-    const double sight = counts_of(j, from)->sight;
+    const double sight = state_counts(j, from)->sight;
     const JoxExpression *e = &m->expressions[t->when];
     for (uint32_t k = 1; k < e->count; k++) {
         const JoxInstruction *in = &e->code[k], *asked = &e->code[k - 1];
         const bool looks =
             in->op == JOX_OP_HEARD || (in->op == JOX_OP_NEAR && !is_place(m, in->target));
         if (!looks || asked->op != JOX_OP_CONST || asked->to != in->a || !(asked->number > sight) ||
-            asked->number >= JOX_MOST_WEIGHT || was_linted(m, from, asked->number))
+            asked->number >= JOX_MOST_WEIGHT || was_warned_at_load(m, from, asked->number))
             continue;
         JoxText text = {0};
         jox_text_printf(&text,
                         "a condition of state '%s' asks for %g m, and nobody there perceived "
                         "farther than %g m",
                         from->name, asked->number, sight);
-        add(j, JO_HINT_SIGHT, from, t, "Raise perception in this state, or ask for less", &text);
+        add_hint(j, JO_HINT_SIGHT, from, t, "Raise perception in this state, or ask for less",
+                 &text);
         return;
     }
 }
 
-static void judge_sight(const Judged *j) {
+static void examine_sight(const Examined *j) {
     for (uint32_t s = 0; s < j->machine->state_count; s++) {
         const JoxState *from = &j->machine->states[s];
         for (uint32_t t = 0; t < from->transition_count; t++)
-            if (counts_of(j, from)->sight > 0.0 && from->transitions[t].when >= 0)
-                judge_sight_of(j, from, &from->transitions[t]);
+            if (state_counts(j, from)->sight > 0.0 && from->transitions[t].when >= 0)
+                examine_sight_of(j, from, &from->transitions[t]);
     }
 }
 
@@ -294,18 +299,19 @@ JoHints *jo_scene_hints(const JoScene *scene) {
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachineCounts *counts = &machines->state->counts[m];
         const double seconds = (double)(world->state.tick - counts->since) * dt;
-        Judged j = {.scene = scene,
-                    .machine = machines->set->items[m],
-                    .counts = counts,
-                    .seconds = seconds,
-                    .is_over = seconds > duration - 1.5 * dt,
-                    .pack = &pack,
-                    .head = head};
-        if (jox_run_made(scene->spec, j.machine->path)) /* of a journey: nobody wrote it */
+        Examined j = {.scene = scene,
+                      .machine = machines->set->items[m],
+                      .counts = counts,
+                      .seconds = seconds,
+                      .is_over = seconds > duration - 1.5 * dt,
+                      .pack = &pack,
+                      .head = head};
+        if (jox_run_made(scene->spec,
+                         j.machine->path)) /* made of a journey, not written by the user */
             continue;
-        judge_transitions(&j);
-        judge_cycles(&j);
-        judge_sight(&j);
+        examine_transitions(&j);
+        examine_cycles(&j);
+        examine_sight(&j);
     }
     return jox_disown(jox_pack_end(&pack));
 }

@@ -1,6 +1,6 @@
 /* People whom a gate or a moving body keeps from their goal, in results. */
-#ifndef JOX_RUN_RESULTS_KEPT_H
-#define JOX_RUN_RESULTS_KEPT_H
+#ifndef JOX_RUN_RESULTS_KEPT_PEOPLE_H
+#define JOX_RUN_RESULTS_KEPT_PEOPLE_H
 
 #include "base/format/json_writer.h"
 #include "base/text.h"

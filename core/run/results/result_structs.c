@@ -1,4 +1,5 @@
-/* What a run comes to, as structs for the program that embeds it. */
+/* The results of a run as structs, for programs that embed the engine: figures, costs of Lua
+   functions, and troubles. */
 #include <math.h>
 #include <string.h>
 
@@ -8,17 +9,17 @@
 #include "base/guard.h"
 #include "base/pack.h"
 #include "jostle_tools.h"
-#include "run/results/tell.h"
+#include "run/results/result_structs.h"
 #include "run/run.h"
 #include "run/standstill.h"
 #include "run/wall_checks.h"
 
-enum { HEAD, ITEMS };      /* parts of a pack */
-enum { MOST_NO_WAYS = 5 }; /* places that are told */
+enum { HEAD, ITEMS };          /* parts of a pack */
+enum { MOST_UNREACHABLE = 5 }; /* places named in troubles */
 
 /* ---- figures ---- */
 
-static JoFigureKind kind_of(JoxJsonKind kind) {
+static JoFigureKind map_figure_kind(JoxJsonKind kind) {
     static const JoFigureKind KINDS[] = {
         [JOX_JSON_NULL] = JO_FIGURE_NONE,     [JOX_JSON_BOOL] = JO_FIGURE_TRUTH,
         [JOX_JSON_NUMBER] = JO_FIGURE_NUMBER, [JOX_JSON_TEXT] = JO_FIGURE_TEXT,
@@ -30,7 +31,7 @@ static JoFigureKind kind_of(JoxJsonKind kind) {
 static bool add_figure(void *context, const JoxJsonItem *item) {
     JoxPack *pack = context;
     JoFigure *figure = jox_pack_add(pack, ITEMS, sizeof *figure);
-    figure->kind = kind_of(item->kind);
+    figure->kind = map_figure_kind(item->kind);
     figure->depth = item->depth;
     figure->number =
         item->kind == JOX_JSON_NUMBER || item->kind == JOX_JSON_BOOL ? item->number : (double)NAN;
@@ -40,7 +41,7 @@ static bool add_figure(void *context, const JoxJsonItem *item) {
     return true;
 }
 
-/* The file and this cannot differ: the figures are read off what the file would say. */
+/* Reads the figures from the JSON of jo_scene_summary, so that both always agree. */
 JoFigures *jo_scene_figures(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     char *text = jo_scene_summary(scene);
@@ -107,9 +108,8 @@ static void add_trouble(JoxPack *pack, JoTroubles *head, JoTroubleKind kind, uin
     jox_text_free(text);
 }
 
-/* Functions that are suspended, and those that failed in a tenth of their calls or more: with two
-   agents as with many. */
-static void add_failing(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
+/* Adds functions that are suspended, and those that failed in at least a tenth of their calls. */
+static void add_failing_functions(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         JoLuaCost cost;
         for (uint32_t h = 0;
@@ -130,7 +130,7 @@ static void add_failing(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     }
 }
 
-/* Appends by groups how many people something keeps from a place. */
+/* Appends how many people of each group cannot reach a place. */
 static void say_groups(const JoScene *scene, const JoxKept *kept, JoxText *out) {
     const JoxAgents *a = &scene->world->state.agents;
     uint32_t *all = jox_alloc((size_t)scene->spec->group_count + 1, sizeof *all);
@@ -148,8 +148,9 @@ static void say_groups(const JoScene *scene, const JoxKept *kept, JoxText *out) 
     jox_free(all);
 }
 
-/* People whom something that nothing takes away keeps from a place, by group. */
-static void add_no_way(const JoScene *scene, const JoxKept *kept, JoxPack *pack, JoTroubles *head) {
+/* Adds the trouble that people cannot reach a place, as nothing will remove the obstacle. */
+static void add_unreachable_place(const JoScene *scene, const JoxKept *kept, JoxPack *pack,
+                                  JoTroubles *head) {
     const char *name = scene->world->machines.places[kept->place].name;
     const bool nobody =
         kept->people == scene->world->state.agents.count && scene->world->state.exits.left == 0;
@@ -163,12 +164,13 @@ static void add_no_way(const JoScene *scene, const JoxKept *kept, JoxPack *pack,
     add_trouble(pack, head, JO_TROUBLE_NO_WAY, kept->people, "", &text);
 }
 
-static void add_no_ways(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
+/* Adds the first places that people cannot reach, MOST_UNREACHABLE at most. */
+static void add_unreachable_places(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     const uint32_t before = head->count;
     const JoxKeptList *list = jox_run_kept(scene);
     for (uint32_t k = 0; list && k < list->count; k++)
-        if (list->items[k].stands && head->count < before + MOST_NO_WAYS)
-            add_no_way(scene, &list->items[k], pack, head);
+        if (list->items[k].stands && head->count < before + MOST_UNREACHABLE)
+            add_unreachable_place(scene, &list->items[k], pack, head);
 }
 
 JoTroubles *jo_scene_troubles(const JoScene *scene) {
@@ -180,7 +182,7 @@ JoTroubles *jo_scene_troubles(const JoScene *scene) {
     JoxText text = {0};
     JoTroubles *head = jox_pack_add(&pack, HEAD, sizeof *head);
     jox_pack_list(&pack, HEAD, &head->items, ITEMS);
-    add_failing(scene, &pack, head);
+    add_failing_functions(scene, &pack, head);
     if (s->people_lost) {
         jox_text_printf(&text, "%llu times the numbers of somebody went wrong, who was %s",
                         (unsigned long long)s->people_lost,
@@ -188,7 +190,7 @@ JoTroubles *jo_scene_troubles(const JoScene *scene) {
                                                                    : "put back, at rest");
         add_trouble(&pack, head, JO_TROUBLE_LOST, s->people_lost, "", &text);
     }
-    add_no_ways(scene, &pack, head);
+    add_unreachable_places(scene, &pack, head);
     return jox_disown(jox_pack_end(&pack));
 }
 

@@ -1,4 +1,5 @@
-/* What a run comes to, in a paragraph: for who reads the last lines alone. */
+/* Writes the results of a run as one paragraph, for readers of the last lines on a terminal. Each
+   function below appends the sentences of one subject, or nothing. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -10,14 +11,14 @@
 #include "run/figure_listeners.h"
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
-#include "run/results/kept.h"
+#include "run/results/kept_people.h"
 #include "run/run.h"
 #include "run/standstill.h"
 #include "run/tally_scores.h"
 
-static const double WORTH = 10.0; /* s: shorter stands of one person are not mentioned */
+static const double SHORTEST_STAND = 10.0; /* s: shorter ones of one person are left out */
 
-/* Who left, by where, and who is inside. */
+/* Appends how many people there were, how many left by each exit, and how many are inside. */
 static void say_people(const JoScene *scene, JoxText *out) {
     const JoxExits *exits = &scene->world->state.exits;
     const uint32_t inside = scene->world->state.agents.count;
@@ -38,7 +39,7 @@ static void say_people(const JoScene *scene, JoxText *out) {
         jox_text_noun(out, inside, "person is inside|people are inside");
 }
 
-/* Who is inside, by machine and state. */
+/* Appends how many people are inside, by machine and state. */
 static void say_states(const JoScene *scene, JoxText *out) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
@@ -63,6 +64,7 @@ static void say_states(const JoScene *scene, JoxText *out) {
     jox_text_add(out, ".");
 }
 
+/* Appends the counts of events that are not zero. */
 static void say_events(const JoScene *scene, JoxText *out) {
     const JoxStatistics *s = &scene->world->state.statistics;
     const struct {
@@ -99,7 +101,7 @@ static void say_events(const JoScene *scene, JoxText *out) {
         jox_text_add(out, ".");
 }
 
-/* Of driven bodies: how often they met their limits, and whoever is in them. */
+/* Appends how often driven bodies met their force limits, and how many people are inside them. */
 static void say_drives(const JoScene *scene, JoxText *out) {
     const JoxDriveStatistics *d = &scene->world->state.statistics.drives;
     if (d->held_up > 0 || d->inside > 0) {
@@ -121,6 +123,7 @@ static void say_drives(const JoScene *scene, JoxText *out) {
     }
 }
 
+/* Appends the largest crowd that stood still, and the agent that stood longest. */
 static void say_standing(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     const JoxStood *stood = jox_run_stood_longest(scene);
@@ -133,7 +136,7 @@ static void say_standing(const JoScene *scene, JoxText *out) {
         jox_place_where(spec->places, spec->place_count, still->at, true, out);
         jox_text_add(out, ".");
     }
-    if (stood && stood->id != JOX_NO_INDEX && stood->seconds >= WORTH) {
+    if (stood && stood->id != JOX_NO_INDEX && stood->seconds >= SHORTEST_STAND) {
         jox_text_printf(out,
                         " Agent %u stood longest though it wanted to get on: for %.0f s until "
                         "%.0f s, at (%.1f, %.1f) m",
@@ -144,7 +147,7 @@ static void say_standing(const JoScene *scene, JoxText *out) {
     }
 }
 
-/* Whether it was denser than people can be. */
+/* Appends a warning if people overlapped, or stood denser, than real people can. */
 static void say_trust(const JoScene *scene, JoxText *out) {
     const double overlap = jox_statistics_overlap_p99(&scene->world->state.statistics);
     const double density = jox_run_density_max(scene);
@@ -154,7 +157,8 @@ static void say_trust(const JoScene *scene, JoxText *out) {
     jox_trust_say(overlap, density, out);
 }
 
-/* Flows are counted in one direction: a line whose ends were given the other way round. */
+/* Appends the flow probes whose line was crossed only against the direction that it counts: their
+   ends were given in the wrong order. */
 static void say_probes(const JoScene *scene, JoxText *out) {
     const JoxProbe *probe;
     for (uint32_t n = 0; (probe = jox_run_probe(scene, n)); n++) {

@@ -1,6 +1,6 @@
 /* Troubles of a run in one sentence. */
-#ifndef JOX_RUN_RESULTS_TELL_H
-#define JOX_RUN_RESULTS_TELL_H
+#ifndef JOX_RUN_RESULTS_RESULT_STRUCTS_H
+#define JOX_RUN_RESULTS_RESULT_STRUCTS_H
 
 #include "jostle.h"
 

@@ -1,9 +1,9 @@
-/* People who are kept from the place that they go to: in the last lines of a run and in its
- * figures. */
+/* People whom an obstacle keeps from their goal (JoxKept): for the closing lines of a run and for
+   its figures. */
 #include <math.h>
 
 #include "base/format/noun.h"
-#include "run/results/kept.h"
+#include "run/results/kept_people.h"
 #include "run/run.h"
 #include "run/standstill.h"
 #include "run/wall_checks.h"

@@ -1,4 +1,6 @@
-/* A run's figures as one JSON object. */
+/* The figures of a run as one JSON object (jo_scene_summary): the file that `--summary` writes,
+   which tests, sweeps and comparisons read. Each add_ function adds one member, or none where it
+   does not apply. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +17,7 @@
 #include "run/figure_listeners.h"
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
-#include "run/results/kept.h"
+#include "run/results/kept_people.h"
 #include "run/run.h"
 #include "run/standstill.h"
 #include "run/tally_scores.h"
@@ -42,19 +44,19 @@ static void add_states(JoxJson *json, const JoWorld *world) {
     jox_json_end(json);
 }
 
-static void add_taken(void *context, const char *from, const char *to, uint64_t taken) {
+static void add_transition(void *context, const char *from, const char *to, uint64_t taken) {
     JoxText key = {0};
     jox_text_printf(&key, "%s>%s", from, to);
     jox_json_whole(context, key.data, taken);
     jox_text_free(&key);
 }
 
-/* "From>To": how often, by all agents. */
+/* Adds "From>To" and how often all agents took it, by machine. */
 static void add_transitions(JoxJson *json, const JoxMachineRun *machines) {
     jox_json_object(json, "transitions");
     for (uint32_t m = 0; m < machines->set->count; m++) {
         jox_json_object(json, machines->set->items[m]->name);
-        jox_machines_taken(machines, m, add_taken, json);
+        jox_machines_taken(machines, m, add_transition, json);
         jox_json_end(json);
     }
     jox_json_end(json);
@@ -92,7 +94,7 @@ static void add_events(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-/* What driven bodies pressed people with; nothing where none did. */
+/* Adds the forces with which driven bodies pressed people, if any did. */
 static void add_drives(JoxJson *json, const JoScene *scene) {
     const JoxDriveStatistics *d = &scene->world->state.statistics.drives;
     if (!(d->force > 0.0) && d->inside == 0)
@@ -108,7 +110,7 @@ static void add_drives(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-/* How well the contacts between people, walls and bodies were solved. */
+/* Adds how well the contacts between people, walls and bodies were solved. */
 static void add_contacts(JoxJson *json, const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
     jox_json_object(json, "contacts");
@@ -128,7 +130,7 @@ static void add_regions(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-/* Whether it was denser than people can be. */
+/* Adds whether overlaps and densities stayed within what real people reach. */
 static void add_trust(JoxJson *json, const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
     const double overlap = jox_statistics_overlap_p99(s);
@@ -144,7 +146,8 @@ static void add_trust(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-/* Who wanted to get on and stood for the longest: a sign of somebody who is stuck. */
+/* Adds the agent that stood longest though it wanted to get on: a sign of an agent that is stuck.
+ */
 static void add_standing(JoxJson *json, const JoScene *scene) {
     const JoxStood *stood = jox_run_stood_longest(scene);
     if (!stood)
@@ -168,7 +171,7 @@ static void add_danger(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-/* What plain functions cost: share of the stepping, calls, and what failed. */
+/* Adds what Lua functions cost: their calls, seconds and share of the time of steps. */
 static void add_lua(JoxJson *json, const JoScene *scene) {
     const JoxLuaTotal total = jox_lua_total(scene->lua, scene->world->state.statistics.wall_s);
     jox_json_object(json, "lua");
@@ -178,7 +181,7 @@ static void add_lua(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-static void add_file(JoxJson *json, const char *path, const char *sha256) {
+static void add_file_hash(JoxJson *json, const char *path, const char *sha256) {
     jox_json_object(json, NULL);
     jox_json_string(json, "path", path);
     jox_json_string(json, "sha256", sha256);
@@ -188,16 +191,16 @@ static void add_file(JoxJson *json, const char *path, const char *sha256) {
 static void add_inputs(JoxJson *json, const JoScene *scene) {
     jox_json_array(json, "inputs");
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
-        add_file(json, scene->spec->files[f].path, scene->spec->files[f].sha256);
+        add_file_hash(json, scene->spec->files[f].path, scene->spec->files[f].sha256);
     for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         uint32_t count;
         const JoxLuaFile *files =
             jox_lua_files(scene->lua, scene->world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            add_file(json, files[f].path, files[f].sha256);
+            add_file_hash(json, files[f].path, files[f].sha256);
     }
     if (scene->input_path)
-        add_file(json, scene->input_path, scene->input_sha256);
+        add_file_hash(json, scene->input_path, scene->input_sha256);
     jox_json_end(json);
     jox_json_array(json, "mods");
     for (uint32_t m = 0; m < scene->mods->count; m++)
@@ -206,7 +209,7 @@ static void add_inputs(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
-/* Of scenes in which people and bodies touched. */
+/* Adds the impulses exchanged between people and bodies, if any touched. */
 static void add_exchange(JoxJson *json, const JoxStatistics *s) {
     const JoxExchange *e = &s->exchange;
     if (!(e->impulse > 0))
@@ -218,9 +221,8 @@ static void add_exchange(JoxJson *json, const JoxStatistics *s) {
     jox_json_end(json);
 }
 
-/* How far the first bonded body of the scene, or its greatest piece, has come, m, and turned, deg.
- */
-static void add_way(JoxJson *json, const JoScene *scene, uint32_t body) {
+/* Adds how far a bonded body, or its greatest piece, has moved, m, and turned, degrees. */
+static void add_displacement(JoxJson *json, const JoScene *scene, uint32_t body) {
     const JoxBodyDef *def = &scene->spec->bodies[body].def;
     JoxPose pose; /* the bodies of the scene have the first ids, in their order */
     if (!jox_bodies_pose(scene->world->state.bodies,
@@ -236,7 +238,7 @@ static void add_way(JoxJson *json, const JoScene *scene, uint32_t body) {
     jox_json_digits(json, "turned", turned, 6);
 }
 
-/* Of scenes with bonded blocks. */
+/* Adds the bonds of blocks, for scenes that have any. */
 static void add_bonds(JoxJson *json, const JoScene *scene) {
     const JoxBondStatistics *s = &scene->world->state.statistics.bonds;
     uint32_t body = 0, held = 0;
@@ -265,11 +267,11 @@ static void add_bonds(JoxJson *json, const JoScene *scene) {
         jox_json_whole(json, "rows_pressing", s->rows);
         jox_json_whole(json, "people_pressing", s->people);
     }
-    add_way(json, scene, body);
+    add_displacement(json, scene, body);
     jox_json_end(json);
 }
 
-/* What the run was, and how fast. */
+/* Adds which run it was, and how fast it ran. */
 static void add_run(JoxJson *json, const JoScene *scene, const JoStats *stats) {
     jox_json_string(json, "scene", scene->spec->path);
     jox_json_string(json, "version", jo_version());
@@ -331,7 +333,7 @@ char *jo_scene_summary(const JoScene *scene) {
     jox_run_add_probes(scene, &json);
     jox_run_add_tally(scene, &json);
     jox_json_format(&json, "hash", "%016llx", (unsigned long long)jox_world_hash(world));
-    /* Without how often functions failed: what they did to the crowd, or did not. */
+    /* without the counts of failed functions: equal hashes mean that the crowd moved alike */
     jox_json_format(&json, "hash_without_hooks", "%016llx",
                     (unsigned long long)jox_world_hash_without(world, "hooks"));
     jox_json_string(&json, "isa", jox_isa_name(world->model.def.isa));

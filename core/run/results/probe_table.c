@@ -1,5 +1,5 @@
-/* What a probe has measured, as a table of columns: read from the CSV that a report writes of it.
- */
+/* Tables of probes as columns of numbers and texts, for programs that embed the engine: parsed from
+   the CSV that the probe writes for reports. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,8 +15,8 @@
 
 enum { HEAD, COLUMNS, NUMBERS, TEXTS }; /* parts of the pack */
 
-/* The CSV of a probe; to be freed by `free`. NULL where memory is out. */
-static char *csv_of(const JoxProbe *probe) {
+/* Returns the CSV of a probe, to be freed by `free`; NULL if memory is out. */
+static char *write_probe_csv(const JoxProbe *probe) {
     char *text = NULL;
     size_t length = 0;
     FILE *file = open_memstream(&text, &length);
@@ -31,15 +31,16 @@ static char *csv_of(const JoxProbe *probe) {
     return NULL;
 }
 
-/* Cells of a table, row by row; the first row has names. */
+/* Cells of a table, row by row; the first row has the names of the columns. */
 typedef struct Cells {
-    char **items; /* in the text */
+    char **items; /* zero-terminated in place, in the CSV */
     size_t count, capacity;
     uint32_t columns;
 } Cells;
 
-/* Takes a cell from *at on and ends it in place; whether it is the last of its line. */
-static bool take_cell(char **at, char **cell) {
+/* Reads the cell at *at, zero-terminates it in place and moves *at behind it. Returns whether it
+   is the last of its line. */
+static bool read_cell(char **at, char **cell) {
     char *from = *at, *to;
     if (*from == '"') { /* doubled quotes within */
         *cell = to = ++from;
@@ -61,7 +62,7 @@ static bool take_cell(char **at, char **cell) {
 
 static void read_cells(char *text, Cells *cells) {
     while (*text) {
-        if (*text == '\n') { /* parts blocks of a map */
+        if (*text == '\n') { /* an empty line separates the blocks of a map */
             text++;
             continue;
         }
@@ -69,7 +70,7 @@ static void read_cells(char *text, Cells *cells) {
         bool last = false;
         while (!last) {
             JOX_RESERVE(cells->items, cells->capacity, cells->count + 1);
-            last = take_cell(&text, &cells->items[cells->count++]);
+            last = read_cell(&text, &cells->items[cells->count++]);
             columns++;
         }
         cells->columns = cells->columns ? cells->columns : columns;
@@ -77,7 +78,7 @@ static void read_cells(char *text, Cells *cells) {
     }
 }
 
-static bool is_number(const char *cell, double *number) {
+static bool parse_number(const char *cell, double *number) {
     char *end;
     *number = strtod(cell, &end);
     if (*cell && !*end)
@@ -86,7 +87,8 @@ static bool is_number(const char *cell, double *number) {
     return false;
 }
 
-/* Adds the column `c`: "name [unit]" in the first row. */
+/* Adds the column `c`, whose first row reads "name [unit]": its numbers, NaN for other texts, and
+   its texts if it has any. */
 static void add_column(const Cells *cells, uint32_t c, uint32_t rows, JoxPack *pack) {
     char *name = cells->items[c], *unit = strchr(name, '[');
     JoTableColumn *column = jox_pack_add(pack, COLUMNS, sizeof *column);
@@ -103,7 +105,7 @@ static void add_column(const Cells *cells, uint32_t c, uint32_t rows, JoxPack *p
     for (uint32_t r = 1; r <= rows; r++) {
         double *number = jox_pack_add(pack, NUMBERS, sizeof *number);
         const char *cell = cells->items[(size_t)r * cells->columns + c];
-        texts |= !is_number(cell, number) && *cell;
+        texts |= !parse_number(cell, number) && *cell;
     }
     if (!texts)
         return;
@@ -114,7 +116,7 @@ static void add_column(const Cells *cells, uint32_t c, uint32_t rows, JoxPack *p
     }
 }
 
-static JoTable *table_of(char *text) {
+static JoTable *parse_table(char *text) {
     Cells cells = {0};
     JoxPack pack = {0};
     JoTable *head = jox_pack_add(&pack, HEAD, sizeof *head);
@@ -131,14 +133,14 @@ static JoTable *table_of(char *text) {
 JoTable *jo_scene_probe_table(const JoScene *scene, uint32_t n) {
     JOX_REQUIRE(scene, NULL);
     const JoxProbe *probe = jox_run_probe(scene, n);
-    char *text = probe ? csv_of(probe) : NULL;
+    char *text = probe ? write_probe_csv(probe) : NULL;
     if (!text)
         return NULL;
     JOX_GUARD (NULL, NULL) {
         free(text);
         return NULL;
     }
-    JoTable *table = jox_disown(table_of(text));
+    JoTable *table = jox_disown(parse_table(text));
     free(text);
     return table;
 }
