@@ -94,7 +94,7 @@ JoxReplay *jox_replay_open(const JoxReplayDef *def, JoxDiagnostics *diagnostics)
     JoxTrajectoryOptions options = def->options;
     r->path = jox_strdup(def->recording);
     r->shown = JOX_REPLAY_NOBODY;
-    bool good = !def->scene || (r->spec = jox_scene_load(def->scene, NULL, diagnostics));
+    bool good = !def->scene || (r->spec = jox_scene_read(def->scene, NULL, diagnostics));
     if (r->spec && (r->spec->periodic_x || r->spec->periodic_y)) {
         JoxV2 size = jox_sub(r->spec->high, r->spec->low);
         r->period =
@@ -318,7 +318,8 @@ void jox_replay_field(JoxReplay *r, JoxLiveField field, JoxBytes *out) {
 }
 
 JoxLiveColour jox_replay_colour(const JoxReplay *r) {
-    const char *name = jox_scene_colour(r->spec, r->names.state_count, r->info.group_count);
+    const char *name =
+        jox_scene_choose_colouring(r->spec, r->names.state_count, r->info.group_count);
     return (JoxLiveColour)jox_live_colour(name);
 }
 

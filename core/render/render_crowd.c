@@ -171,8 +171,8 @@ static JoxShow choose_default_colour(const JoxRender *r) {
     const JoxFrame *f = &r->frame;
     /* the first is "none" */
     const uint32_t states = f->state && f->state_count > 0 ? f->state_count - 1 : 0;
-    const char *name = jox_scene_colour(r->scene ? r->scene->spec : r->spec, states,
-                                        f->group ? f->group_count : 0);
+    const char *name = jox_scene_choose_colouring(r->scene ? r->scene->spec : r->spec, states,
+                                                  f->group ? f->group_count : 0);
     for (int s = 0; s < JOX_SHOWS; s++)
         if (strcmp(jox_shown[s].name, name) == 0 && has_shown_values(r, (JoxShow)s))
             return (JoxShow)s;
@@ -418,7 +418,7 @@ static bool load_recording(JoxRender *r, JoError *error) {
     JoxTrajectoryOptions options = {
         .fps = def->recorded_fps, .unit = def->unit, .fps_option = "--recorded-fps 25"};
     if (def->plan)
-        r->spec = jox_scene_load(def->plan, NULL, &diagnostics);
+        r->spec = jox_scene_read(def->plan, NULL, &diagnostics);
     if (r->spec && (r->spec->periodic_x || r->spec->periodic_y)) {
         JoxV2 size = jox_sub(r->spec->high, r->spec->low);
         options.period =

@@ -103,7 +103,7 @@ static void add_default_probes(JoxReport *r) {
 static bool load_report(JoxReport *r) {
     const JoReportDef *def = r->def;
     JoxTrajectoryOptions options = {.fps = def->fps, .unit = def->unit};
-    if (def->scene && !(r->spec = jox_scene_load(def->scene, NULL, &r->diagnostics)))
+    if (def->scene && !(r->spec = jox_scene_read(def->scene, NULL, &r->diagnostics)))
         return false;
     if (r->spec && (r->spec->periodic_x || r->spec->periodic_y)) {
         JoxV2 size = jox_sub(r->spec->high, r->spec->low);

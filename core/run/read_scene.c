@@ -41,7 +41,7 @@ JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint
     JoxSceneOptions options = {
         .sets = sets, .set_count = count, .mods = mods->items, .mod_count = mod_count};
     JoxSceneSpec *spec =
-        jox_scene_load_text(def->path, def->text, def->text_length, &options, diagnostics);
+        jox_scene_read_text(def->path, def->text, def->text_length, &options, diagnostics);
     jox_free(sets);
     return spec;
 }

@@ -9,10 +9,10 @@
 #include "world/verbs/verbs.h"
 
 static void scene_schema(JoxText *out) {
-    jox_scene_json_schema("scene", out);
+    jox_scene_print_json_schema("scene", out);
 }
 static void mod_schema(JoxText *out) {
-    jox_scene_json_schema("mod", out);
+    jox_scene_print_json_schema("mod", out);
 }
 
 char *jo_reference(const char *what) {
@@ -23,7 +23,7 @@ char *jo_reference(const char *what) {
         const char *name;
         void (*print)(JoxText *out);
     } PAGES[] = {{"behaviours", jox_lua_reference}, {"lua-ls", jox_lua_definitions},
-                 {"luacheck", jox_lua_luacheck},    {"scenes", jox_scene_reference_markdown},
+                 {"luacheck", jox_lua_luacheck},    {"scenes", jox_scene_print_markdown},
                  {"scene-schema", scene_schema},    {"mod-schema", mod_schema},
                  {"inputs", jox_input_reference}};
     JoxText out = {0};

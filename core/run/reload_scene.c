@@ -213,7 +213,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
         note(groups ? &r.done : &r.later, "events");
     if (jox_scene_differs(r.old, r.new, "tally"))
         note(groups ? &r.done : &r.later, "tally");
-    jox_scene_later(r.old, r.new, &r.later);
+    jox_scene_list_restart_keys(r.old, r.new, &r.later);
     const double age = jox_clock_date() - written;
     char ago[40] = "";
     if (written > 0.0)

@@ -29,13 +29,13 @@ static double take_tally(const JoScene *scene, const JoxTally *tally) {
         least = fmin(least, value);
         greatest = fmax(greatest, value);
     }
-    if (tally->take == JOX_TALLY_SUM)
+    if (tally->statistic == JOX_TALLY_SUM)
         return sum;
     if (count == 0)
         return NAN;
-    return tally->take == JOX_TALLY_MEAN    ? sum / count
-           : tally->take == JOX_TALLY_LEAST ? least
-                                            : greatest;
+    return tally->statistic == JOX_TALLY_MEAN    ? sum / count
+           : tally->statistic == JOX_TALLY_LEAST ? least
+                                                 : greatest;
 }
 
 void jox_run_add_tally(const JoScene *scene, JoxJson *json) {
@@ -54,7 +54,7 @@ static bool are_rivals(const JoxTally *a, const JoxTally *b) {
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
         if (!texts[t][0] != !texts[t][1] || (texts[t][0] && strcmp(texts[t][0], texts[t][1]) != 0))
             return false;
-    return a->take == b->take && a->take != JOX_TALLY_LEAST && a->group != b->group;
+    return a->statistic == b->statistic && a->statistic != JOX_TALLY_LEAST && a->group != b->group;
 }
 
 static void say_ahead(const JoScene *scene, JoxText *out) {
@@ -103,7 +103,7 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
 static void tell_unknown(const JoScene *scene, const JoxTally *tally, bool state,
                          JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = scene->world->machines.set;
-    const JoxPosition at = state ? tally->state_at : tally->memory_at;
+    const JoxPosition at = state ? tally->state_position : tally->memory_position;
     const char *name = state ? tally->state : tally->memory, *names[64], *now = NULL;
     char hint[JOX_HINT];
     size_t count = 0;

@@ -1,4 +1,4 @@
-/* Bodies of a scene. */
+/* Reads the bodies of a scene, with their shapes, paths and copies. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,16 +6,16 @@
 #include "base/assert.h"
 #include "base/number/elementary.h"
 #include "base/number/pi.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
 enum {
-    MOST_COPIES = 4096,  /* of a body, and blocks of one */
-    MOST_PIECES = 200000 /* bodies of a scene, their blocks and their parts */
+    MOST_COPIES = 4096,  /* copies of a body; also blocks of one */
+    MOST_PIECES = 200000 /* bodies of a scene, counting their blocks and parts */
 };
 static const double CLOSEST = 0.01; /* m between copies along an axis */
 
-void jox_key_turn(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    const double half = jox_key_number(r, key, node) * JOX_DEGREE / 2;
+void jox_key_read_turn(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    const double half = jox_key_read_number(r, key, node) * JOX_DEGREE / 2;
     double *turn = JOX_MEMBER(double, item, key->offset);
     turn[2] = jox_sin(half);
     turn[3] = jox_cos(half);
@@ -26,10 +26,10 @@ static bool read_corner(const JoxReader *r, const JoxKey *key, const JoxYaml *p,
         jox_scene_error(r, p, "bad-type", "[x, y, z]", "a corner is three numbers");
         return false;
     }
-    return jox_key_vector(r, key, p, out, 3);
+    return jox_key_read_vector(r, key, p, out, 3);
 }
 
-void jox_key_hull(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
+void jox_key_read_hull(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
     JoxShape *shape = item;
     if (!list)
         return;
@@ -45,9 +45,9 @@ void jox_key_hull(const JoxReader *r, const JoxKey *key, const JoxYaml *list, vo
     shape->point_count = list->count;
 }
 
-/* Its first point is where the body begins, which is set once all of the body is read. */
-void jox_key_path(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
-    JoxBodyPath *path = &((JoxLoadBody *)item)->body.def.path;
+/* Reads a path. Its first point is the position of the body, which set_motion stores there. */
+void jox_key_read_path(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
+    JoxBodyPath *path = &((JoxBodyDraft *)item)->body.def.path;
     if (!list)
         return;
     if (list->kind != JOX_YAML_LIST || list->count < 1 || list->count >= JOX_PATH_POINTS) {
@@ -63,11 +63,12 @@ void jox_key_path(const JoxReader *r, const JoxKey *key, const JoxYaml *list, vo
     path->count = list->count + 1;
 }
 
-/* Three whole numbers, of blocks or of copies. */
+/* Reads numbers of blocks or copies along x, y and z; 1 each if missing. False if missing or wrong.
+ */
 static bool read_counts(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
                         const char *what, double count[3]) {
     count[0] = count[1] = count[2] = 1;
-    if (!jox_key_vector(r, key, node, count, 3))
+    if (!jox_key_read_vector(r, key, node, count, 3))
         return false;
     for (uint32_t i = 0; i < 3; i++)
         if (count[i] != floor(count[i])) {
@@ -81,38 +82,40 @@ static bool read_counts(const JoxReader *r, const JoxKey *key, const JoxYaml *no
     return false;
 }
 
-void jox_key_block_count(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_block_count(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                              void *item) {
     double count[3];
     if (read_counts(r, key, node, "blocks", count))
         for (uint32_t i = 0; i < 3; i++)
             ((JoxShape *)item)->count[i] = (uint32_t)count[i];
 }
 
-void jox_key_copies(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    double *copies = ((JoxLoadBody *)item)->copies;
+void jox_key_read_copies(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    double *copies = ((JoxBodyDraft *)item)->copies;
     if (!read_counts(r, key, node, "copies", copies) && node)
-        copies[0] = copies[1] = copies[2] = 0; /* wrong: none */
+        copies[0] = copies[1] = copies[2] = 0; /* wrong: make no body */
 }
 
-/* A part is a simple shape: this ends the recursion. */
-void jox_key_part_shape(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads the shape of a part, which must be simple: parts are not nested. */
+void jox_key_read_part_shape(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                             void *item) {
     const bool compound = jox_yaml_get(node, "compound") != NULL;
     if (compound || jox_yaml_get(node, "blocks"))
         jox_scene_error(r, node, "bad-shape", NULL, "a part cannot be %s",
                         compound ? "a compound" : "glued blocks");
     else
-        jox_keys_fill(r, node, key->of, &((JoxBodyPart *)item)->shape);
+        jox_owner_read(r, node, key->content, &((JoxBodyPart *)item)->shape);
 }
 
-/* The whole has a mass or a density, or each block has a mass. */
-static void set_mass(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) {
-    JoxBodyDef *def = &load->body.def;
-    const double each = r->load->block_mass;
-    const bool mass = isfinite(load->mass), density = isfinite(load->density);
+/* Sets the mass from one of: the body's mass, its density, the mass of each block. */
+static void set_mass(const JoxReader *r, const JoxYaml *map, JoxBodyDraft *draft) {
+    JoxBodyDef *def = &draft->body.def;
+    const double each = r->draft->block_mass;
+    const bool mass = isfinite(draft->mass), density = isfinite(draft->density);
     if (mass && density)
         jox_scene_error(r, map, "bad-body", NULL, "a body has a mass or a density, not both");
-    def->mass = mass ? load->mass : density ? 0 : def->mass;
-    def->density = density ? load->density : 0;
+    def->mass = mass ? draft->mass : density ? 0 : def->mass;
+    def->density = density ? draft->density : 0;
     if (def->shape.kind != JOX_SHAPE_BLOCKS || !isfinite(each))
         return;
     if (jox_yaml_get(map, "mass") || jox_yaml_get(map, "density"))
@@ -123,9 +126,10 @@ static void set_mass(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) 
     def->mass = each * def->shape.count[0] * def->shape.count[1] * def->shape.count[2];
 }
 
-/* A kinematic body has no mass, and moves along its path or by its velocity. */
-static void set_motion(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) {
-    JoxBodyDef *def = &load->body.def;
+/* Checks and sets how the body moves: a kinematic body has no mass, and has a path or a velocity.
+ */
+static void set_motion(const JoxReader *r, const JoxYaml *map, JoxBodyDraft *draft) {
+    JoxBodyDef *def = &draft->body.def;
     const JoxYaml *path = jox_yaml_get(map, "path"), *velocity = jox_yaml_get(map, "velocity");
     const JoxYaml *mass = jox_yaml_get(map, "mass"), *density = jox_yaml_get(map, "density");
     if (def->kinematic && (mass || density))
@@ -143,20 +147,20 @@ static void set_motion(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load
     if (!def->kinematic && (limit || end))
         jox_scene_error(r, limit ? limit : end, "bad-body", "Add `kinematic: true`, and no mass",
                         "only a kinematic body has a force limit: others press with their mass");
-    if (limit && isfinite(load->path_force))
+    if (limit && isfinite(draft->path_force))
         jox_scene_error(r, limit, "bad-body", "Leave one of them out",
                         "the body has a force_limit, and so has its path");
-    if (isfinite(load->path_force))
-        def->force_limit = load->path_force;
+    if (isfinite(draft->path_force))
+        def->force_limit = draft->path_force;
     if (def->path.count)
         memcpy(def->path.points, def->position, sizeof def->position);
 }
 
-/* Bodies in one place all touch each other: their contacts are as many as pairs, and have no sense.
- */
-static bool is_lattice(const JoxReader *r, const JoxYaml *map, const JoxLoadBody *load) {
+/* Whether copies stand apart. Bodies at one place would all touch each other: contacts as many as
+   pairs, and without meaning. */
+static bool copies_stand_apart(const JoxReader *r, const JoxYaml *map, const JoxBodyDraft *draft) {
     for (int i = 0; i < 3; i++)
-        if (load->copies[i] > 1 && fabs(load->distance[i]) < CLOSEST) {
+        if (draft->copies[i] > 1 && fabs(draft->distance[i]) < CLOSEST) {
             jox_scene_error(r, jox_yaml_get(map, "repeat"), "bad-body", NULL,
                             "copies of a body stand at least %g m apart along each axis", CLOSEST);
             return false;
@@ -164,7 +168,7 @@ static bool is_lattice(const JoxReader *r, const JoxYaml *map, const JoxLoadBody
     return true;
 }
 
-/* The path of a copy stands apart from the first one's as the copy does. */
+/* Moves the path of a copy, by `step` m times the cell of the lattice that the copy stands in. */
 static void move_path(const JoxReader *r, JoxBodyPath *path, const uint32_t cell[3],
                       const double step[3]) {
     if (!path->count || !(cell[0] || cell[1] || cell[2]))
@@ -175,17 +179,16 @@ static void move_path(const JoxReader *r, JoxBodyPath *path, const uint32_t cell
     path->points = points;
 }
 
-/* Whether the bodies of the scene, each with its blocks or the parts of its compound, are few
-   enough with the copies of one more: they take some 10 us and 1 KB each. An error at the first
-   that is too much. */
-static bool are_few(const JoxReader *r, const JoxYaml *map, const JoxLoadBody *load) {
-    const JoxShape *shape = &load->body.def.shape;
-    const double before = r->load->pieces;
+/* Counts the copies of a body with their blocks or parts, each of which costs some 10 us and
+   1 KB; whether the scene has few enough. Reports the first body that is too much. */
+static bool count_pieces(const JoxReader *r, const JoxYaml *map, const JoxBodyDraft *draft) {
+    const JoxShape *shape = &draft->body.def.shape;
+    const double before = r->draft->pieces;
     const double each = shape->kind == JOX_SHAPE_BLOCKS
                             ? (double)shape->count[0] * shape->count[1] * shape->count[2]
                             : fmax(shape->part_count, 1.0);
-    r->load->pieces += load->copies[0] * load->copies[1] * load->copies[2] * each;
-    if (r->load->pieces <= MOST_PIECES)
+    r->draft->pieces += draft->copies[0] * draft->copies[1] * draft->copies[2] * each;
+    if (r->draft->pieces <= MOST_PIECES)
         return true;
     if (before <= MOST_PIECES)
         jox_scene_error(r, map, "too-many-bodies", "Take fewer copies, or larger blocks",
@@ -195,11 +198,12 @@ static bool are_few(const JoxReader *r, const JoxYaml *map, const JoxLoadBody *l
     return false;
 }
 
-/* The body at each point of its lattice, x first. Copies of a named one are NAME-1, NAME-2, ... */
-static void add_copies(const JoxReader *r, const JoxLoadBody *load, uint32_t *room) {
-    JoxSceneSpec *scene = r->load->scene;
-    const JoxSceneBody *body = &load->body;
-    const double *count = load->copies, *step = load->distance;
+/* Adds a copy of the body at each point of its lattice, along x first. Copies of a named body are
+   NAME-1, NAME-2, ... `room`: capacity of the scene's bodies. */
+static void add_copies(const JoxReader *r, const JoxBodyDraft *draft, uint32_t *room) {
+    JoxSceneSpec *scene = r->draft->scene;
+    const JoxSceneBody *body = &draft->body;
+    const double *count = draft->copies, *step = draft->distance;
     uint32_t copies = (uint32_t)(count[0] * count[1] * count[2]);
     if (scene->body_count + copies > *room) {
         *room = 2 * (scene->body_count + copies);
@@ -225,7 +229,7 @@ static void add_copies(const JoxReader *r, const JoxLoadBody *load, uint32_t *ro
     }
 }
 
-void jox_key_bodies(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
+void jox_key_read_bodies(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
     JoxSceneSpec *scene = item;
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(r, list, "bad-type",
@@ -234,13 +238,13 @@ void jox_key_bodies(const JoxReader *r, const JoxKey *key, const JoxYaml *list, 
     uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0, room = count;
     scene->bodies = jox_arena_take(r->arena, room, sizeof *scene->bodies);
     for (uint32_t i = 0; i < count; i++) {
-        JoxLoadBody body = {.body = {.def = jox_body_def(), .position = list->items[i]->position}};
-        r->load->block_mass = NAN;
-        if (jox_keys_fill(r, list->items[i], "body", &body)) {
+        JoxBodyDraft body = {.body = {.def = jox_body_def(), .position = list->items[i]->position}};
+        r->draft->block_mass = NAN;
+        if (jox_owner_read(r, list->items[i], "body", &body)) {
             set_mass(r, list->items[i], &body);
             set_motion(r, list->items[i], &body);
         }
-        if (is_lattice(r, list->items[i], &body) && are_few(r, list->items[i], &body))
+        if (copies_stand_apart(r, list->items[i], &body) && count_pieces(r, list->items[i], &body))
             add_copies(r, &body, &room);
     }
 }

@@ -1,50 +1,31 @@
-/* What happens at given times. */
+/* Reads events: what happens at given times, to bodies, walls or people. */
 #include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
 enum { LONGEST_NAME = 60 };
 
-void jox_load_wall(const JoxReader *r, const JoxYaml *name) {
-    const JoxWalls *walls = &r->load->scene->walls;
-    const char *names[256];
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < walls->ring_count; i++) {
-        if (!walls->rings[i].name)
-            continue;
-        if (strcmp(walls->rings[i].name, name->text) == 0)
-            return;
-        if (count < 256)
-            names[count++] = walls->rings[i].name;
-    }
-    if (r->load->walls_wrong)
-        return;
-    jox_scene_error(r, name, "unknown-wall",
-                    count ? jox_scene_suggest(r, name->text, names, count)
-                          : "Give walls names: {line: [[0, 0], [0, 2]], name: gate}",
-                    "there is no wall named '%.60s'", name->text);
-}
-
-static bool is_static(const JoxBodyDef *def) {
+static bool is_static_body(const JoxBodyDef *def) {
     return def->still ||
            (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
 }
 
-/* `done`: what is done to a body that has mass; "moved": to a kinematic one. */
-static void check_body(const JoxReader *r, const JoxYaml *name, const char *done) {
+/* Checks the name of a body that is "thrown", "pushed" (then it must have mass) or "moved"
+ * (kinematic). */
+static void check_event_body(const JoxReader *r, const JoxYaml *name, const char *done) {
     const bool moved = strcmp(done, "moved") == 0;
     const char *names[256];
     uint32_t count = 0;
-    for (uint32_t b = 0; b < r->load->scene->body_count; b++) {
-        const JoxBodyDef *def = &r->load->scene->bodies[b].def;
+    for (uint32_t b = 0; b < r->draft->scene->body_count; b++) {
+        const JoxBodyDef *def = &r->draft->scene->bodies[b].def;
         if (def->name && strcmp(def->name, name->text) == 0) {
             if (moved && !def->kinematic)
                 jox_scene_error(r, name, "bad-event", "Throw or push it, or add `kinematic: true`",
                                 "the body '%.60s' is not kinematic: it has no velocity of its own",
                                 name->text);
-            else if (!moved && is_static(def))
+            else if (!moved && is_static_body(def))
                 jox_scene_error(r, name, "bad-event",
                                 def->kinematic ? "Write move: NAME, velocity: [0.5, 0, 0]"
                                                : "Give it a mass above 0",
@@ -61,36 +42,35 @@ static void check_body(const JoxReader *r, const JoxYaml *name, const char *done
                     "there is no body named '%.60s'", name->text);
 }
 
-/* Whoever stands in a place, or a body. */
-static void check_pushed(const JoxReader *r, const JoxYaml *name, JoxEvent *event) {
-    const JoxSceneSpec *s = r->load->scene;
+/* Checks the name of what is pushed: people who stand in a place, or a body. */
+static void check_pushed_name(const JoxReader *r, const JoxYaml *name, JoxEvent *event) {
+    const JoxSceneSpec *s = r->draft->scene;
     bool body = false;
     event->place = jox_place_find(s->places, s->place_count, name->text);
     for (uint32_t b = 0; b < s->body_count; b++)
         body |= s->bodies[b].def.name && strcmp(s->bodies[b].def.name, name->text) == 0;
     if (event->place < 0)
-        check_body(r, name, "pushed");
+        check_event_body(r, name, "pushed");
     else if (body)
         jox_scene_error(r, name, "bad-event", "Give one of them another name",
                         "'%.60s' is a place and a body: it is not clear which is pushed",
                         name->text);
 }
 
-/* What an event does something to, or the signal that it gives. */
-void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads the name of the body, wall or place that the event acts on, or of its signal. */
+void jox_key_read_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                             void *item) {
     JoxEvent *event = item;
-    if (node->kind != JOX_YAML_SCALAR) {
-        jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
+    if (!jox_key_read_scalar(r, key, node, "name"))
         return;
-    }
     if (event->kind == JOX_EVENT_THROW)
-        check_body(r, node, "thrown");
+        check_event_body(r, node, "thrown");
     else if (event->kind == JOX_EVENT_MOVE)
-        check_body(r, node, "moved");
+        check_event_body(r, node, "moved");
     else if (event->kind == JOX_EVENT_PUSH)
-        check_pushed(r, node, event);
+        check_pushed_name(r, node, event);
     else if (event->kind != JOX_EVENT_SIGNAL)
-        jox_load_wall(r, node);
+        jox_scene_check_wall(r, node);
     else if (!*node->text || strlen(node->text) > LONGEST_NAME)
         jox_scene_error(r, node, "bad-event", NULL, "a signal's name has from 1 to %d bytes",
                         LONGEST_NAME);
@@ -98,7 +78,7 @@ void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *no
     event->position = node->position;
 }
 
-static void check_throw(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {
+static void check_throw_keys(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {
     static const char *const KEYS[] = {"from", "velocity", "spin"};
     bool any = false;
     for (int k = 0; k < 3; k++) {
@@ -116,7 +96,7 @@ static void check_throw(const JoxReader *r, const JoxYaml *map, const JoxEvent *
                         "a move needs a velocity or a spin, of zeros where the body is to stand");
 }
 
-static void check_push(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {
+static void check_push_keys(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {
     const JoxYaml *force = jox_yaml_get(map, "force"), *lasts = jox_yaml_get(map, "lasts");
     if (event->kind != JOX_EVENT_PUSH) {
         if (force || lasts)
@@ -140,8 +120,8 @@ bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool g
         return false;
     event->placed = jox_yaml_get(map, "from") != NULL;
     event->every = isfinite(event->every) ? event->every : 0.0;
-    check_throw(r, map, event);
-    check_push(r, map, event);
+    check_throw_keys(r, map, event);
+    check_push_keys(r, map, event);
     if (until && !jox_yaml_get(map, "every"))
         jox_scene_error(r, until, "bad-event", "every: 5",
                         "until belongs to an event that is repeated");
@@ -149,19 +129,5 @@ bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool g
         jox_scene_error(r, until, "bad-event", NULL,
                         "this event ends (%g s) before it begins (%g s)", event->until, event->at);
     JOX_ASSERT(event->every >= 0.0);
-    return true;
-}
-
-/* ---- tallies ---- */
-
-bool jox_finish_tally(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
-    JoxTally *tally = item;
-    const JoxYaml *take = jox_yaml_get(map, "take"), *memory = jox_yaml_get(map, "memory"),
-                  *state = jox_yaml_get(map, "state");
-    tally->memory_at = memory ? memory->position : tally->position;
-    tally->state_at = state ? state->position : tally->position;
-    if (good && take && !tally->memory)
-        jox_scene_error(r, take, "bad-value", "memory: hits",
-                        "a tally takes the values of a `memory`; without one it counts agents");
     return true;
 }

@@ -1,4 +1,4 @@
-/* Groups of a scene: behaviours, and what agents of a group have in common. */
+/* Reads groups of a scene: their behaviours, and the direction that their agents face. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,41 +8,42 @@
 #include "base/number/pi.h"
 #include "base/overlay.h"
 #include "base/text.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
-/* The behaviour's file: beside the scene, in ../behaviours, or installed; NULL with an error. */
-static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition position) {
-    JoxArena *arena = l->reader.arena;
-    /* Overrides are of no file: the scene's folder is meant. */
-    const char *from = strcmp(position.file, JOX_LOAD_OVERRIDE) ? position.file : l->scene->path;
+/* Finds the file of a behaviour: of a mod, beside the scene, in ../behaviours, or installed; NULL
+   with an error. */
+static char *find_behaviour(const JoxSceneDraft *draft, const char *name, JoxPosition position) {
+    JoxArena *arena = draft->reader.arena;
+    /* A value of --set stands in no file: look from the scene. */
+    const char *from = strcmp(position.file, JOX_SET_OPTION) ? position.file : draft->scene->path;
     char path[JOX_LONGEST_PATH], installed[JOX_LONGEST_PATH];
     const char *const folders[] = {"", "../behaviours/", installed, NULL};
-    snprintf(installed, sizeof installed, "%s/behaviours/", l->datadir ? l->datadir : JOX_DATADIR);
-    if (l->options && jox_mod_find(l->options->mods, l->options->mod_count, name, path))
+    snprintf(installed, sizeof installed, "%s/behaviours/",
+             draft->datadir ? draft->datadir : JOX_DATADIR);
+    if (draft->options && jox_mod_find(draft->options->mods, draft->options->mod_count, name, path))
         return jox_arena_text(arena, path);
     if (jox_path_find(from, name, ".lua", folders, path)) {
         jox_path_clean(path);
         return jox_arena_text(arena, path);
     }
-    jox_diag_error(l->reader.diagnostics, position, "missing-file",
+    jox_diag_error(draft->reader.diagnostics, position, "missing-file",
                    "Looked beside the scene, in ../behaviours and in the installed ones",
                    "there is no behaviour '%.200s'", name);
     return NULL;
 }
 
-void jox_key_behaviour(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_behaviour(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                            void *item) {
     JoxGroup *group = item;
-    if (node && node->kind != JOX_YAML_SCALAR)
-        jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
-    if (!node || node->kind != JOX_YAML_SCALAR)
+    if (!jox_key_read_scalar(r, key, node, "name"))
         return;
     group->mix = jox_arena_take(r->arena, 1, sizeof *group->mix);
     *group->mix = (JoxGroupMix){.weight = 1, .position = node->position};
-    group->mix->behaviour = find_behaviour(r->load, node->text, node->position);
+    group->mix->behaviour = find_behaviour(r->draft, node->text, node->position);
     group->mix_count = group->mix->behaviour != NULL;
 }
 
-void jox_key_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
+void jox_key_read_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
     JoxGroup *group = item;
     double sum = 0;
     if (map && (map->kind != JOX_YAML_MAP || map->count == 0))
@@ -61,7 +62,7 @@ void jox_key_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void
             jox_scene_error(r, map->items[i], "out-of-range", NULL, "a weight must be above 0");
             continue;
         }
-        entry->behaviour = find_behaviour(r->load, map->keys[i], entry->position);
+        entry->behaviour = find_behaviour(r->draft, map->keys[i], entry->position);
         sum += entry->weight;
         group->mix_count += entry->behaviour != NULL;
     }
@@ -70,9 +71,9 @@ void jox_key_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void
         group->mix[i].weight /= sum;
 }
 
-/* rad; NAN where it is not given. */
-void jox_key_facing(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    *JOX_MEMBER(float, item, key->offset) = (float)(jox_key_number(r, key, node) * JOX_DEGREE);
+/* Reads a direction in deg and stores it in rad; NAN if it is missing. */
+void jox_key_read_facing(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    *JOX_MEMBER(float, item, key->offset) = (float)(jox_key_read_number(r, key, node) * JOX_DEGREE);
 }
 
 bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
@@ -80,11 +81,11 @@ bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool g
     const JoxYaml *one = jox_yaml_get(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
     const JoxYaml *journey = jox_yaml_get(map, "journey");
     const size_t errors = r->diagnostics->errors;
-    jox_load_positions(r, map, group);
+    jox_place_group(r, map, group);
     if (!one + !mix + !journey != 2)
         jox_scene_error(r, map, "missing-key", "behaviour: walker.lua",
                         "a group needs one of a behaviour, a mix of them and a journey");
     else if (journey && good && errors == 0)
-        jox_load_journey(r, map, group);
-    return true; /* a wrong one is known by its name */
+        jox_write_journey_behaviour(r, map, group);
+    return true; /* a wrong one is kept, so that its name is known */
 }

@@ -1,5 +1,6 @@
-/* Journeys: what the people of a group do one thing after another, in the scene's own words. A
-   behaviour is made of them, in Lua, which is loaded as one that somebody wrote. */
+/* Journeys: steps that the agents of a group do one after another. Reads the steps, and writes a
+   behaviour for them in Lua, which is loaded like one that a user has written. A step has parts
+   (walk, queue, wait, ...), of which each becomes a state of the behaviour. Called by groups.c. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,14 +9,14 @@
 #include "base/number/pi.h"
 #include "base/text.h"
 #include "geom/polygon.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
 enum { MOST_STEPS = 50, MOST_QUEUES = 16, LONGEST_NAME = 60 };
 
-/* ---- the steps as they are written ---- */
+/* ---- reading steps ---- */
 
-/* A duration: a number of seconds, with its unit or without, or a distribution; as Lua has it. */
-void jox_key_duration(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads a duration, a number in s or with a unit, or a distribution; stores its text in Lua. */
+void jox_key_read_duration(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxJourneyStep *step = item;
     double seconds;
     JoxDist dist;
@@ -38,7 +39,7 @@ void jox_key_duration(const JoxReader *r, const JoxKey *key, const JoxYaml *node
         step->served = fabs(jox_dist_middle(&dist));
 }
 
-void jox_key_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxJourneyStep *step = item;
     const JoxYaml *const *names;
     const uint32_t count = node ? jox_read_names(r, node, &names) : 0;
@@ -48,25 +49,21 @@ void jox_key_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *node, 
         jox_scene_error(r, node, "too-many", NULL, "people choose among %d queues at most",
                         MOST_QUEUES);
     for (uint32_t n = 0; n < count && n < MOST_QUEUES; n++) {
-        const int32_t place = jox_load_place(r, names[n]);
+        const int32_t place = jox_scene_find_place(r, names[n]);
         if (place < 0)
             continue;
-        if (!jox_place_is_queue(&r->load->scene->places[place]))
+        if (!jox_place_is_queue(&r->draft->scene->places[place]))
             jox_scene_error(r, names[n], "bad-place", "gate: {queue: [[0, 0], [0, 5]]}",
                             "'%.60s' is no queue", names[n]->text);
         step->queues[step->queue_count++] = (uint32_t)place;
     }
 }
 
-/* The name of walls that an event opens. */
-void jox_key_gate(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    if (!node)
+/* Reads the name of walls. */
+void jox_key_read_gate(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    if (!jox_key_read_scalar(r, key, node, "name"))
         return;
-    if (node->kind != JOX_YAML_SCALAR) {
-        jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
-        return;
-    }
-    jox_load_wall(r, node);
+    jox_scene_check_wall(r, node);
     *JOX_MEMBER(char *, item, key->offset) = jox_arena_text(r->arena, node->text);
 }
 
@@ -92,50 +89,53 @@ bool jox_finish_step(const JoxReader *r, const JoxYaml *map, void *item, bool go
     return good && any;
 }
 
-/* ---- the behaviour that they make ---- */
+/* ---- writing the behaviour ---- */
 
 typedef struct Journey {
     const JoxReader *reader;
     const JoxGroup *group;
-    JoxText text;
+    JoxText text; /* of the behaviour so far */
 } Journey;
 
-static const char *place_name(const Journey *j, int32_t place) {
-    return j->reader->load->scene->places[place].name;
+static const char *get_place_name(const Journey *j, int32_t place) {
+    return j->reader->draft->scene->places[place].name;
 }
 
-static const JoxPlace *place_of(const Journey *j, int32_t place) {
-    return &j->reader->load->scene->places[place];
+static const JoxPlace *get_place(const Journey *j, int32_t place) {
+    return &j->reader->draft->scene->places[place];
 }
 
-/* What people do in a part of a step, and about what: names of states are unique by the step. */
+/* Parts of a step, and the beginnings of their states' names. A name is the number of the step, the
+   part and a place, signal or gate: "3 Queue at gate_1". */
 static const char *const PARTS[] = {"Walk to",   "Look round", "Choose", "Go to",      "Queue at",
                                     "Served at", "Wait",       "Until",  "Until open", "Leave by"};
 typedef enum { WALK, LOOK, CHOOSE, APPROACH, QUEUE, SERVED, WAIT, UNTIL, OPEN, LEAVE } Part;
 
-static void state_name(const Journey *j, uint32_t step, Part part, uint32_t queue, char out[256]) {
+static void print_state_name(const Journey *j, uint32_t step, Part part, uint32_t queue,
+                             char out[256]) {
     const JoxJourneyStep *s = &j->group->journey[step];
-    const char *what = part == WALK || part == LOOK     ? place_name(j, s->to)
-                       : part == LEAVE                  ? place_name(j, s->exit)
-                       : part == UNTIL                  ? s->until
-                       : part == OPEN                   ? s->gate
-                       : part == WAIT || part == CHOOSE ? ""
-                                                        : place_name(j, (int32_t)s->queues[queue]);
+    const char *what = part == WALK || part == LOOK ? get_place_name(j, s->to)
+                       : part == LEAVE              ? get_place_name(j, s->exit)
+                       : part == UNTIL              ? s->until
+                       : part == OPEN               ? s->gate
+                       : part == WAIT || part == CHOOSE
+                           ? ""
+                           : get_place_name(j, (int32_t)s->queues[queue]);
     snprintf(out, 256, "%u %s%s%.60s", step + 1, PARTS[part], *what ? " " : "", what);
 }
 
-/* Whether those who wait in a step fill an area. */
-static bool gathers(const Journey *j, const JoxJourneyStep *s) {
-    return s->to >= 0 && jox_place_is_area(place_of(j, s->to)) && (s->wait || s->until || s->gate);
+/* Whether agents that wait in a step fill an area. */
+static bool fills_area(const Journey *j, const JoxJourneyStep *s) {
+    return s->to >= 0 && jox_place_is_area(get_place(j, s->to)) && (s->wait || s->until || s->gate);
 }
 
-/* The parts that a step has, in their order; of a queue only the choice. */
-static uint32_t parts_of(const Journey *j, uint32_t step, Part parts[8]) {
+/* Lists the parts of a step in order and returns their number. Of a queue it lists CHOOSE alone. */
+static uint32_t list_parts(const Journey *j, uint32_t step, Part parts[8]) {
     const JoxJourneyStep *s = &j->group->journey[step];
     uint32_t count = 0;
     if (s->to >= 0)
         parts[count++] = WALK;
-    if (gathers(j, s) && s->wait) /* which begins when they have come to a stand */
+    if (fills_area(j, s) && s->wait) /* the wait begins when they stand */
         parts[count++] = LOOK;
     if (s->queue_count)
         parts[count++] = CHOOSE;
@@ -151,22 +151,22 @@ static uint32_t parts_of(const Journey *j, uint32_t step, Part parts[8]) {
     return count;
 }
 
-/* The transitions out of a part of a step: to its next one, or to the steps that follow, of which
-   some are done by a share of people alone. */
-static void lead_on(Journey *j, uint32_t step, Part part, const char *when) {
+/* Writes the transitions out of a part of a step, on condition `when`: to the step's next part, or
+   to the next steps, each with its share of agents, up to one that all agents do. */
+static void write_transitions(Journey *j, uint32_t step, Part part, const char *when) {
     Part parts[8];
     char name[256];
-    const uint32_t count = parts_of(j, step, parts);
+    const uint32_t count = list_parts(j, step, parts);
     for (uint32_t k = 0; k + 1 < count; k++)
         if (parts[k] == part) {
-            state_name(j, step, parts[k + 1], 0, name);
+            print_state_name(j, step, parts[k + 1], 0, name);
             jox_text_printf(&j->text, "\n      { to = \"%s\", when = %s },", name, when);
             return;
         }
     for (uint32_t next = step + 1; next < j->group->journey_count; next++) {
         const JoxJourneyStep *s = &j->group->journey[next];
-        parts_of(j, next, parts);
-        state_name(j, next, parts[0], 0, name);
+        list_parts(j, next, parts);
+        print_state_name(j, next, parts[0], 0, name);
         jox_text_printf(&j->text, "\n      { to = \"%s\", when = %s", name, when);
         if (s->share < 1.0)
             jox_text_printf(&j->text, ", chance = %.9g", s->share);
@@ -177,91 +177,95 @@ static void lead_on(Journey *j, uint32_t step, Part part, const char *when) {
     jox_text_printf(&j->text, "\n      { to = \"Stay\", when = %s },", when);
 }
 
-/* The condition of having come to a place: inside, or within reach of what has no inside. Exits are
-   not reached while a gate on their line is closed; people may wait at such a line. */
-static void arrived(const Journey *j, int32_t place, bool leaves, char out[256]) {
-    const JoxPlace *at = place_of(j, place);
+/* Prints the condition of having come to a place: inside it, or within 0.5 m of a queue or a line.
+   A line to leave by must be crossed, since a closed gate may stand on it. */
+static void print_arrival(const Journey *j, int32_t place, bool leaves, char out[256]) {
+    const JoxPlace *at = get_place(j, place);
     const bool thin = (jox_place_is_line(at) && !leaves) || jox_place_is_queue(at);
-    snprintf(out, 256, thin ? "near(\"%.100s\", 0.5)" : "inside \"%.100s\"", place_name(j, place));
+    snprintf(out, 256, thin ? "near(\"%.100s\", 0.5)" : "inside \"%.100s\"",
+             get_place_name(j, place));
 }
 
-static void begin_state(Journey *j, uint32_t step, Part part, uint32_t queue) {
+static void open_state(Journey *j, uint32_t step, Part part, uint32_t queue) {
     char name[256];
-    state_name(j, step, part, queue, name);
+    print_state_name(j, step, part, queue, name);
     jox_text_printf(&j->text, "    [\"%s\"] = {", name);
 }
 
-static void end_state(Journey *j) {
+static void close_state(Journey *j) {
     jox_text_add(&j->text, " },\n");
 }
 
-static void walk(Journey *j, int32_t place) {
+static void write_walk(Journey *j, int32_t place) {
     jox_text_printf(&j->text,
                     " steer = field \"%s\", push = crowd.nudge, push_when = crowd.held_up,",
-                    place_name(j, place));
+                    get_place_name(j, place));
 }
 
-/* The choice of a queue: as long as its people take, and the way there, as one judges it. */
-static void cost(Journey *j, uint32_t step, uint32_t queue) {
+/* Writes the cost of a queue, s: serving those in it, the way there, and the agent's own error. */
+static void write_queue_cost(Journey *j, uint32_t step, uint32_t queue) {
     const JoxJourneyStep *s = &j->group->journey[step];
-    const char *name = place_name(j, (int32_t)s->queues[queue]);
+    const char *name = get_place_name(j, (int32_t)s->queues[queue]);
     jox_text_printf(&j->text, "%.9g * queued \"%s\" + distance(\"%s\") / own.speed + own.whim_%u",
                     s->served > 0.5 ? s->served : 0.5, name, name, queue + 1);
 }
 
-static void queues(Journey *j, uint32_t step) {
+/* Writes the states of a choice of queues, and of each queue: the way there, in it, and at its
+ * head. */
+static void write_queue_states(Journey *j, uint32_t step) {
     const JoxJourneyStep *s = &j->group->journey[step];
     char name[256], when[256];
-    begin_state(j, step, CHOOSE, 0);
+    open_state(j, step, CHOOSE, 0);
     for (uint32_t q = 0; q < s->queue_count; q++) {
-        state_name(j, step, APPROACH, q, name);
+        print_state_name(j, step, APPROACH, q, name);
         jox_text_printf(&j->text, "\n      { to = \"%s\"", name);
-        for (uint32_t o = q + 1; o < s->queue_count; o++) { /* those before were not better */
+        for (uint32_t o = q + 1; o < s->queue_count;
+             o++) { /* the queues before q were not chosen */
             jox_text_add(&j->text, o == q + 1 ? ", when = (" : "\n          & (");
-            cost(j, step, q);
+            write_queue_cost(j, step, q);
             jox_text_add(&j->text, "):at_most(");
-            cost(j, step, o);
+            write_queue_cost(j, step, o);
             jox_text_add(&j->text, ")");
         }
         jox_text_add(&j->text, " },");
     }
-    end_state(j);
+    close_state(j);
     for (uint32_t q = 0; q < s->queue_count; q++) {
-        const char *queue = place_name(j, (int32_t)s->queues[q]);
-        begin_state(j, step, APPROACH, q);
-        walk(j, (int32_t)s->queues[q]);
-        state_name(j, step, QUEUE, q, name);
+        const char *queue = get_place_name(j, (int32_t)s->queues[q]);
+        open_state(j, step, APPROACH, q);
+        write_walk(j, (int32_t)s->queues[q]);
+        print_state_name(j, step, QUEUE, q, name);
         jox_text_printf(&j->text, "\n      { to = \"%s\", when = near(\"%s\", 2) },", name, queue);
-        end_state(j);
-        begin_state(j, step, QUEUE, q);
-        state_name(j, step, SERVED, q, name);
+        close_state(j);
+        open_state(j, step, QUEUE, q);
+        print_state_name(j, step, SERVED, q, name);
         jox_text_printf(&j->text,
                         " steer = queue \"%s\",\n      { to = \"%s\", when = first_in \"%s\" & "
                         "near(\"%s\", 0.5) },",
                         queue, name, queue, queue);
-        end_state(j);
-        begin_state(j, step, SERVED, q); /* who is served heads the queue: the next waits behind */
+        close_state(j);
+        open_state(j, step, SERVED, q); /* the agent stays at the head of the queue */
         jox_text_printf(&j->text, " steer = queue \"%s\", lasts = %s,", queue,
                         s->service ? s->service : "0");
         snprintf(when, sizeof when, "lasted");
-        lead_on(j, step, CHOOSE, when);
-        end_state(j);
+        write_transitions(j, step, CHOOSE, when);
+        close_state(j);
     }
 }
 
-static JoxV2 centre_of(const Journey *j, int32_t place) {
-    return j->reader->load->scene->places[place].centre;
+static JoxV2 get_place_centre(const Journey *j, int32_t place) {
+    return j->reader->draft->scene->places[place].centre;
 }
 
-/* From where people come to a step: the place of the last step before that has one, or the middle
-   of where they start. False: neither is known. */
+/* Finds the point that agents come from to a step: the place of the last step before it that has
+   one, or the centre of their positions at the start; false if neither is known. */
 static bool find_origin(const Journey *j, uint32_t step, JoxV2 *from) {
     const JoxGroup *g = j->group;
     while (step-- > 0) {
         const JoxJourneyStep *s = &g->journey[step];
         if (s->to < 0 && !s->queue_count)
             continue;
-        *from = centre_of(j, s->queue_count ? (int32_t)s->queues[0] : s->to);
+        *from = get_place_centre(j, s->queue_count ? (int32_t)s->queues[0] : s->to);
         return true;
     }
     JoxV2 sum = {0.0f, 0.0f};
@@ -271,92 +275,94 @@ static bool find_origin(const Journey *j, uint32_t step, JoxV2 *from) {
     return g->count > 0;
 }
 
-/* Where the front of the area of a step lies, degrees anti-clockwise from +x: towards what people
-   look at, else away from where they come, else from where they leave, else +y. */
-static double front_of(const Journey *j, uint32_t step) {
+/* Returns the direction in which a step's area is filled, deg counter-clockwise from +x: towards
+   `front`; else away from where agents come from; else away from their exit; else +y. */
+static double compute_front(const Journey *j, uint32_t step) {
     const JoxGroup *g = j->group;
     const JoxJourneyStep *s = &g->journey[step];
-    const JoxV2 middle = centre_of(j, s->to);
+    const JoxV2 middle = get_place_centre(j, s->to);
     JoxV2 ahead = {0.0f, 0.0f}, from;
     if (s->front >= 0)
-        ahead = jox_sub(centre_of(j, s->front), middle);
+        ahead = jox_sub(get_place_centre(j, s->front), middle);
     if (jox_length2(ahead) < 1.0f && find_origin(j, step, &from))
         ahead = jox_sub(middle, from);
     for (uint32_t k = step; jox_length2(ahead) < 1.0f && k < g->journey_count; k++)
         if (g->journey[k].exit >= 0)
-            ahead = jox_sub(middle, centre_of(j, g->journey[k].exit));
+            ahead = jox_sub(middle, get_place_centre(j, g->journey[k].exit));
     return jox_length2(ahead) < 1.0f ? 90.0 : atan2(ahead.y, ahead.x) / JOX_DEGREE;
 }
 
-/* Who waits in an area fills it from its front; elsewhere people stand. */
-static void stand(Journey *j, uint32_t step) {
+/* Writes how agents wait: they fill an area from its front; elsewhere they stand. */
+static void write_standing(Journey *j, uint32_t step) {
     const JoxJourneyStep *s = &j->group->journey[step];
-    if (gathers(j, s))
-        jox_text_printf(&j->text, " steer = gather(\"%s\", %.6g),", place_name(j, s->to),
-                        front_of(j, step));
+    if (fills_area(j, s))
+        jox_text_printf(&j->text, " steer = gather(\"%s\", %.6g),", get_place_name(j, s->to),
+                        compute_front(j, step));
     else
         jox_text_add(&j->text, " steer = hold,");
     if (s->front >= 0)
-        jox_text_printf(&j->text, " face = \"%s\",", place_name(j, s->front));
+        jox_text_printf(&j->text, " face = \"%s\",", get_place_name(j, s->front));
 }
 
-static void write_part(Journey *j, uint32_t step, Part part) {
+static void write_part_state(Journey *j, uint32_t step, Part part) {
     const JoxJourneyStep *s = &j->group->journey[step];
     char when[512];
     if (part == CHOOSE) {
-        queues(j, step);
+        write_queue_states(j, step);
         return;
     }
-    begin_state(j, step, part, 0);
+    open_state(j, step, part, 0);
     switch (part) {
     case WALK:
-        walk(j, s->to);
-        arrived(j, s->to, false, when);
+        write_walk(j, s->to);
+        print_arrival(j, s->to, false, when);
         snprintf(when + strlen(when), sizeof when - strlen(when),
-                 " | near(\"%.80s\", 2.5) & stuck(3)", place_name(j, s->to)); /* others are there */
-        if (gathers(j, s)) /* it is full: nobody presses into it */
+                 " | near(\"%.80s\", 2.5) & stuck(3)",
+                 get_place_name(j, s->to)); /* stopped by agents who are there */
+        if (fills_area(j, s))               /* full: do not press into it */
             snprintf(when + strlen(when), sizeof when - strlen(when),
                      " | near(\"%.80s\", 2.5) & density(\"%.80s\"):above(3.8)",
-                     place_name(j, s->to), place_name(j, s->to));
-        if (s->until && !s->wait) { /* who hears it on the way need not get there */
+                     get_place_name(j, s->to), get_place_name(j, s->to));
+        if (s->until && !s->wait) { /* the signal may come on the way */
             char signal[256];
             snprintf(signal, sizeof signal, "heard \"%.100s\"", s->until);
-            lead_on(j, step, UNTIL, signal);
+            write_transitions(j, step, UNTIL, signal);
         }
         break;
     case LOOK:
         jox_text_add(&j->text, " lasts = 60,");
-        stand(j, step);
+        write_standing(j, step);
         snprintf(when, sizeof when,
                  "lasted | stuck(3) | now.speed:below(0.15) & after(1) | ~inside \"%.100s\"",
-                 place_name(j, s->to));
+                 get_place_name(j, s->to));
         break;
     case WAIT:
-        stand(j, step);
+        write_standing(j, step);
         jox_text_printf(&j->text, " lasts = %s,", s->wait);
         snprintf(when, sizeof when, "lasted");
         break;
     case UNTIL:
-        stand(j, step);
+        write_standing(j, step);
         snprintf(when, sizeof when, "heard \"%.100s\"", s->until);
         break;
     case OPEN:
-        stand(j, step);
+        write_standing(j, step);
         snprintf(when, sizeof when, "open \"%.100s\"", s->gate);
         break;
     default:
-        walk(j, s->exit);
-        arrived(j, s->exit, true, when);
+        write_walk(j, s->exit);
+        print_arrival(j, s->exit, true, when);
         jox_text_printf(&j->text, "\n      { to = \"Gone\", when = %s },", when);
-        end_state(j);
+        close_state(j);
         return;
     }
-    lead_on(j, step, part, when);
-    end_state(j);
+    write_transitions(j, step, part, when);
+    close_state(j);
 }
 
-/* Each queue of a choice is judged with an error of a person's own, s. */
-static void write_head(Journey *j) {
+/* Writes the head of the behaviour. own.whim_N is an agent's error in judging queue N of a choice,
+ * s. */
+static void write_behaviour_head(Journey *j) {
     uint32_t most = 0;
     for (uint32_t s = 0; s < j->group->journey_count; s++)
         if (j->group->journey[s].queue_count > most)
@@ -374,7 +380,7 @@ static void write_head(Journey *j) {
     jox_text_add(&j->text, "  states = {\n");
 }
 
-void jox_load_journey(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+void jox_write_journey_behaviour(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     Journey j = {.reader = r, .group = group};
     Part parts[8];
     JoxText path = {0};
@@ -388,12 +394,12 @@ void jox_load_journey(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
             jox_scene_error(r, jox_yaml_get(map, "journey"), "bad-value",
                             "Let the exit be the last step, or give it a share",
                             "nobody gets to step %u, as all leave by an exit before", s + 2);
-    write_head(&j);
+    write_behaviour_head(&j);
     jox_text_add(&j.text, "    Begin = {");
     for (uint32_t next = 0; next < group->journey_count; next++) {
         char name[256];
-        parts_of(&j, next, parts);
-        state_name(&j, next, parts[0], 0, name);
+        list_parts(&j, next, parts);
+        print_state_name(&j, next, parts[0], 0, name);
         jox_text_printf(&j.text, "\n      { to = \"%s\"", name);
         if (group->journey[next].share < 1.0)
             jox_text_printf(&j.text, ", chance = %.9g", group->journey[next].share);
@@ -401,18 +407,18 @@ void jox_load_journey(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
         if (group->journey[next].share >= 1.0)
             break;
     }
-    end_state(&j);
+    close_state(&j);
     for (uint32_t s = 0; s < group->journey_count; s++) {
-        const uint32_t count = parts_of(&j, s, parts);
+        const uint32_t count = list_parts(&j, s, parts);
         for (uint32_t k = 0; k < count; k++)
-            write_part(&j, s, parts[k]);
+            write_part_state(&j, s, parts[k]);
     }
     if (strstr(j.text.data, "to = \"Stay\""))
         jox_text_add(&j.text, "    Stay = { steer = hold },\n");
     if (strstr(j.text.data, "to = \"Gone\""))
         jox_text_add(&j.text, "    Gone = { removes = true },\n");
     jox_text_add(&j.text, "  },\n}\n");
-    jox_text_printf(&path, "%s/%s.lua", r->load->scene->path, group->name);
+    jox_text_printf(&path, "%s/%s.lua", r->draft->scene->path, group->name);
     group->mix = jox_arena_take(r->arena, 1, sizeof *group->mix);
     *group->mix = (JoxGroupMix){.weight = 1,
                                 .position = group->position,

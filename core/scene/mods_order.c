@@ -1,24 +1,26 @@
-/* Which mods are taken, by what they say of each other, and in what order. */
+/* Decides which of the chosen mods are applied, by their dependencies and conflicts, and orders
+ * them. */
 #include <string.h>
 
 #include "base/assert.h"
 #include "scene/mods_parts.h"
 
-/* Follows what a mod depends on; false with an error if that is missing, too old, or a circle. */
-static bool link_mod(JoxModsFind *f, uint32_t m) {
+/* Checks the mods that a mod depends on, recursively, and puts them before it; false with an error
+   if one is missing, off, too old, or depends on this mod. */
+static bool check_dependencies(JoxModsFind *f, uint32_t m) {
     JoxMods *mods = f->mods;
     JoxModNeeds *n = &f->needs[m];
     bool good = !n->broken;
-    if (n->link == JOX_MOD_SOUND)
+    if (n->visit == JOX_MOD_SEEN)
         return good;
-    n->link = JOX_MOD_ON_THE_WAY;
+    n->visit = JOX_MOD_ON_THE_WAY;
     for (uint32_t d = 0; d < n->depend_count && good; d++) {
         char name[64];
         const char *version;
         jox_mod_split_dependency(n->depends[d]->text, name, &version);
         int32_t other = jox_mods_index(mods, name);
         if (other < 0) {
-            jox_mods_missing(f, n->depends[d]->position, name, mods->found[m].name);
+            jox_mods_report_missing(f, n->depends[d]->position, name, mods->found[m].name);
             good = false;
         } else if (!f->needs[other].wanted && !f->def->needed_too) {
             jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "mod-off",
@@ -30,21 +32,21 @@ static bool link_mod(JoxModsFind *f, uint32_t m) {
                            "mod %s needs %s %s or later; %s is there", mods->found[m].name, name,
                            version, mods->found[other].version);
             good = false;
-        } else if (f->needs[other].link == JOX_MOD_ON_THE_WAY) {
+        } else if (f->needs[other].visit == JOX_MOD_ON_THE_WAY) {
             jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "mod-circle", NULL,
                            "mods %s and %s depend on each other", mods->found[m].name, name);
             good = false;
         } else {
-            good = link_mod(f, (uint32_t)other);
+            good = check_dependencies(f, (uint32_t)other);
             n->before |= (uint64_t)1 << other;
         }
     }
     n->broken |= !good;
-    n->link = JOX_MOD_SOUND; /* or broken: once is enough */
+    n->visit = JOX_MOD_SEEN;
     return good;
 }
 
-/* Whether mod `m` comes after mod `other` by what is known so far, through others too. */
+/* Whether mod `m` must come after mod `other`, directly or through others. */
 static bool comes_after(const JoxModsFind *f, uint32_t m, uint32_t other) {
     JOX_ASSERT(m < f->mods->found_count && other < f->mods->found_count);
     uint64_t before = f->needs[m].before;
@@ -57,9 +59,9 @@ static bool comes_after(const JoxModsFind *f, uint32_t m, uint32_t other) {
     return before >> other & 1;
 }
 
-/* Optional ones and load_after count where the other is taken too, and does not itself come after
-   this one. */
-static void link_wishes(JoxModsFind *f, uint32_t m) {
+/* Puts the mods of `optional` and `load_after` before a mod, if they are applied too and need not
+   come after it. */
+static void apply_optional_order(JoxModsFind *f, uint32_t m) {
     JoxModNeeds *n = &f->needs[m];
     for (uint32_t k = 0; k < n->optional_count + n->after_count; k++) {
         const JoxYaml *name =
@@ -80,7 +82,8 @@ static void link_wishes(JoxModsFind *f, uint32_t m) {
     }
 }
 
-static void want_all(JoxModsFind *f) {
+/* Chooses the mods that chosen mods depend on. */
+static void choose_needed(JoxModsFind *f) {
     for (bool more = true; more;) {
         more = false;
         for (uint32_t m = 0; m < f->mods->found_count; m++)
@@ -96,7 +99,9 @@ static void want_all(JoxModsFind *f) {
     }
 }
 
-static void exclude(JoxModsFind *f) {
+/* Leaves out the mods of def->without, mods that conflict with one chosen, and the mods that depend
+   on what is left out. */
+static void exclude_broken(JoxModsFind *f) {
     JoxMods *mods = f->mods;
     for (uint32_t m = 0; m < mods->found_count; m++) {
         if (f->def->without >> m & 1)
@@ -113,7 +118,7 @@ static void exclude(JoxModsFind *f) {
             f->needs[m].broken = true;
         }
     }
-    for (bool more = true; more;) { /* who needs what is left out is left out too */
+    for (bool more = true; more;) { /* until no mod depends on one left out */
         more = false;
         for (uint32_t m = 0; m < mods->found_count; m++)
             for (uint32_t d = 0; !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
@@ -127,7 +132,7 @@ static void exclude(JoxModsFind *f) {
     }
 }
 
-/* Longest chain of mods that come before each. There are no circles. */
+/* Computes the depth of each mod: the longest chain of mods before it. There are no cycles. */
 static void measure_depths(JoxModsFind *f) {
     uint32_t count = f->mods->found_count;
     for (uint32_t round = 0; round < count; round++)
@@ -144,7 +149,7 @@ static bool comes_before(const JoxModsFind *f, uint32_t a, uint32_t b) {
     return strcmp(f->mods->found[a].name, f->mods->found[b].name) < 0;
 }
 
-static void put_in_order(JoxModsFind *f) {
+static void sort_mods(JoxModsFind *f) {
     JoxMods *mods = f->mods;
     uint32_t list[JOX_MOST_MODS], count = 0;
     measure_depths(f);
@@ -173,11 +178,11 @@ void jox_mods_order(JoxModsFind *f) {
     JOX_ASSERT(mods->found_count <= JOX_MOST_MODS);
     for (uint32_t m = 0; m < mods->found_count; m++)
         if (f->needs[m].wanted)
-            link_mod(f, m);
-    want_all(f);
-    exclude(f);
+            check_dependencies(f, m);
+    choose_needed(f);
+    exclude_broken(f);
     for (uint32_t m = 0; m < mods->found_count; m++)
-        link_wishes(f, m);
-    put_in_order(f);
+        apply_optional_order(f, m);
+    sort_mods(f);
     JOX_ASSERT(mods->count <= mods->found_count);
 }

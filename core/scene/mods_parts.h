@@ -1,37 +1,41 @@
-/* What the files that find, read and order mods share. */
+/* State and functions shared by the files that find, read and order mods. jox_mods_find makes the
+   JoxModsFind, which mods_read.c fills and mods_order.c reads. */
 #ifndef JOX_SCENE_MODS_PARTS_H
 #define JOX_SCENE_MODS_PARTS_H
 
-#include "scene/format/schema.h"
+#include "scene/format/keys.h"
 #include "scene/mods.h"
 
-/* What a mod.yaml says of others, until the order is known. */
+/* What a mod.yaml says about other mods, and what follows from it. */
 typedef struct JoxModNeeds {
-    const JoxYaml *root;
+    const JoxYaml *root; /* the mod.yaml */
     const JoxYaml *const *depends, *const *optional, *const *conflicts, *const *load_after;
     uint32_t depend_count, optional_count, conflict_count, after_count;
-    bool wanted, broken;
-    enum { JOX_MOD_UNSEEN, JOX_MOD_ON_THE_WAY, JOX_MOD_SOUND } link; /* of what it depends on */
-    int depth;
-    uint64_t before; /* bits of `found` that come before it */
+    bool wanted, broken; /* named or enabled; must be left out */
+    enum { JOX_MOD_UNSEEN, JOX_MOD_ON_THE_WAY, JOX_MOD_SEEN } visit; /* of its dependencies */
+    int depth;       /* longest chain of mods that come before it */
+    uint64_t before; /* bit set of `found`: mods that come before it */
 } JoxModNeeds;
 
 typedef struct JoxModsFind {
     const JoxModsDef *def;
     JoxMods *mods;
-    JoxModNeeds needs[JOX_MOST_MODS];
+    JoxModNeeds needs[JOX_MOST_MODS]; /* by index in mods->found */
     JoxReader reader;
-    char *on; /* the list of mods that are turned on */
+    char *enabled; /* text of the list of enabled mods (mods_enabled.h), or NULL */
 } JoxModsFind;
 
-/* mods_read.c: reads the mod in a folder; one that is there already is not read again. */
+/* mods_read.c. Reads the mod in a folder and appends it to `found`, unless it is there already.
+   `wanted`: it is named. */
 void jox_mods_read_folder(JoxModsFind *find, const char *folder, bool wanted);
 bool jox_mods_is_folder(const char *path);
-/* FOLDER/NAME, in the arena. */
+/* Returns FOLDER/NAME, in the arena. */
 char *jox_mods_join(JoxArena *arena, const char *folder, const char *name);
-void jox_mods_missing(JoxModsFind *find, JoxPosition at, const char *name, const char *whose);
-/* mods_order.c: leaves out what lacks others or goes not together with them, and orders the rest.
- */
+/* Reports that there is no mod `name`. `needed_by`: the mod or "the scene" that needs it; or "". */
+void jox_mods_report_missing(JoxModsFind *find, JoxPosition at, const char *name,
+                             const char *needed_by);
+/* mods_order.c. Leaves out mods whose dependencies are missing or that conflict, and orders the
+   others in mods->items. */
 void jox_mods_order(JoxModsFind *find);
 
 #endif

@@ -1,4 +1,4 @@
-/* Reading a mod: its mod.yaml, and what lies in its folders. */
+/* Reads a mod: its mod.yaml, and the files of its folders. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,9 +7,9 @@
 #include "base/assert.h"
 #include "base/file.h"
 #include "base/mem.h"
-#include "scene/internal.h"
-#include "scene/mods_on.h"
+#include "scene/mods_enabled.h"
 #include "scene/mods_parts.h"
+#include "scene/scene_draft.h"
 
 enum { MOST_FILES = 256, LARGEST_FILE = 1 << 20, MOST_SETTINGS = 64 };
 
@@ -31,11 +31,11 @@ char *jox_mods_join(JoxArena *arena, const char *folder, const char *name) {
     return path;
 }
 
-/* ---- reading one ---- */
+/* ---- parts of a mod ---- */
 
-/* Names of other mods, with a version where `versions`. */
-static uint32_t read_others(const JoxReader *r, const JoxYaml *root, const char *key, bool versions,
-                            const JoxYaml *const **names) {
+/* Reads a key with names of other mods, which may have a least version if `versions`. */
+static uint32_t read_mod_names(const JoxReader *r, const JoxYaml *root, const char *key,
+                               bool versions, const JoxYaml *const **names) {
     uint32_t count = jox_read_names(r, jox_yaml_get(root, key), names);
     for (uint32_t k = 0; k < count; k++) {
         const char *text = (*names)[k]->text, *rest = text + strcspn(text, " >=<");
@@ -53,23 +53,22 @@ static uint32_t read_others(const JoxReader *r, const JoxYaml *root, const char 
     return count;
 }
 
-static bool plain_name(const char *name) {
+static bool is_mod_name(const char *name) {
     size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
     return n > 0 && n <= 60 && !name[n];
 }
 
-/* At most 64 settings. */
-void jox_key_settings(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
+void jox_key_read_settings(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
     if (map && (map->kind != JOX_YAML_MAP || map->count > MOST_SETTINGS)) {
         jox_scene_error(r, map, "bad-type", "settings: {weight: {value: 80}}",
                         "%s maps at most %d names to settings", key->name, MOST_SETTINGS);
         return;
     }
     const JoxKey items = {.name = key->name,
-                          .of = key->of,
+                          .content = key->content,
                           .offset = offsetof(JoxMod, settings),
-                          .counter = offsetof(JoxMod, setting_count)};
-    jox_items_fill(r, &items, map, item);
+                          .count_offset = offsetof(JoxMod, setting_count)};
+    jox_key_read_items(r, &items, map, item);
 }
 
 bool jox_finish_setting(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
@@ -82,15 +81,15 @@ bool jox_finish_setting(const JoxReader *r, const JoxYaml *map, void *item, bool
     return good;
 }
 
-static bool ends_with(const char *path, const char *ending) {
+static bool has_ending(const char *path, const char *ending) {
     size_t n = strlen(path), m = strlen(ending);
     return n >= m && strcmp(path + n - m, ending) == 0;
 }
 
-/* The target of a scene's patch: the top-level key `patch` or `replace`. */
+/* Reads the target of a patch of a scene: its top-level key `patch` or `replace`. */
 static void read_target(JoxModsFind *f, JoxModPatch *patch) {
     JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
-    files->plain = true;
+    files->untrusted = true;
     files->role = JOX_YAML_PATCH;
     JoxYaml *root =
         jox_yaml_load(f->reader.arena, patch->path, NULL, 0, files, f->reader.diagnostics);
@@ -108,12 +107,12 @@ static void read_target(JoxModsFind *f, JoxModPatch *patch) {
     }
 }
 
-/* Files of a mod are plain files of its own, and not too large. */
-static bool is_sound(JoxModsFind *f, const char *path, JoxPosition from) {
+/* Whether a path is a plain file, not too large; reports what is neither that nor a folder. */
+static bool check_mod_file(JoxModsFind *f, const char *path, JoxPosition from) {
     struct stat info;
     const char *wrong = lstat(path, &info) != 0       ? "it cannot be read"
                         : S_ISLNK(info.st_mode)       ? "symbolic links are not followed"
-                        : S_ISDIR(info.st_mode)       ? "" /* looked into elsewhere */
+                        : S_ISDIR(info.st_mode)       ? "" /* not an error */
                         : !S_ISREG(info.st_mode)      ? "it is no plain file"
                         : info.st_size > LARGEST_FILE ? "it is over 1 MB"
                                                       : NULL;
@@ -123,13 +122,13 @@ static bool is_sound(JoxModsFind *f, const char *path, JoxPosition from) {
     return !wrong;
 }
 
-/* Looks at all files of one of a mod's folders; those of patches/ become patches. */
-static void read_folder(JoxModsFind *f, JoxMod *mod, const char *name, JoxPosition from) {
+/* Checks all files of one of a mod's folders, and appends those of patches/ to its patches. */
+static void read_mod_subfolder(JoxModsFind *f, JoxMod *mod, const char *name, JoxPosition from) {
     char *folder = jox_mods_join(f->reader.arena, mod->folder, name);
     bool patches = strcmp(name, "patches") == 0;
     struct stat info;
     if (lstat(folder, &info) == 0 && S_ISLNK(info.st_mode)) {
-        is_sound(f, folder, from);
+        check_mod_file(f, folder, from);
         return;
     }
     char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
@@ -143,8 +142,8 @@ static void read_folder(JoxModsFind *f, JoxMod *mod, const char *name, JoxPositi
         mod->patches = jox_arena_take(f->reader.arena, (size_t)count, sizeof *mod->patches);
     for (int e = 0; e < count; e++) {
         char *path = jox_mods_join(f->reader.arena, folder, names[e]);
-        bool lua = ends_with(path, ".lua"), yaml = ends_with(path, ".yaml");
-        if (is_sound(f, path, from) && patches && (lua || yaml)) {
+        bool lua = has_ending(path, ".lua"), yaml = has_ending(path, ".yaml");
+        if (check_mod_file(f, path, from) && patches && (lua || yaml)) {
             JoxModPatch *patch = &mod->patches[mod->patch_count++];
             *patch = (JoxModPatch){.path = path, .lua = lua};
             if (yaml)
@@ -154,7 +153,7 @@ static void read_folder(JoxModsFind *f, JoxMod *mod, const char *name, JoxPositi
     jox_free(names);
 }
 
-/* ---- the whole ---- */
+/* ---- a whole mod ---- */
 
 void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     JoxMods *mods = f->mods;
@@ -166,10 +165,10 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
         }
     char *path = jox_mods_join(r->arena, folder, "mod.yaml");
     JoxYamlFiles *files = jox_arena_take(r->arena, 1, sizeof *files);
-    files->plain = true;
+    files->untrusted = true;
     files->role = JOX_YAML_MOD;
     size_t errors = r->diagnostics->errors;
-    JoxYaml *root = is_sound(f, path, (JoxPosition){path, 0, 0, 0})
+    JoxYaml *root = check_mod_file(f, path, (JoxPosition){path, 0, 0, 0})
                         ? jox_yaml_load(r->arena, path, NULL, 0, files, r->diagnostics)
                         : NULL;
     if (root && mods->found_count == JOX_MOST_MODS) {
@@ -179,7 +178,7 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     }
     if (!root || root->kind != JOX_YAML_MAP) {
         if (root)
-            jox_keys_check(r, root, "mod"); /* says so */
+            jox_owner_check_keys(r, root, "mod"); /* reports that it is no map */
         return;
     }
     if (jox_yaml_get(root, "enabled")) {
@@ -190,10 +189,10 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     }
     JoxMod *mod = &mods->found[mods->found_count];
     *mod = (JoxMod){0};
-    jox_keys_fill(r, root, "mod", mod);
+    jox_owner_read(r, root, "mod", mod);
     const char *name = mod->name;
     JoxPosition at = name ? jox_yaml_get(root, "name")->position : root->position;
-    if (name && !plain_name(name))
+    if (name && !is_mod_name(name))
         jox_diag_error(r->diagnostics, at, "bad-mod", "Example: gentle-queue",
                        "a mod's name has lower-case letters, digits, - and _ only");
     int32_t same = name ? jox_mods_index(mods, name) : -1;
@@ -207,31 +206,32 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     mod->title = mod->title ? mod->title : jox_arena_text(r->arena, "");
     mod->version = mod->version ? mod->version : jox_arena_text(r->arena, "0");
     mod->folder = jox_arena_text(r->arena, folder);
-    mod->on = jox_mods_on_look(f->on, name ? name : "", folder);
+    mod->on = jox_mods_look_up_enabled(f->enabled, name ? name : "", folder);
     JoxModNeeds *needs = &f->needs[mods->found_count++];
     *needs = (JoxModNeeds){.root = root, .wanted = wanted};
-    needs->depend_count = read_others(r, root, "depends", true, &needs->depends);
-    needs->optional_count = read_others(r, root, "optional", true, &needs->optional);
-    needs->conflict_count = read_others(r, root, "conflicts", false, &needs->conflicts);
-    needs->after_count = read_others(r, root, "load_after", true, &needs->load_after);
-    read_folder(f, mod, "behaviours", at);
-    read_folder(f, mod, "scenes", at);
-    read_folder(f, mod, "patches", at);
+    needs->depend_count = read_mod_names(r, root, "depends", true, &needs->depends);
+    needs->optional_count = read_mod_names(r, root, "optional", true, &needs->optional);
+    needs->conflict_count = read_mod_names(r, root, "conflicts", false, &needs->conflicts);
+    needs->after_count = read_mod_names(r, root, "load_after", true, &needs->load_after);
+    read_mod_subfolder(f, mod, "behaviours", at);
+    read_mod_subfolder(f, mod, "scenes", at);
+    read_mod_subfolder(f, mod, "patches", at);
     needs->broken = r->diagnostics->errors > errors;
     for (uint32_t i = 0; i < files->count; i++)
         jox_diag_attach_source(r->diagnostics, files->items[i].path, files->items[i].text,
                                files->items[i].length);
 }
 
-void jox_mods_missing(JoxModsFind *f, JoxPosition at, const char *name, const char *whose) {
+void jox_mods_report_missing(JoxModsFind *f, JoxPosition at, const char *name,
+                             const char *needed_by) {
     const char *names[JOX_MOST_MODS];
     for (uint32_t m = 0; m < f->mods->found_count; m++)
         names[m] = f->mods->found[m].name;
-    const char *near = jox_scene_suggest(&f->reader, name, names, f->mods->found_count);
+    const char *hint = jox_scene_suggest(&f->reader, name, names, f->mods->found_count);
     jox_diag_error(f->reader.diagnostics, at, "missing-mod",
-                   near ? near
+                   hint ? hint
                         : "Mods are found by name in the mods/ beside the scene; give the "
                           "folder of another: --mod DIR",
-                   "there is no mod '%.60s'%s%s", name, *whose ? ", which is needed by " : "",
-                   whose);
+                   "there is no mod '%.60s'%s%s", name, *needed_by ? ", which is needed by " : "",
+                   needed_by);
 }

@@ -1,26 +1,27 @@
-/* Places and regions of a scene. What a kind of place is made of, its row in geom/place.c says. */
+/* Reads places and regions of a scene. The kinds of places are rows of a table in geom/place.c. */
 #include <string.h>
 
 #include "base/assert.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
-/* The points of a place, as its kind has them. */
-void jox_key_place_points(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads the points of a place, as many as its kind has. */
+void jox_key_read_place_points(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                               void *item) {
     JoxPlace *place = item;
     const JoxPlaceKindInfo *kind = &jox_place_kinds[place->kind];
     JOX_ASSERT(strcmp(kind->name, key->name) == 0);
     double v[2];
     if (kind->most_points == 0)
-        return; /* its members are looked up when all places are known */
+        return; /* a set: jox_resolve_place looks its members up */
     if (kind->most_points == 1) {
-        if (!jox_key_vector(r, key, node, v, 2))
+        if (!jox_key_read_vector(r, key, node, v, 2))
             return;
         place->points = jox_arena_take(r->arena, 1, sizeof *place->points);
         place->points[0] = jox_v2((float)v[0], (float)v[1]);
         place->count = 1;
     } else {
         place->points = kind->outline == JOX_OUTLINE_RING
-                            ? jox_load_ring(r, node, &place->count)
+                            ? jox_read_polygon(r, node, &place->count)
                             : jox_read_points(r, node, kind->least_points, &place->count);
     }
     if (place->points && place->count > kind->most_points)
@@ -33,31 +34,31 @@ bool jox_finish_place(const JoxReader *r, const JoxYaml *map, void *item, bool g
     (void)r, (void)map, (void)good;
     if (place->points && place->count)
         jox_place_finish(place);
-    return true; /* a wrong one is known by its name */
+    return true; /* a wrong one is kept, so that its name is known */
 }
 
-/* Which line it is, is looked up when all places are known. */
-void jox_key_place_start(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    if (node && node->kind != JOX_YAML_SCALAR)
-        jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
+/* Checks the name of the start line, which jox_resolve_place looks up. */
+void jox_key_read_place_start(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                              void *item) {
+    jox_key_read_scalar(r, key, node, "name");
     ((JoxPlace *)item)->start = -1;
 }
 
-static void link_start(const JoxReader *r, const JoxYaml *start, JoxPlace *place) {
-    const JoxPlace *places = r->load->scene->places;
-    place->start = jox_load_place(r, start);
+static void resolve_start(const JoxReader *r, const JoxYaml *start, JoxPlace *place) {
+    const JoxPlace *places = r->draft->scene->places;
+    place->start = jox_scene_find_place(r, start);
     if (place->start >= 0 && !jox_place_is_line(&places[place->start]))
         jox_scene_error(r, start, "bad-place", NULL, "circuits start at a line");
 }
 
-static void link_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place) {
-    const JoxPlace *places = r->load->scene->places;
+static void resolve_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place) {
+    const JoxPlace *places = r->draft->scene->places;
     const JoxYaml *const *names;
     uint32_t count =
         jox_read_names(r, jox_yaml_get(map, jox_place_kinds[place->kind].name), &names);
     place->members = jox_arena_take(r->arena, count, sizeof *place->members);
     for (uint32_t n = 0; n < count; n++) {
-        int32_t member = jox_load_place(r, names[n]);
+        int32_t member = jox_scene_find_place(r, names[n]);
         if (member >= 0 && jox_place_is_set(&places[member]))
             jox_scene_error(r, names[n], "bad-place", NULL, "a set cannot hold another set");
         else if (member >= 0 && places[member].count > 0)
@@ -70,17 +71,17 @@ static void link_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place
         jox_scene_error(r, map, "bad-place", "set: [NAME, NAME]", "a set names at least one place");
 }
 
-void jox_link_place(const JoxReader *r, const JoxYaml *map, void *item) {
+void jox_resolve_place(const JoxReader *r, const JoxYaml *map, void *item) {
     JoxPlace *place = item;
     const JoxYaml *start = jox_yaml_get(map, "start");
     JOX_ASSERT(place->start == -1);
     if (start && start->kind == JOX_YAML_SCALAR)
-        link_start(r, start, place);
+        resolve_start(r, start, place);
     if (jox_place_is_set(place))
-        link_members(r, map, place);
+        resolve_members(r, map, place);
 }
 
-void jox_key_regions(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
+void jox_key_read_regions(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
     JoxSceneSpec *s = item;
     if (!map || map->kind != JOX_YAML_MAP) {
         if (map)
@@ -91,8 +92,8 @@ void jox_key_regions(const JoxReader *r, const JoxKey *key, const JoxYaml *map, 
     for (uint32_t i = 0; i < map->count; i++) {
         JoxSceneRegion *region = &s->regions[s->region_count];
         region->name = jox_arena_text(r->arena, map->keys[i]);
-        jox_scene_name(r, map->key_positions[i], "region", region->name);
-        region->points = jox_load_ring(r, map->items[i], &region->count);
+        jox_scene_check_name(r, map->key_positions[i], "region", region->name);
+        region->points = jox_read_polygon(r, map->items[i], &region->count);
         s->region_count += region->points != NULL;
     }
     JOX_ASSERT(s->region_count <= map->count);

@@ -1,5 +1,5 @@
-/* Scenes: a YAML file becomes a plain description, from which core/run builds a world.
-   Metres, seconds, kilograms; angles in radians. The format itself is the table in keys.c. */
+/* Scene specifications: a YAML file is read into a JoxSceneSpec, plain data from which run/ builds
+   a world. Units are m, s and kg; angles are in radians. The format is the table in key_table.c. */
 #ifndef JOX_SCENE_SCENE_H
 #define JOX_SCENE_SCENE_H
 
@@ -19,20 +19,21 @@
 #include "world/probe.h"
 #include "world/sources.h"
 
+/* A polygon in which a run measures the mean speed. */
 typedef struct JoxSceneRegion {
     char *name;
-    JoxV2 *points;
+    JoxV2 *points; /* m, counter-clockwise */
     uint32_t count;
 } JoxSceneRegion;
 
 typedef struct JoxSceneBody {
-    JoxBodyDef def; /* tags are left 0: see `tags` */
+    JoxBodyDef def; /* its tags are 0: `tags` has their names */
     char **tags;
     uint32_t tag_count;
-    JoxPosition position;
+    JoxPosition position; /* in the scene's file */
 } JoxSceneBody;
 
-/* What people may do to the running scene on its live page. */
+/* Tools of the live page, by which people act on the running scene: enumerator, name. */
 #define JOX_TOOLS(X)                                                                               \
     X(THROW, "throw")                                                                              \
     X(DRAG, "drag")                                                                                \
@@ -47,65 +48,69 @@ typedef enum JoxTool {
 #undef X
         JOX_TOOL_COUNT
 } JoxTool;
-extern const char *const jox_scene_tools[JOX_TOOL_COUNT]; /* names */
+extern const char *const jox_scene_tools[JOX_TOOL_COUNT]; /* their names */
 
+/* A file that the scene was read from. */
 typedef struct JoxSceneFile {
     char *path;
     char sha256[65];
-    const char *text; /* as it was read */
+    const char *text;
     size_t length;
 } JoxSceneFile;
 
 typedef struct JoxSceneCamera {
     double position[3], target[3]; /* m */
-    bool given;
+    bool given;                    /* false: the camera is chosen from the scene's extent */
 } JoxSceneCamera;
 
-/* What people may be coloured by, in the order of the key's choices, which begin with "auto". */
+/* Quantities that agents can be coloured by, in the order of the choices of the key `colour`, which
+   has "auto" before them. */
 #define JOX_SCENE_COLOURS(X)                                                                       \
     X(state) X(speed) X(force) X(compression) X(load) X(density) X(group) X(direction) X(service)
 
 typedef struct JoxSceneView {
-    uint32_t tools;         /* bit per JoxTool */
-    uint32_t colour, field; /* which of the keys' choices, in their order */
+    uint32_t tools;         /* bit set of JoxTool */
+    uint32_t colour, field; /* index of the choice of each key */
 } JoxSceneView;
 
-/* What is counted of the agents: a score, or who is out. */
-typedef enum JoxTallyTake {
+/* A tally: a number computed from the agents that are there, as a score. It counts agents, or takes
+   a statistic of a memory that behaviours write. */
+typedef enum JoxTallyStatistic {
     JOX_TALLY_SUM,
     JOX_TALLY_MEAN,
     JOX_TALLY_LEAST,
     JOX_TALLY_GREATEST
-} JoxTallyTake;
+} JoxTallyStatistic;
 typedef struct JoxTally {
     char *name;
     JoxPosition position; /* of the name */
-    char *memory, *state; /* of that memory, or in that state; NULL: any */
-    JoxPosition memory_at, state_at;
-    int32_t group; /* -1: everyone */
-    uint32_t take; /* JoxTallyTake, of memory */
-    char *unit;    /* NULL: none */
+    char *memory, *state; /* the memory that is evaluated; only agents in this state; NULL: any */
+    JoxPosition memory_position, state_position;
+    int32_t group;      /* only agents of this group; -1: all */
+    uint32_t statistic; /* JoxTallyStatistic, of the memory */
+    char *unit;         /* NULL: none */
 } JoxTally;
 
-/* What a script may use. */
+/* Limits on the Lua scripts of behaviours. */
 typedef struct JoxSceneLimits {
-    double instructions, step_instructions; /* of a call, of all calls in a step */
-    double load_instructions;
-    double memory, block; /* MB: of a behaviour, of one allocation */
-    double source;        /* KB of a file */
-    double print;         /* lines in a second */
+    double instructions;      /* of one call */
+    double step_instructions; /* of all calls of a behaviour in a step */
+    double load_instructions; /* of loading a behaviour */
+    double memory, block;     /* MB: of a behaviour, of one allocation */
+    double source;            /* KB of a file */
+    double print;             /* lines printed in a second */
 } JoxSceneLimits;
 
-/* A scene's file as it was read: everything that a world is built from, as plain data. */
+/* A scene as it was read: all that a world is built from, as plain data. */
 typedef struct JoxSceneSpec {
     char *path, *title;
-    char *about; /* what it shows; may be empty */
+    char *about; /* description for the live page; may be empty */
     char *input; /* path of the input log, or NULL */
     uint64_t seed;
     double step, duration, gravity; /* s, s, m/s2 */
     bool bounded;
-    JoxV2 low, high; /* bounds */
-    bool periodic_x, periodic_y;
+    JoxV2 low, high;             /* m, corners of the bounds, if bounded */
+    bool periodic_x, periodic_y; /* opposite bounds are joined */
     JoxPlace *places;
     uint32_t place_count;
     JoxSceneRegion *regions;
@@ -125,69 +130,74 @@ typedef struct JoxSceneSpec {
     uint32_t event_count;
     JoxTally *tallies;
     uint32_t tally_count;
-    int32_t player_group;  /* -1: none */
-    uint32_t player_agent; /* index within that group */
-    bool forces, literal;
-    uint32_t lost_people, lost_bodies; /* JoLost */
+    int32_t player_group;              /* -1: none */
+    uint32_t player_agent;             /* index within that group */
+    bool forces;                       /* false: collision avoidance alone */
+    bool literal;                      /* forces act as the paper's equations are printed */
+    uint32_t lost_people, lost_bodies; /* JoLost: reaction to numbers that are not finite */
     JoxSceneCamera camera;
     JoxSceneView view;
     JoxSceneLimits limits;
     JoxWalkLaw walking;
-    bool heatmap; /* the area was given */
-    JoxV2 heatmap_low, heatmap_high;
-    double heatmap_from; /* s; averages begin there */
-    JoxSceneFile *files; /* scene and included files */
+    bool heatmap;                    /* the area of the density map was given */
+    JoxV2 heatmap_low, heatmap_high; /* m */
+    double heatmap_from;             /* s: averages of the density map begin then */
+    JoxSceneFile *files;             /* the scene, included files, patches, files of walls */
     uint32_t file_count;
-    const struct JoxYaml *tree; /* as it was read, with includes and mods merged */
-    const struct JoxYaml *own;  /* the same without mods and what was set for the run */
-    JoxPatchChanges changes;    /* that mods made */
-    void *memory;               /* owns every text and array above but `walls` and `changes` */
+    const struct JoxYaml *tree;     /* with includes, patches and values set for the run */
+    const struct JoxYaml *own_tree; /* with includes alone */
+    JoxPatchChanges changes;        /* made by mods */
+    void *memory; /* JoxArena: owns every text and array above but `walls` and `changes` */
 } JoxSceneSpec;
 
-/* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */
 typedef struct JoxSceneOptions {
-    const char *const *sets;
+    const char *const *sets; /* "PATH=VALUE", as "groups.pilgrims.count=5000" */
     uint32_t set_count;
-    const char *datadir; /* where installed behaviours/ lie; NULL: as built */
-    const JoxMod
-        *mods; /* in order; their patches of the scene are applied, and their behaviours found */
+    const char *datadir; /* folder of installed behaviours/; NULL: as built */
+    const JoxMod *mods;  /* in their order: the scene is patched by them, and may use their
+                            behaviours */
     uint32_t mod_count;
 } JoxSceneOptions;
 
-/* NULL when there are errors, all of them in `diagnostics`. `options` may be NULL. */
-JoxSceneSpec *jox_scene_load(const char *path, const JoxSceneOptions *options,
+/* Reads a scene; NULL if there are errors, all of which are in `diagnostics`. `options` may be
+   NULL. Free it by jox_scene_free. */
+JoxSceneSpec *jox_scene_read(const char *path, const JoxSceneOptions *options,
                              JoxDiagnostics *diagnostics);
-/* The same from memory; `name` stands for the path, its folder is where files are looked for. */
-JoxSceneSpec *jox_scene_load_text(const char *name, const char *text, size_t length,
+/* Reads a scene from memory; files it names are searched in the folder of the path `name`. */
+JoxSceneSpec *jox_scene_read_text(const char *name, const char *text, size_t length,
                                   const JoxSceneOptions *options, JoxDiagnostics *diagnostics);
 void jox_scene_free(JoxSceneSpec *scene);
-/* Whether two versions of a scene hold other things under one of its keys. */
+/* Whether two versions of a scene have different values of a top-level key. */
 bool jox_scene_differs(const JoxSceneSpec *a, const JoxSceneSpec *b, const char *key);
-/* Name of what people are coloured by first: what the scene says (NULL: it says nothing), or what
-   tells most where behaviours have so many states in all, and people so many groups. */
-const char *jox_scene_colour(const JoxSceneSpec *scene, uint32_t states, uint32_t groups);
-/* Append where the scene's own files write the value of a path ("groups.red.count"; items of lists
-   by name or number), where it was set for the run, and what it is by default: false where that is
-   nowhere. */
-bool jox_scene_why(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit, void *context);
-bool jox_scene_why_set(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
-                       void *context);
-bool jox_scene_why_default(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
-                           void *context);
-/* Appends the value that a change of a mod gives to what follows its path, as it is written on one
-   line. False where the change says nothing of that. */
-bool jox_scene_why_change(const JoxPatchChange *change, const char *rest, JoxText *out);
-/* Appends the keys that differ and that a run cannot take over, each with why: "seed (...), ...".
- */
-void jox_scene_later(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);
-/* Every key with type, unit, range, default and meaning, as plain text. */
-void jox_scene_print_reference(JoxText *out);
-/* The same as a page of Markdown, with examples. */
-void jox_scene_reference_markdown(JoxText *out);
-/* A JSON Schema (draft-07) of scenes ("scene") or of a mod's file ("mod"), for editors. */
-void jox_scene_json_schema(const char *root_owner, JoxText *out);
+/* Appends the top-level keys that differ and that a reload cannot apply, each with the reason:
+   "seed (...), ...". */
+void jox_scene_list_restart_keys(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);
+/* Returns the name of the quantity that agents are coloured by first: the scene's choice, else (or
+   for NULL) the most telling one for behaviours with `states` states in all and `groups` groups. */
+const char *jox_scene_choose_colouring(const JoxSceneSpec *scene, uint32_t states, uint32_t groups);
 
-/* A file that shows every key of an owner; scenes among them load and run in the folder scenes/. */
+/* Where the value of a path ("groups.red.count"; items of lists by name or number) comes from, for
+   `jostle mod why`: in the scene's own files, set for the run, by default. Each calls `visit` with
+   the value as it is written on one line; false if it is not written there. */
+bool jox_scene_visit_own_value(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
+                               void *context);
+bool jox_scene_visit_set_value(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
+                               void *context);
+bool jox_scene_visit_default(const JoxSceneSpec *scene, const char *path, JoSetVisit *visit,
+                             void *context);
+/* Appends the value that a mod's change gives to `rest`, a path below the change's own, as it is
+   written on one line; false if the change has no value for it. */
+bool jox_scene_print_changed_value(const JoxPatchChange *change, const char *rest, JoxText *out);
+
+/* Appends all keys with type, unit, range, default and meaning, as plain text. */
+void jox_scene_print_reference(JoxText *out);
+/* Appends the same as a page of Markdown, with examples. */
+void jox_scene_print_markdown(JoxText *out);
+/* Appends a JSON Schema (draft-07) of scenes ("scene") or of a mod's file ("mod"), for editors. */
+void jox_scene_print_json_schema(const char *root_owner, JoxText *out);
+
+/* A file that shows every key of an owner. Those that are scenes load and run in the folder
+   scenes/. */
 typedef struct JoxExample {
     const char *owner, *yaml;
 } JoxExample;

@@ -1,4 +1,4 @@
-/* Walls of a scene, drawn in it or in files. */
+/* Reads walls of a scene: lines and solids, and files of walls (wall_files/). */
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -8,43 +8,39 @@
 #include "base/format/path.h"
 #include "base/hash.h"
 #include "base/mem.h"
-#include "scene/internal.h"
-#include "scene/walls/wall_file.h"
+#include "scene/scene_draft.h"
+#include "scene/wall_files/wall_file.h"
 
 enum {
     LARGEST_FILE = 64 << 20,
-    LONGEST = 2000000 /* m, of all walls: what they bear is kept for each metre */
+    LONGEST = 2000000 /* m, of all walls: loads are recorded for each metre */
 };
 
-/* A file that a mod names lies beside the mod's own. */
-static bool is_allowed(const JoxLoad *l, const JoxYaml *name, const char *path) {
+/* Whether a file may be read: one that a mod names must lie beside the mod's own, by a plain name.
+ */
+static bool may_read_file(const JoxSceneDraft *draft, const JoxYaml *name, const char *path) {
     struct stat info;
-    bool plain = *name->text != '/' && !strstr(name->text, "..") &&
-                 !(lstat(path, &info) == 0 && S_ISLNK(info.st_mode));
-    for (uint32_t m = 0; !plain && l->options && m < l->options->mod_count; m++) {
-        const char *folder = l->options->mods[m].folder;
-        if (strncmp(name->position.file, folder, strlen(folder)) == 0)
-            return false;
-    }
-    return true;
+    const bool plain = *name->text != '/' && !strstr(name->text, "..") &&
+                       !(lstat(path, &info) == 0 && S_ISLNK(info.st_mode));
+    return plain || !jox_scene_is_mod_file(draft, name->position.file);
 }
 
-/* Adds the walls of a wall's file, and the file to those of the scene. */
-static bool load_file(JoxLoad *l, const JoxLoadWall *wall) {
-    const JoxReader *r = &l->reader;
+/* Adds the walls of a file, and the file to the files of the scene; false with an error. */
+static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
+    const JoxReader *r = &draft->reader;
     const JoxYaml *name = wall->file;
     char *path = jox_arena_beside(r->arena, name->position.file, name->text);
     JoxWallFileOptions options = {.unit = wall->unit, .height = wall->height};
     options.origin_x = wall->origin[0], options.origin_y = wall->origin[1];
     size_t length = 0;
-    bool allowed = is_allowed(l, name, path);
+    bool allowed = may_read_file(draft, name, path);
     if (allowed && jox_path_is_foreign(name->position.file, path)) {
         jox_scene_error(r, name, "unreadable-file", "Copy it beside the scene",
                         "'%.200s' lies outside the folder of %.200s", path, name->position.file);
         return false;
     }
     char *data = allowed ? jox_read_file(path, LARGEST_FILE, &length) : NULL;
-    if (!data || l->files->count == sizeof l->files->items / sizeof *l->files->items) {
+    if (!data || draft->files->count == sizeof draft->files->items / sizeof *draft->files->items) {
         jox_scene_error(r, name, "unreadable-file",
                         allowed ? "Paths are meant from the folder of the scene"
                                 : "A mod takes files beside its own, by plain names",
@@ -56,43 +52,45 @@ static bool load_file(JoxLoad *l, const JoxLoadWall *wall) {
         jox_free(data);
         return false;
     }
-    JoxYamlFile *file = &l->files->items[l->files->count++];
+    JoxYamlFile *file = &draft->files->items[draft->files->count++];
     file->path = path;
     file->text = "";
     jox_sha256_hex(data, length, file->sha256);
     if (length >= 16 && memcmp(data, "SQLite format 3", 16) == 0) {
         jox_free(data);
-        if (!(data = jox_wall_file_recorded(path, r->diagnostics)))
+        if (!(data = jox_wall_file_read_recorded(path, r->diagnostics)))
             return false;
         length = strlen(data);
     }
     file->text = memcpy(jox_arena_take(r->arena, length + 1, 1), data, length);
     file->length = length;
     jox_free(data);
-    const bool says_encoding = file->text[strspn(file->text, " \t\r\n")] == '<'; /* XML may */
-    if (!says_encoding && !jox_diag_check_text(r->diagnostics, path, file->text, length))
+    const bool is_xml =
+        file->text[strspn(file->text, " \t\r\n")] == '<'; /* it names its encoding */
+    if (!is_xml && !jox_diag_check_text(r->diagnostics, path, file->text, length))
         return false;
-    return jox_wall_file_read(path, file->text, length, &options, &l->scene->walls, r->diagnostics);
+    return jox_wall_file_read(path, file->text, length, &options, &draft->scene->walls,
+                              r->diagnostics);
 }
 
-/* The corners of a solid or of a line; whether it is closed has been read before. */
-void jox_key_wall_points(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    JoxLoadWall *wall = item;
+/* Reads the corners of a solid or a line; the key `closed` has been read. */
+void jox_key_read_wall_points(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                              void *item) {
+    JoxWallDraft *wall = item;
     (void)key;
     wall->points = wall->kind == JOX_WALL_SOLID || wall->closed
-                       ? jox_load_ring(r, node, &wall->count)
+                       ? jox_read_polygon(r, node, &wall->count)
                        : jox_read_points(r, node, 2, &wall->count);
 }
 
-void jox_key_wall_file(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    if (node->kind != JOX_YAML_SCALAR)
-        jox_scene_error(r, node, "bad-type", NULL, "%s must be a text", key->name);
-    else
-        ((JoxLoadWall *)item)->file = node;
+void jox_key_read_wall_file(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                            void *item) {
+    if (jox_key_read_scalar(r, key, node, "text"))
+        ((JoxWallDraft *)item)->file = node;
 }
 
-/* m: of the walls from a ring on. */
-static double length_from(const JoxWalls *walls, uint32_t first) {
+/* Returns the length of the walls from ring `first` on, m. */
+static double measure_walls(const JoxWalls *walls, uint32_t first) {
     double length = 0.0;
     const uint32_t begin = first < walls->ring_count ? walls->rings[first].first : walls->count;
     for (uint32_t v = begin; v < walls->count; v++)
@@ -101,16 +99,16 @@ static double length_from(const JoxWalls *walls, uint32_t first) {
     return length;
 }
 
-static void add_wall(const JoxReader *r, const JoxYaml *map) {
-    JoxWalls *walls = &r->load->scene->walls;
+static void read_wall(const JoxReader *r, const JoxYaml *map) {
+    JoxWalls *walls = &r->draft->scene->walls;
     const uint32_t first = walls->ring_count;
-    JoxLoadWall wall = {0};
-    jox_keys_fill(r, map, "wall", &wall);
+    JoxWallDraft wall = {0};
+    jox_owner_read(r, map, "wall", &wall);
     const bool named = wall.name && *wall.name;
     if (wall.open && !named)
         jox_scene_error(r, jox_yaml_get(map, "open"), "bad-wall", "name: gate",
                         "a wall that starts open needs a name: else nothing closes it");
-    if (wall.file && !load_file(r->load, &wall))
+    if (wall.file && !add_wall_file(r->draft, &wall))
         return;
     if (wall.points && wall.kind == JOX_WALL_SOLID)
         jox_walls_add_solid(walls, wall.points, wall.count, wall.height);
@@ -121,22 +119,22 @@ static void add_wall(const JoxReader *r, const JoxYaml *map) {
         jox_walls_name(walls, first, wall.name, wall.open);
 }
 
-void jox_key_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
+void jox_key_read_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *list, void *item) {
     const size_t errors = r->diagnostics->errors;
     (void)item;
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(r, list, "bad-type", NULL, "%s is a list", key->name);
-    const JoxWalls *walls = &r->load->scene->walls;
+    const JoxWalls *walls = &r->draft->scene->walls;
     double length = 0.0;
     for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
         const uint32_t first = walls->ring_count;
-        add_wall(r, list->items[i]);
-        length += length_from(walls, first);
+        read_wall(r, list->items[i]);
+        length += measure_walls(walls, first);
         if (length > LONGEST) {
             jox_scene_error(r, list->items[i], "too-large", "A length may be in millimetres: unit",
                             "with this one, walls are over %d km long", LONGEST / 1000);
             break;
         }
     }
-    r->load->walls_wrong = r->diagnostics->errors > errors;
+    r->draft->walls_wrong = r->diagnostics->errors > errors;
 }

@@ -162,7 +162,7 @@ static void compare_claim_run(Deviations *d, const JoxClaimRun *run) {
     char file[512];
     JoxDiagnostics unread = {0}; /* a scene that does not load has already failed as a run */
     JoxSceneOptions options = {.sets = (const char *const *)run->sets, .set_count = run->set_count};
-    JoxSceneSpec *spec = jox_scene_load(run->scene, &options, &unread);
+    JoxSceneSpec *spec = jox_scene_read(run->scene, &options, &unread);
     jox_diag_free(&unread);
     if (!spec)
         return;

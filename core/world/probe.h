@@ -9,8 +9,8 @@
 
 /* The kinds, a row each: enumerator; key in a scene, and jox_probe_KEY of record/probes; how its
    value is written (a LINE, two LINES, a RING, a POINT, FLAG: true, SECONDS, two STATES, or a TABLE
-   whose keys stand under this name in scene/keys.c); the keys that it takes besides those of all
-   probes; a line of an example; what it measures. */
+   whose keys stand under this name in scene/key_table.c); the keys that it takes besides those of
+   all probes; a line of an example; what it measures. */
 /* clang-format off */
 #define JOX_PROBES(X)                                                                               \
     X(FLOW, flow, LINE, "", "door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}",               \

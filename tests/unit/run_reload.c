@@ -38,7 +38,7 @@ static JoScene *load_small(const char *path) {
     const char *sets[MOST];
     size_t count = 0;
     JoxDiagnostics diagnostics = {0};
-    JoxSceneSpec *spec = jox_scene_load(path, NULL, &diagnostics);
+    JoxSceneSpec *spec = jox_scene_read(path, NULL, &diagnostics);
     jox_diag_free(&diagnostics);
     assert_non_null(spec);
     for (uint32_t g = 0; g < spec->group_count && count < MOST; g++)

@@ -30,7 +30,7 @@ static bool load(const char *text, size_t length, const char *code) {
     JoxSceneOptions options = {.sets = sets, .set_count = strstr(text, "pilgrims:") ? 2 : 0};
     JoxDiagnostics d = {0};
     double began = now();
-    JoxSceneSpec *scene = jox_scene_load_text("scenes/hostile.yaml", text, length, &options, &d);
+    JoxSceneSpec *scene = jox_scene_read_text("scenes/hostile.yaml", text, length, &options, &d);
     assert_true(now() - began < SLOWEST);
     assert_int_equal(scene != NULL, d.errors == 0);
     bool found = false;

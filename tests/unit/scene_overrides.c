@@ -122,7 +122,7 @@ static void included_files_give_what_is_lacking(void **state) {
              "groups: {g: {behaviour: '%s', at: [[0, 0]]}}\n",
              stander);
     JoxDiagnostics d = {0};
-    assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));
+    assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
     assert_int_equal(d.errors, 1); /* in the included file, where it stands */
     assert_true(matches(&d.items[0], "out-of-range", 3, 7, NULL));
     assert_non_null(strstr(d.items[0].file, "/base.yaml"));
@@ -133,7 +133,7 @@ static void included_files_give_what_is_lacking(void **state) {
                "  - {name: one, shape: {sphere: {radius: 1}}, mass: 3, at: [0, 0, 1]}\n"
                "  - {name: two, shape: {sphere: {radius: 1}}, mass: 3, at: [5, 0, 1]}\n");
     strcat(text, "bodies: {two: {mass: 7}}\n");
-    JoxSceneSpec *scene = jox_scene_load(write_file("main.yaml", text), NULL, &d);
+    JoxSceneSpec *scene = jox_scene_read(write_file("main.yaml", text), NULL, &d);
     if (!scene)
         show(&d, text);
     assert_non_null(scene);
@@ -148,18 +148,18 @@ static void included_files_give_what_is_lacking(void **state) {
     jox_scene_free(scene);
     *strstr(text, "bodies:") = '\0';
     write_file("base.yaml", "title: Base\ninclude: [main.yaml]\n");
-    assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));
+    assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
     assert_int_equal(d.errors, 1);
     assert_true(matches(&d.items[0], "include-cycle", 2, 11, NULL));
     jox_diag_free(&d);
     unlink(write_file("base.yaml", ""));
-    assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));
+    assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
     assert_true(matches(&d.items[0], "unreadable-file", 2, 10, NULL));
     jox_diag_free(&d);
     unlink(write_file("main.yaml", ""));
     rmdir(folder);
     free(stander);
-    assert_null(jox_scene_load("/nowhere/at/all.yaml", NULL, &d));
+    assert_null(jox_scene_read("/nowhere/at/all.yaml", NULL, &d));
     assert_string_equal(d.items[0].code, "unreadable-file");
     jox_diag_free(&d);
 }
@@ -180,9 +180,9 @@ static void edits_that_wait_are_named(void **state) {
         show(&d, "a");
     assert_non_null(a);
     assert_non_null(b);
-    jox_scene_later(a, a, &later);
+    jox_scene_list_restart_keys(a, a, &later);
     assert_int_equal(later.length, 0);
-    jox_scene_later(a, b, &later);
+    jox_scene_list_restart_keys(a, b, &later);
     assert_string_equal(later.data, "seed (all random numbers follow from it), regions (they are "
                                     "measured from the start on)");
     assert_true(jox_scene_differs(a, b, "title"));

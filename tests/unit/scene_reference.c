@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "scene/format/schema.h"
+#include "scene/format/keys.h"
 #include "scene/scene.h"
 
 static void show(const JoxDiagnostics *d, const char *what) {
@@ -43,13 +43,13 @@ static void walk(const JoxReader *reader, const JoxYaml *node, const char *of, s
     } else if (is_owner(of, length)) {
         char owner[32];
         snprintf(owner, sizeof owner, "%.*s", (int)length, of);
-        assert_true(jox_keys_check(reader, node, owner));
+        assert_true(jox_owner_check_keys(reader, node, owner));
         for (uint32_t i = 0; i < node->count; i++) {
             const JoxKey *key = jox_key_find(&jox_scene_format, owner, node->keys[i]);
             assert_non_null(key);
             seen[key - jox_scene_format.keys] = true;
-            if (key->of)
-                walk(reader, node->items[i], key->of, strlen(key->of), seen);
+            if (key->content)
+                walk(reader, node->items[i], key->content, strlen(key->content), seen);
         }
     }
 }
@@ -109,7 +109,7 @@ static void examples_load_without_a_word(void **state) {
         if (of_mods(example->owner))
             continue;
         JoxDiagnostics d = {0};
-        JoxSceneSpec *scene = jox_scene_load_text("scenes/example.yaml", example->yaml,
+        JoxSceneSpec *scene = jox_scene_read_text("scenes/example.yaml", example->yaml,
                                                   strlen(example->yaml), NULL, &d);
         if (!scene || d.count)
             show(&d, example->yaml);
@@ -126,10 +126,11 @@ static void the_table_is_whole(void **state) {
         const JoxKey *key = &jox_scene_format.keys[k];
         bool holds = key->type == JOX_TYPE_TABLE || key->type == JOX_TYPE_LIST ||
                      key->type == JOX_TYPE_VALUES || key->type == JOX_TYPE_POINTS;
-        const bool drawn = key->of && !strcmp(key->of, "draw"); /* one value may be drawn, too */
-        if (!is_owner(key->owner, strlen(key->owner)) || (holds && !key->of) ||
-            (!holds && key->of && !drawn) || !key->meaning || !*key->meaning || !key->standard ||
-            !key->unit)
+        const bool drawn =
+            key->content && !strcmp(key->content, "draw"); /* one value may be drawn, too */
+        if (!is_owner(key->owner, strlen(key->owner)) || (holds && !key->content) ||
+            (!holds && key->content && !drawn) || !key->meaning || !*key->meaning ||
+            !key->default_text || !key->unit)
             fail_msg("the row %s.%s", key->owner, key->name);
         for (size_t other = 0; other < k; other++)
             if (!strcmp(jox_scene_format.keys[other].owner, key->owner))
@@ -160,21 +161,22 @@ static void every_key_has_a_destination(void **state) {
     for (size_t k = 0; k < jox_scene_format.key_count; k++) {
         const JoxKey *key = &jox_scene_format.keys[k];
         const JoxOwner *owner = jox_owner_find(&jox_scene_format, key->owner, strlen(key->owner));
-        bool good =
-            key->store != JOX_STORE_UNSET && (key->store == JOX_STORE_READ) == !!key->read &&
-            (key->store == JOX_STORE_EARLIER) == !!key->by && (!key->kind || owner->kind != 0);
+        bool good = key->store != JOX_STORE_UNSET &&
+                    (key->store == JOX_STORE_READ) == !!key->read &&
+                    (!key->selected_kind || owner->kind_offset != 0);
         if (key->store == JOX_STORE_ITEMS)
-            good &= key->of && jox_owner_find(&jox_scene_format, key->of, strcspn(key->of, "*["));
+            good &= key->content &&
+                    jox_owner_find(&jox_scene_format, key->content, strcspn(key->content, "*["));
         if (key->store == JOX_STORE_STRUCT)
-            good &= key->type == JOX_TYPE_TABLE && key->of;
+            good &= key->type == JOX_TYPE_TABLE && key->content;
         if (key->store == JOX_STORE_BOOL)
             good &= key->type == JOX_TYPE_BOOL || key->choices;
         if (key->store == JOX_STORE_TEXT)
             good &= key->type == JOX_TYPE_TEXT && !key->choices;
         if (key->store == JOX_STORE_DOUBLES3)
             good &= key->type == JOX_TYPE_POINT3;
-        if (key->choices && *key->standard && key->type == JOX_TYPE_TEXT)
-            good &= jox_choice_find(key->choices, key->standard) >= 0;
+        if (key->choices && *key->default_text && key->type == JOX_TYPE_TEXT)
+            good &= jox_choice_find(key->choices, key->default_text) >= 0;
         /* The store of a pointer or an enumeration of another width would be a struct's. */
         if (key->type == JOX_TYPE_NUMBER || key->type == JOX_TYPE_WHOLE)
             good &= key->store != JOX_STORE_STRUCT && key->store != JOX_STORE_TEXT;
@@ -189,7 +191,7 @@ static void kinds_of_places_are_keys(void **state) {
     for (int p = 0; p < (int)jox_place_kind_count; p++) {
         const JoxKey *key = jox_key_find(&jox_scene_format, "place", jox_place_kinds[p].name);
         assert_non_null(key);
-        assert_int_equal(key->kind, 1 + p);
+        assert_int_equal(key->selected_kind, 1 + p);
     }
 }
 
@@ -198,7 +200,7 @@ static JoxYaml *schema_tree(JoxArena *arena, const char *root) {
     JoxText text = {0};
     JoxDiagnostics d = {0};
     JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
-    jox_scene_json_schema(root, &text);
+    jox_scene_print_json_schema(root, &text);
     JoxYaml *tree = jox_yaml_load(arena, "schema.json", text.data, text.length, files, &d);
     if (!tree)
         show(&d, "schema");
@@ -250,7 +252,7 @@ static void expect_property(const char *schema, const char *line) {
 static void schemas_say_what_the_table_says(void **state) {
     (void)state;
     JoxText text = {0};
-    jox_scene_json_schema("scene", &text);
+    jox_scene_print_json_schema("scene", &text);
     expect_property(text.data, "\"mode\": {\"description\": \"literal: the equations as they were "
                                "printed (core/paper.md); `yield` and `damping` then have no "
                                "effect; default physical\", \"default\": \"physical\", "
@@ -282,9 +284,9 @@ static const char *const MADE[] = {"scripts/scene.schema.json", "scripts/mod.sch
 
 static void make(int n, JoxText *out) {
     if (n == 2)
-        jox_scene_reference_markdown(out);
+        jox_scene_print_markdown(out);
     else
-        jox_scene_json_schema(n == 0 ? "scene" : "mod", out);
+        jox_scene_print_json_schema(n == 0 ? "scene" : "mod", out);
 }
 
 static int write_files(void) {

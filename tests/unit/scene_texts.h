@@ -29,7 +29,7 @@
 static inline JoxSceneSpec *load(const char *text, const char *const *sets, uint32_t count,
                                  JoxDiagnostics *diagnostics) {
     JoxSceneOptions options = {.sets = sets, .set_count = count};
-    return jox_scene_load_text("scenes/test.yaml", text, strlen(text), &options, diagnostics);
+    return jox_scene_read_text("scenes/test.yaml", text, strlen(text), &options, diagnostics);
 }
 
 static inline void show(const JoxDiagnostics *d, const char *what) {

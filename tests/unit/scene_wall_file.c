@@ -13,7 +13,7 @@
 
 #include "base/mem.h"
 #include "scene/scene.h"
-#include "scene/walls/wall_file.h"
+#include "scene/wall_files/wall_file.h"
 
 static bool read_plan(const char *text, JoxWalls *walls, JoxDiagnostics *diagnostics) {
     JoxWallFileOptions options = {.unit = 1.0, .height = 3.0f};
@@ -319,7 +319,7 @@ static JoxSceneSpec *load_walls(const char *walls, JoxDiagnostics *diagnostics) 
     snprintf(text, sizeof text,
              "jostle: 1\nwalls: [%s]\ngroups: {g: {behaviour: stander, at: [[5, 2]]}}\n", walls);
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    JoxSceneSpec *scene = jox_scene_load_text(path, text, strlen(text), NULL, diagnostics);
+    JoxSceneSpec *scene = jox_scene_read_text(path, text, strlen(text), NULL, diagnostics);
     if (!scene)
         print_message("%s\n", diagnostics->items[0].message);
     return scene;

@@ -10,7 +10,7 @@
 #include "base/pack.h"
 #include "run/messages.h"
 #include "run/read_scene.h"
-#include "scene/mods_on.h"
+#include "scene/mods_enabled.h"
 
 /* ---- listed ---- */
 
@@ -105,7 +105,7 @@ static bool turn(const char *scene, const char *mod, bool on, bool *found, JoErr
             one = candidate;
     }
     *found = one != NULL;
-    const bool good = one && jox_mods_on_set(one->name, one->folder, on, &why);
+    const bool good = one && jox_mods_enable(one->name, one->folder, on, &why);
     if (one && !good)
         jox_error(error, JO_FAILED, "%s", why.data);
     else if (folder && !one) /* its mod.yaml is what is wrong */

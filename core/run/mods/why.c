@@ -49,7 +49,7 @@ void jox_settings_add(void *context, const JoSetting *from) {
 /* Who set a path of the scene: its own files, then mods, then `--set`; else the default. */
 static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
     const JoxSceneSpec *spec = scene->spec;
-    bool found = jox_scene_why(spec, path, jox_settings_add, pack);
+    bool found = jox_scene_visit_own_value(spec, path, jox_settings_add, pack);
     for (uint32_t c = 0; c < spec->changes.count; c++) {
         const JoxPatchChange *change = &spec->changes.items[c];
         const char *rest;
@@ -57,7 +57,7 @@ static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
             continue;
         const JoxMod *mod = &scene->mods->items[change->mod];
         JoxText value = {0};
-        if (!change->removes && !jox_scene_why_change(change, rest, &value))
+        if (!change->removes && !jox_scene_print_changed_value(change, rest, &value))
             continue;
         jox_settings_add(pack, &(JoSetting){.by = JO_SET_MOD,
                                             .value = value.data,
@@ -70,8 +70,8 @@ static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
         jox_text_free(&value);
         found = true;
     }
-    found |= jox_scene_why_set(spec, path, jox_settings_add, pack);
-    return found || jox_scene_why_default(spec, path, jox_settings_add, pack);
+    found |= jox_scene_visit_set_value(spec, path, jox_settings_add, pack);
+    return found || jox_scene_visit_default(spec, path, jox_settings_add, pack);
 }
 
 /* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */

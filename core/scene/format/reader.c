@@ -1,3 +1,4 @@
+/* Reports errors at nodes of YAML. */
 #include "scene/format/reader.h"
 
 #include <stdarg.h>
@@ -20,7 +21,8 @@ void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *c
     jox_diag_error(reader->diagnostics, node->position, code, hint, "%s", text);
 }
 
-bool jox_scene_name(const JoxReader *reader, JoxPosition at, const char *what, const char *name) {
+bool jox_scene_check_name(const JoxReader *reader, JoxPosition at, const char *what,
+                          const char *name) {
     if (jox_name_is_plain(name))
         return true;
     jox_diag_error(reader->diagnostics, at, "bad-name", JOX_NAME_RULE,

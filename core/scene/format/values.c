@@ -1,4 +1,4 @@
-/* Numbers, points, names and distributions of a scene. */
+/* Reads numbers with units, points, names and distributions. */
 #include <ctype.h>
 #include <math.h>
 #include <stdlib.h>

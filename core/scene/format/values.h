@@ -1,4 +1,5 @@
-/* Single values of a scene: numbers with units, points, names, distributions. */
+/* Reads single values of a scene: numbers with units, points, names, distributions. Called by the
+   readers of keys. */
 #ifndef JOX_SCENE_VALUES_H
 #define JOX_SCENE_VALUES_H
 
@@ -6,9 +7,9 @@
 #include "base/vec.h"
 #include "scene/format/reader.h"
 
-#define JOX_FARTHEST 10000 /* m: floats still resolve a millimetre */
+#define JOX_FARTHEST 10000 /* m, of a coordinate: there a float still resolves a millimetre */
 
-/* Units that may be written, each with the SI unit of its kind and the factor to it. */
+/* A unit that scenes may write, the SI unit of its dimension, and the factor to it. */
 typedef struct JoxUnit {
     const char *name, *kind;
     double factor;
@@ -16,15 +17,17 @@ typedef struct JoxUnit {
 extern const JoxUnit jox_scene_units[];
 extern const size_t jox_scene_unit_count;
 
-/* A number in SI, of text like "2 m", "5 min", "90 deg"; false with an error. */
+/* Reads a number with or without a unit ("2", "2 m", "5 min") and converts it to `unit`, an SI
+   unit; false with an error. */
 bool jox_read_number(const JoxReader *reader, const JoxYaml *node, const char *unit, double *out);
-/* Points of a list; NULL if wrong (reported). */
+/* Reads a list of at least `least` points, in m, into the arena; NULL with an error. */
 JoxV2 *jox_read_points(const JoxReader *reader, const JoxYaml *list, uint32_t least,
                        uint32_t *count);
-/* Names of a list or of a single scalar; none of NULL. */
+/* Reads a list of names, or a single one; returns their number, 0 for NULL. Reports items that are
+   no names, and leaves them out. */
 uint32_t jox_read_names(const JoxReader *reader, const JoxYaml *node, const JoxYaml *const **out);
-/* A number, or "normal(1, 0.1 [, least, greatest])", "uniform(a, b)", "choose(a, b, ...)". Quiet
-   false if the text is none of these. */
+/* Reads a number, "normal(1, 0.1 [, least, greatest])", "uniform(a, b)" or "choose(a, b, ...)".
+   False, without an error, if the text is none of these; a malformed one is reported. */
 bool jox_read_dist(const JoxReader *reader, const JoxYaml *node, JoxDist *out);
 
 #endif

@@ -1,4 +1,5 @@
-/* Trees of YAML, and the memory that they live in. */
+/* Operations on trees of YAML, and the arena that they live in. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -35,7 +36,7 @@ void jox_arena_free(JoxArena *h) {
 
 char *jox_arena_beside(JoxArena *arena, const char *file, const char *name) {
     char path[JOX_LONGEST_PATH];
-    jox_path_beside(file, name, path); /* one that is too long is not found, and said so */
+    jox_path_beside(file, name, path); /* truncated if too long: then reading it fails */
     return jox_arena_text(arena, path);
 }
 
@@ -59,8 +60,30 @@ JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key) {
     return NULL;
 }
 
+const char *jox_yaml_name(const JoxYaml *node) {
+    const JoxYaml *name = jox_yaml_get(node, "name");
+    return name && name->kind == JOX_YAML_SCALAR ? name->text : NULL;
+}
+
+JoxYaml **jox_yaml_slot(const JoxYaml *node, const char *key) {
+    if (node->kind == JOX_YAML_LIST) {
+        const bool is_number = *key && strlen(key) < 9 && key[strspn(key, "0123456789")] == 0;
+        unsigned long i = is_number ? strtoul(key, NULL, 10) : node->count;
+        for (uint32_t n = 0; !is_number && n < node->count && i == node->count; n++) {
+            const char *name = jox_yaml_name(node->items[n]);
+            i = name && strcmp(name, key) == 0 ? n : i;
+        }
+        return i < node->count ? &node->items[i] : NULL;
+    }
+    for (uint32_t i = 0; i < node->count; i++)
+        if (!strcmp(node->keys[i], key))
+            return &node->items[i];
+    return NULL;
+}
+
 void jox_yaml_add(JoxArena *arena, JoxYaml *node, const char *key, JoxPosition at, JoxYaml *value) {
-    if (node->count == node->capacity) { /* the arena cannot grow a block: old ones stay in it */
+    if (node->count ==
+        node->capacity) { /* the arena cannot grow a block: the old ones stay in it */
         uint32_t wider = node->capacity ? 2 * node->capacity : 4;
         JoxYaml **items = jox_arena_take(arena, wider, sizeof *items);
         if (node->count)
@@ -135,41 +158,41 @@ JoxYaml *jox_yaml_copy(JoxArena *arena, const JoxYaml *node) {
     return copy;
 }
 
-static void merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth);
+static void merge_maps(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth);
 
-/* The list with those of its items changed that `change` names by their `name`; NULL where it names
-   others. */
-static JoxYaml *merge_items(JoxArena *arena, const JoxYaml *change, const JoxYaml *list,
-                            int depth) {
+/* Returns a copy of `list` in which the items that `change` maps by their `name` are changed; NULL
+   if the list lacks one of them. */
+static JoxYaml *merge_list_items(JoxArena *arena, const JoxYaml *change, const JoxYaml *list,
+                                 int depth) {
     JoxYaml *result = jox_yaml_copy(arena, list);
     for (uint32_t k = 0; k < change->count; k++) {
         uint32_t i = 0;
         for (; i < list->count; i++) {
-            const JoxYaml *name = jox_yaml_get(list->items[i], "name");
-            if (name && name->text && strcmp(name->text, change->keys[k]) == 0)
+            const char *name = jox_yaml_name(list->items[i]);
+            if (name && strcmp(name, change->keys[k]) == 0)
                 break;
         }
         if (i == list->count || change->items[k]->kind != JOX_YAML_MAP)
             return NULL;
         result->items[i] = jox_yaml_copy(arena, change->items[k]);
-        merge(arena, result->items[i], list->items[i], depth + 1);
+        merge_maps(arena, result->items[i], list->items[i], depth + 1);
     }
     return result;
 }
 
-/* What the map lacks comes from `base`; where both are maps, deeply. */
-static void merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth) {
+/* Adds to the map the keys of `base` that it lacks; see jox_yaml_merge. */
+static void merge_maps(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth) {
     for (uint32_t i = 0; i < base->count && depth < DEEPEST; i++) {
         JoxYaml *own = jox_yaml_get(map, base->keys[i]);
         if (!own) {
             jox_yaml_add(arena, map, base->keys[i], base->key_positions[i], base->items[i]);
         } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_MAP &&
                    own != base->items[i]) {
-            own = jox_yaml_copy(arena, own); /* it may be another's too, by an alias */
-            merge(arena, own, base->items[i], depth + 1);
+            own = jox_yaml_copy(arena, own); /* by an alias it may stand elsewhere, too */
+            merge_maps(arena, own, base->items[i], depth + 1);
             jox_yaml_set(arena, map, base->keys[i], own);
         } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_LIST) {
-            JoxYaml *list = merge_items(arena, own, base->items[i], depth);
+            JoxYaml *list = merge_list_items(arena, own, base->items[i], depth);
             if (list)
                 jox_yaml_set(arena, map, base->keys[i], list);
         }
@@ -177,5 +200,5 @@ static void merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth)
 }
 
 void jox_yaml_merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base) {
-    merge(arena, map, base, 0);
+    merge_maps(arena, map, base, 0);
 }

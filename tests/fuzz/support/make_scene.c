@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/format/schema.h"
+#include "scene/format/keys.h"
 
 /* The bytes, each of which is a choice; behind the last all are the first choice. */
 typedef struct Choices {
@@ -113,7 +113,7 @@ static void polygon(Choices *c, uint32_t corners) {
 
 static void map(Choices *c, const char *owner);
 
-/* Of what is behind `of`: an owner, or one of the words of schema.h. */
+/* Writes a value of the type that a content begins with: an owner, or a word that keys.h lists. */
 static void item(Choices *c, const char *of, size_t length) {
     char name[40];
     snprintf(name, sizeof name, "%.*s", (int)length, of);
@@ -133,7 +133,7 @@ static void item(Choices *c, const char *of, size_t length) {
 
 /* "wall[2]" is a list of two or more, "place*" a map of names. */
 static void several(Choices *c, const JoxKey *key) {
-    const char *of = key->of ? key->of : "xy[2]";
+    const char *of = key->content ? key->content : "xy[2]";
     const size_t length = strcspn(of, "*[");
     const char *mark = of + length;
     if (!*mark) {
@@ -163,7 +163,7 @@ static void value(Choices *c, const JoxKey *key) {
     char choice[64];
     switch (key->type) {
     case JOX_TYPE_NUMBER:
-        add_random_number(c, key->least, key->greatest, key->standard);
+        add_random_number(c, key->least, key->greatest, key->default_text);
         break;
     case JOX_TYPE_WHOLE:
         whole(c, key);
@@ -210,14 +210,16 @@ static void map(Choices *c, const char *owner) {
     const JoxFormat *f = &jox_scene_format;
     uint32_t kinds = 0, kind, begun = 0;
     for (size_t k = 0; k < f->key_count; k++)
-        kinds += !strcmp(f->keys[k].owner, owner) && f->keys[k].kind && !left_out(&f->keys[k]);
+        kinds +=
+            !strcmp(f->keys[k].owner, owner) && f->keys[k].selected_kind && !left_out(&f->keys[k]);
     kind = kinds ? pick(c, kinds) : 0;
     jox_text_add(c->out, "{");
     for (size_t k = 0; k < f->key_count && c->depth < DEEPEST; k++) {
         const JoxKey *key = &f->keys[k];
         if (strcmp(key->owner, owner) != 0 || left_out(key))
             continue;
-        if (key->kind ? kind-- != 0 : strcmp(key->standard, "!") != 0 && pick(c, 6) != 5)
+        if (key->selected_kind ? kind-- != 0
+                               : strcmp(key->default_text, "!") != 0 && pick(c, 6) != 5)
             continue;
         jox_text_printf(c->out, "%s%s: ", begun++ ? ", " : "", key->name);
         c->depth++;

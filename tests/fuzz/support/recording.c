@@ -5,7 +5,7 @@
 #include "base/mem.h"
 #include "live/replay.h"
 #include "record/trajectory_reader.h"
-#include "scene/walls/wall_file.h"
+#include "scene/wall_files/wall_file.h"
 
 enum { MOST_FRAMES = 50 };
 static const JoxTrajectoryOptions OPTIONS = {.fps = 10, .unit = 1};
@@ -55,7 +55,7 @@ static void whole(const char *path) {
 
 static void plan(const char *path) {
     JoxDiagnostics diagnostics = {0};
-    char *text = jox_wall_file_recorded(path, &diagnostics);
+    char *text = jox_wall_file_read_recorded(path, &diagnostics);
     FUZZ_CHECK((text != NULL) == (diagnostics.errors == 0));
     jox_free(text);
     fuzz_end_diagnostics(&diagnostics);

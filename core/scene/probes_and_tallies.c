@@ -1,11 +1,11 @@
-/* Probes of a scene: what is measured of a run, or of a recording. */
+/* Reads probes, which measure a run or a recording, and tallies, which count agents for scores. */
 #include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
-/* The keys that a kind takes besides those of all probes: "this|that". */
+/* Keys of each kind of probe besides those of all kinds: "this|that". */
 static const char *const OPTIONS[JOX_PROBE_KINDS] = {
 #define X(kind, name, form, options, example, meaning) [JOX_PROBE_##kind] = options,
     JOX_PROBES(X)
@@ -17,7 +17,7 @@ static const char *const NAMES[JOX_PROBE_KINDS] = {
 #undef X
 };
 
-void jox_key_states(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_states(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxProbeDef *probe = item;
     bool good = node->kind == JOX_YAML_LIST && node->count == 2;
     for (uint32_t s = 0; good && s < 2; s++)
@@ -31,29 +31,29 @@ void jox_key_states(const JoxReader *r, const JoxKey *key, const JoxYaml *node, 
         probe->states[s] = jox_arena_text(r->arena, node->items[s]->text);
 }
 
-void jox_key_true(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_true(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     (void)item;
     if (node->kind != JOX_YAML_SCALAR || strcmp(node->text, "true") != 0)
         jox_scene_error(r, node, "bad-probe", "Take the probe away", "%s is true, or is not there",
                         key->name);
 }
 
-void jox_key_groups(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_groups(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const JoxYaml *const *names;
     uint32_t count = jox_read_names(r, node, &names), known = 0;
     uint16_t *groups = jox_arena_take(r->arena, count, sizeof *groups);
     for (uint32_t n = 0; n < count; n++) {
-        int32_t group = jox_load_group(r, names[n]);
+        int32_t group = jox_scene_find_group(r, names[n]);
         if (group >= 0)
             groups[known++] = (uint16_t)group;
     }
     JOX_ASSERT(known <= count);
     *JOX_MEMBER(const uint16_t *, item, key->offset) = groups;
-    *JOX_MEMBER(uint32_t, item, key->counter) = known;
+    *JOX_MEMBER(uint32_t, item, key->count_offset) = known;
 }
 
-/* Keys that other kinds take, and this one does not. */
-static void check_options(const JoxReader *r, const JoxYaml *map, JoxProbeKind kind) {
+/* Reports keys that other kinds of probes have, but not this one. */
+static void check_probe_options(const JoxReader *r, const JoxYaml *map, JoxProbeKind kind) {
     for (uint32_t k = 0; k < map->count; k++) {
         bool option = false;
         for (int other = 0; other < JOX_PROBE_KINDS; other++)
@@ -74,8 +74,20 @@ bool jox_finish_probe(const JoxReader *r, const JoxYaml *map, void *item, bool g
     if (!good)
         return true;
     JOX_ASSERT(probe->kind < JOX_PROBE_KINDS);
-    check_options(r, map, probe->kind);
+    check_probe_options(r, map, probe->kind);
     if (along && probe->count && jox_length(probe->points[0]) < 1e-6f)
         jox_scene_error(r, along, "bad-probe", "[1, 0]", "a direction has a length");
+    return true;
+}
+
+bool jox_finish_tally(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
+    JoxTally *tally = item;
+    const JoxYaml *take = jox_yaml_get(map, "take"), *memory = jox_yaml_get(map, "memory"),
+                  *state = jox_yaml_get(map, "state");
+    tally->memory_position = memory ? memory->position : tally->position;
+    tally->state_position = state ? state->position : tally->position;
+    if (good && take && !tally->memory)
+        jox_scene_error(r, take, "bad-value", "memory: hits",
+                        "a tally takes the values of a `memory`; without one it counts agents");
     return true;
 }

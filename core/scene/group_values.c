@@ -1,14 +1,15 @@
-/* Values that a scene gives agents: parameters, their own values, their memory. */
+/* Reads the values that a group gives its agents: parameters, own values, memory. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "agents/parameters.h"
 #include "base/assert.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
-/* Whether all that a distribution gives lies in its parameter's range; of one without bounds, its
-   middle. */
-static bool parameter_fits(const JoxReader *r, const JoxGroupValue *set, const JoxYaml *value) {
+/* Whether the bounds or choices of a distribution, or its middle if it has none, lie in the range
+   of the parameter that it sets; reports an error if not. */
+static bool check_parameter_range(const JoxReader *r, const JoxGroupValue *set,
+                                  const JoxYaml *value) {
     int parameter = jox_parameter_find(set->name);
     const JoxDist *dist = &set->dist;
     if (parameter < 0 || set->kind != JOX_SET_NUMBER)
@@ -29,15 +30,15 @@ static bool parameter_fits(const JoxReader *r, const JoxGroupValue *set, const J
     return true;
 }
 
-/* Whether a text was meant as a number: it begins as one, or is all of "nan" or "inf". */
-static bool looks_numeric(const char *text) {
+/* Whether a text is meant as a number: it begins with one, or is "nan" or "inf". */
+static bool looks_like_number(const char *text) {
     char *end;
     strtod(text, &end);
     return end != text && (*end == 0 || text[strcspn(text, "0123456789")] != 0);
 }
 
-/* A word for a parameter's value: haste is calm, normal or keen. */
-static bool read_level(const JoxYaml *value, JoxGroupValue *set) {
+/* Reads a word for a parameter's value, as in haste: keen; false if it is none. */
+static bool read_parameter_word(const JoxYaml *value, JoxGroupValue *set) {
     double level;
     int parameter = jox_parameter_find(set->name);
     if (parameter < 0 || value->kind != JOX_YAML_SCALAR ||
@@ -47,11 +48,11 @@ static bool read_level(const JoxYaml *value, JoxGroupValue *set) {
     return true;
 }
 
-/* A parameter's number with its unit: mass: 70 kg, speed: 5 km/h. */
-static bool read_quantity(const JoxReader *r, const JoxYaml *value, JoxGroupValue *set) {
+/* Reads a parameter's number with a unit, as in speed: 5 km/h; false if it is none. */
+static bool read_parameter_quantity(const JoxReader *r, const JoxYaml *value, JoxGroupValue *set) {
     const int parameter = jox_parameter_find(set->name);
     double number;
-    if (parameter < 0 || value->kind != JOX_YAML_SCALAR || !looks_numeric(value->text) ||
+    if (parameter < 0 || value->kind != JOX_YAML_SCALAR || !looks_like_number(value->text) ||
         value->text[strcspn(value->text, " ")] == 0)
         return false;
     set->dist = jox_dist_constant(0.0);
@@ -60,21 +61,22 @@ static bool read_quantity(const JoxReader *r, const JoxYaml *value, JoxGroupValu
     return true;
 }
 
-/* One value of a map; false with an error. */
-static bool read_set(const JoxReader *r, const JoxYaml *value, bool numbers_only,
-                     JoxGroupValue *set) {
-    const JoxSceneSpec *s = r->load->scene;
+/* Reads one value of a map: a number, a distribution, true or false, or a place; false with an
+ * error. */
+static bool read_group_value(const JoxReader *r, const JoxYaml *value, bool numbers_only,
+                             JoxGroupValue *set) {
+    const JoxSceneSpec *s = r->draft->scene;
     const size_t errors = r->diagnostics->errors;
     bool flag = value->kind == JOX_YAML_SCALAR &&
                 (!strcmp(value->text, "true") || !strcmp(value->text, "false"));
     if (flag)
         set->dist = jox_dist_constant(!strcmp(value->text, "true"));
-    else if (read_level(value, set) || read_quantity(r, value, set))
+    else if (read_parameter_word(value, set) || read_parameter_quantity(r, value, set))
         return r->diagnostics->errors == errors;
     else if (jox_read_dist(r, value, &set->dist))
-        return r->diagnostics->errors == errors; /* else a malformed distribution */
+        return r->diagnostics->errors == errors; /* a malformed distribution is an error */
     else if (numbers_only || value->kind != JOX_YAML_SCALAR ||
-             (looks_numeric(value->text) &&
+             (looks_like_number(value->text) &&
               jox_place_find(s->places, s->place_count, value->text) < 0)) {
         jox_scene_error(r, value, "bad-type", "uniform(0, 6)",
                         "this must be a finite number without a unit, or a distribution");
@@ -82,15 +84,15 @@ static bool read_set(const JoxReader *r, const JoxYaml *value, bool numbers_only
     } else {
         set->kind = strcmp(value->text, "antipode") ? JOX_SET_PLACE : JOX_SET_ANTIPODE;
         if (set->kind == JOX_SET_PLACE)
-            set->place = jox_load_place(r, value);
+            set->place = jox_scene_find_place(r, value);
     }
     return set->kind != JOX_SET_PLACE || set->place >= 0;
 }
 
-/* A map of names to values; places are possible where the key holds "value". */
-void jox_key_values(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
-    const bool numbers_only = strcmp(key->of, "value*") != 0;
-    uint32_t *count = JOX_MEMBER(uint32_t, item, key->counter);
+/* Reads a map of names to values. Places are allowed if the key's content is "value*". */
+void jox_key_read_values(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
+    const bool numbers_only = strcmp(key->content, "value*") != 0;
+    uint32_t *count = JOX_MEMBER(uint32_t, item, key->count_offset);
     *count = 0;
     if (map && map->kind != JOX_YAML_MAP)
         jox_scene_error(r, map, "bad-type", NULL, "%s maps names to values", key->name);
@@ -102,8 +104,8 @@ void jox_key_values(const JoxReader *r, const JoxKey *key, const JoxYaml *map, v
         JoxGroupValue *set = &sets[*count];
         *set = (JoxGroupValue){.name = jox_arena_text(r->arena, map->keys[i]),
                                .position = map->key_positions[i]};
-        *count +=
-            read_set(r, map->items[i], numbers_only, set) && parameter_fits(r, set, map->items[i]);
+        *count += read_group_value(r, map->items[i], numbers_only, set) &&
+                  check_parameter_range(r, set, map->items[i]);
     }
     JOX_ASSERT(*count <= map->count);
 }

@@ -1,4 +1,5 @@
-#include "scene/mods_on.h"
+/* Reads and writes the list of enabled mods. */
+#include "scene/mods_enabled.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -11,16 +12,23 @@
 #include "base/hash.h"
 #include "base/mem.h"
 
-enum { HASH = 64, MOST_FILES = 1024, LARGEST_FILE = 16 << 20, DEEPEST = 8, LARGEST_LIST = 1 << 20 };
+enum {
+    HASH = 64 /* digits */,
+    MOST_FILES = 1024,
+    LARGEST_FILE = 16 << 20,
+    DEEPEST = 8,
+    LARGEST_LIST = 1 << 20
+};
 
 /* ---- the hash ---- */
 
-typedef struct Content {
-    JoxText list, *error; /* a line for each file: its hash and its path within the mod */
+typedef struct ModFiles {
+    JoxText list; /* a line for each file: its hash, and its path within the mod */
+    JoxText *error;
     uint32_t files;
-} Content;
+} ModFiles;
 
-static bool add_file(Content *c, const char *path, size_t root) {
+static bool hash_file(ModFiles *c, const char *path, size_t root) {
     char hash[HASH + 1];
     size_t length;
     char *data = ++c->files <= MOST_FILES ? jox_read_file(path, LARGEST_FILE, &length) : NULL;
@@ -34,8 +42,8 @@ static bool add_file(Content *c, const char *path, size_t root) {
     return true;
 }
 
-/* Adds the files of a folder, of whose path the first `root` bytes are the mod's. */
-static bool add_folder(Content *c, const char *folder, size_t root, int depth) {
+/* Adds the files below a folder to the list. `root`: length of the path of the mod's folder. */
+static bool hash_files_below(ModFiles *c, const char *folder, size_t root, int depth) {
     char **names = depth <= DEEPEST ? jox_folder_names(folder, true) : NULL;
     bool good = names;
     if (!good)
@@ -45,10 +53,10 @@ static bool add_folder(Content *c, const char *folder, size_t root, int depth) {
         struct stat info;
         jox_text_printf(&path, "%s/%s", folder, *name);
         if (lstat(path.data, &info) == 0 && S_ISDIR(info.st_mode)) {
-            /* No file of a hidden folder is ever read: those are of version control. */
-            good = **name == '.' || add_folder(c, path.data, root, depth + 1);
+            /* Hidden folders, as of version control, are no part of the mod. */
+            good = **name == '.' || hash_files_below(c, path.data, root, depth + 1);
         } else if (lstat(path.data, &info) == 0 && S_ISREG(info.st_mode)) {
-            good = add_file(c, path.data, root);
+            good = hash_file(c, path.data, root);
         } else {
             jox_text_printf(c->error, "'%s' is no plain file", path.data);
             good = false;
@@ -59,9 +67,9 @@ static bool add_folder(Content *c, const char *folder, size_t root, int depth) {
     return good;
 }
 
-bool jox_mods_on_hash(const char *folder, char out[65], JoxText *error) {
-    Content content = {.error = error};
-    bool good = add_folder(&content, folder, strlen(folder), 0);
+bool jox_mods_hash_folder(const char *folder, char out[65], JoxText *error) {
+    ModFiles content = {.error = error};
+    bool good = hash_files_below(&content, folder, strlen(folder), 0);
     if (good)
         jox_sha256_hex(content.list.data ? content.list.data : "", content.list.length, out);
     jox_text_free(&content.list);
@@ -70,32 +78,32 @@ bool jox_mods_on_hash(const char *folder, char out[65], JoxText *error) {
 
 /* ---- the list ---- */
 
-/* jostle/mods-on, or its folder alone; "" where the user has no home. */
-static void place_of(bool file, char *out, size_t size) {
+/* Prints the path of jostle/mods-on, or of its folder; "" if the user has no home. */
+static void find_list_path(bool file, char *out, size_t size) {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
     const char *end = file ? "/mods-on" : "";
     *out = 0;
-    if (config && *config == '/') /* others are to be ignored, says the specification */
+    if (config && *config == '/') /* the XDG specification says to ignore relative paths */
         snprintf(out, size, "%.900s/jostle%s", config, end);
     else if (home && *home)
         snprintf(out, size, "%.900s/.config/jostle%s", home, end);
 }
 
-char *jox_mods_on_read(void) {
+char *jox_mods_read_enabled(void) {
     char path[1024];
     size_t length;
-    place_of(true, path, sizeof path);
+    find_list_path(true, path, sizeof path);
     return *path ? jox_read_file(path, LARGEST_LIST, &length) : NULL;
 }
 
 /* A line of the list: HASH NAME FOLDER. */
-typedef struct Line {
+typedef struct EnabledLine {
     const char *hash, *name, *folder;
     size_t name_length, folder_length;
-} Line;
+} EnabledLine;
 
-/* Reads the next line that is one; false behind the last. */
-static bool next_line(const char **at, Line *line) {
+/* Parses the next valid line from *at on, and advances *at; false at the end. */
+static bool parse_list_line(const char **at, EnabledLine *line) {
     while (*at && **at) {
         const char *begin = *at, *end = begin + strcspn(begin, "\n");
         *at = *end ? end + 1 : end;
@@ -104,48 +112,49 @@ static bool next_line(const char **at, Line *line) {
         const char *name = begin + HASH + 1, *space = memchr(name, ' ', (size_t)(end - name));
         if (!space)
             continue;
-        *line = (Line){begin, name, space + 1, (size_t)(space - name), (size_t)(end - space - 1)};
+        *line = (EnabledLine){begin, name, space + 1, (size_t)(space - name),
+                              (size_t)(end - space - 1)};
         return true;
     }
     return false;
 }
 
-static bool is(const char *text, size_t length, const char *wanted) {
+static bool equals_text(const char *text, size_t length, const char *wanted) {
     return length == strlen(wanted) && memcmp(text, wanted, length) == 0;
 }
 
-JoxModSwitch jox_mods_on_look(const char *list, const char *name, const char *folder) {
+JoxModSwitch jox_mods_look_up_enabled(const char *list, const char *name, const char *folder) {
     char hash[HASH + 1] = "", room[PATH_MAX];
     const char *real = realpath(folder, room);
     JoxModSwitch found = JOX_MOD_OFF;
     JoxText ignored = {0};
-    Line line;
-    for (const char *at = list; found != JOX_MOD_ON && next_line(&at, &line);) {
-        if (!is(line.name, line.name_length, name))
+    EnabledLine line;
+    for (const char *at = list; found != JOX_MOD_ON && parse_list_line(&at, &line);) {
+        if (!equals_text(line.name, line.name_length, name))
             continue;
-        if (!*hash && !jox_mods_on_hash(folder, hash, &ignored))
-            hash[0] = '-'; /* like no other */
-        if (is(line.hash, HASH, hash))
+        if (!*hash && !jox_mods_hash_folder(folder, hash, &ignored))
+            hash[0] = '-'; /* equal to no hash */
+        if (equals_text(line.hash, HASH, hash))
             found = JOX_MOD_ON;
-        else if (real && is(line.folder, line.folder_length, real))
+        else if (real && equals_text(line.folder, line.folder_length, real))
             found = JOX_MOD_CHANGED;
     }
     jox_text_free(&ignored);
     return found;
 }
 
-/* Writes the list anew, whole or not at all. */
-static bool write_list(const JoxText *list, JoxText *error) {
+/* Replaces the list, by renaming a new file, so that it is never half written. */
+static bool write_enabled_list(const JoxText *list, JoxText *error) {
     char path[1024], beside[1040], folder[1024];
-    place_of(true, path, sizeof path);
-    place_of(false, folder, sizeof folder);
+    find_list_path(true, path, sizeof path);
+    find_list_path(false, folder, sizeof folder);
     if (!*path) {
         jox_text_add(error, "there is no configuration of the user: HOME is not set");
         return false;
     }
     char *slash = strrchr(folder, '/');
     *slash = 0;
-    mkdir(folder, 0700); /* what fails here fails below */
+    mkdir(folder, 0700); /* if this fails, fopen reports it */
     *slash = '/';
     mkdir(folder, 0700);
     snprintf(beside, sizeof beside, "%s.new", path);
@@ -157,25 +166,26 @@ static bool write_list(const JoxText *list, JoxText *error) {
     return good;
 }
 
-bool jox_mods_on_set(const char *name, const char *folder, bool on, JoxText *error) {
-    char hash[HASH + 1] = "", room[PATH_MAX], *list = jox_mods_on_read();
+bool jox_mods_enable(const char *name, const char *folder, bool on, JoxText *error) {
+    char hash[HASH + 1] = "", room[PATH_MAX], *list = jox_mods_read_enabled();
     const char *real = realpath(folder, room);
     JoxText out = {0};
-    Line line;
-    bool good = real && !strchr(real, '\n') && jox_mods_on_hash(folder, hash, error);
+    EnabledLine line;
+    bool good = real && !strchr(real, '\n') && jox_mods_hash_folder(folder, hash, error);
     if (!real || strchr(real, '\n'))
         jox_text_printf(error, "'%s' is no folder", folder);
-    good |= !on && real; /* what cannot be read can be turned off */
-    for (const char *at = list; good && next_line(&at, &line);) {
-        bool same = is(line.name, line.name_length, name) &&
-                    (is(line.hash, HASH, hash) || is(line.folder, line.folder_length, real));
-        if (!same) /* others stay as they are */
+    good |= !on && real; /* a mod that cannot be read can be disabled */
+    for (const char *at = list; good && parse_list_line(&at, &line);) {
+        bool same = equals_text(line.name, line.name_length, name) &&
+                    (equals_text(line.hash, HASH, hash) ||
+                     equals_text(line.folder, line.folder_length, real));
+        if (!same) /* keep other mods */
             jox_text_printf(&out, "%.*s\n", (int)(line.folder + line.folder_length - line.hash),
                             line.hash);
     }
     if (good && on)
         jox_text_printf(&out, "%s %s %s\n", hash, name, real);
-    good = good && write_list(&out, error);
+    good = good && write_enabled_list(&out, error);
     jox_text_free(&out);
     jox_free(list);
     return good;

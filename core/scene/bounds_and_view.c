@@ -1,25 +1,27 @@
-/* What a scene says of the whole: bounds, input, camera, the area of the density map. */
+/* Reads keys of the whole scene: bounds, input log, camera, area of the density map; and chooses
+   the quantity that agents are coloured by. */
 #include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/text.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
-void jox_key_bounds(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_bounds(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxSceneSpec *s = item;
     (void)key;
-    s->bounded = jox_load_box(r, node, &s->low, &s->high);
+    s->bounded = jox_read_box(r, node, &s->low, &s->high);
 }
 
-void jox_key_heatmap_area(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_heatmap_area(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
+                               void *item) {
     JoxSceneSpec *s = item;
     (void)key;
-    s->heatmap = jox_load_box(r, node, &s->heatmap_low, &s->heatmap_high);
+    s->heatmap = jox_read_box(r, node, &s->heatmap_low, &s->heatmap_high);
 }
 
-/* Behind the bounds, which it joins. */
-void jox_key_periodic(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads which bounds are joined; the bounds have been read. */
+void jox_key_read_periodic(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxSceneSpec *s = item;
     if (!node)
         return;
@@ -39,25 +41,24 @@ void jox_key_periodic(const JoxReader *r, const JoxKey *key, const JoxYaml *node
                         "bounds that are joined must be at least 1 m apart");
 }
 
-/* Whether a file lies in one of the mods that are taken. */
-static bool of_a_mod(const JoxLoad *l, const char *file) {
-    for (uint32_t m = 0; l->options && m < l->options->mod_count; m++)
-        if (jox_path_below(file, l->options->mods[m].folder))
+bool jox_scene_is_mod_file(const JoxSceneDraft *draft, const char *file) {
+    for (uint32_t m = 0; draft->options && m < draft->options->mod_count; m++)
+        if (jox_path_below(file, draft->options->mods[m].folder))
             return true;
     return false;
 }
 
-void jox_key_input(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_input(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxSceneSpec *s = item;
-    if (node && node->kind != JOX_YAML_SCALAR)
-        jox_scene_error(r, node, "bad-type", NULL, "%s must be a text", key->name);
-    if (!node || node->kind != JOX_YAML_SCALAR)
+    const char *name = jox_key_read_scalar(r, key, node, "text");
+    if (!name)
         return;
-    if (of_a_mod(r->load, node->position.file) && (*node->text == '/' || strstr(node->text, "..")))
+    if (jox_scene_is_mod_file(r->draft, node->position.file) &&
+        (*name == '/' || strstr(name, "..")))
         jox_scene_error(r, node, "bad-value", "A plain name, of a file beside it",
-                        "a mod cannot read '%.100s'", node->text);
+                        "a mod cannot read '%.100s'", name);
     else
-        s->input = jox_arena_beside(r->arena, node->position.file, node->text);
+        s->input = jox_arena_beside(r->arena, node->position.file, name);
 }
 
 bool jox_finish_camera(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
@@ -67,13 +68,16 @@ bool jox_finish_camera(const JoxReader *r, const JoxYaml *map, void *item, bool 
     return good;
 }
 
-const char *jox_scene_colour(const JoxSceneSpec *scene, uint32_t states, uint32_t groups) {
+const char *jox_scene_choose_colouring(const JoxSceneSpec *scene, uint32_t states,
+                                       uint32_t groups) {
     static const char *const NAMES[] = {
 #define X(name) #name,
         JOX_SCENE_COLOURS(X)
 #undef X
     };
-    enum { TELLING_STATES = 3, MOST_GROUPS = 8 }; /* "walks" and "is gone" tell little */
+    /* Two states, as "walks" and "is gone", tell little; more than eight colours are hard to tell
+     * apart. */
+    enum { TELLING_STATES = 3, MOST_GROUPS = 8 };
     if (scene && scene->view.colour > 0)
         return NAMES[scene->view.colour - 1];
     return states >= TELLING_STATES               ? "state"

@@ -1,3 +1,4 @@
+/* Reads YAML files by libyaml into trees, and merges the files that they include. */
 #include "scene/format/yaml.h"
 
 #include <errno.h>
@@ -32,29 +33,30 @@ typedef struct Parse {
     JoxArena *arena;
     JoxDiagnostics *diagnostics;
     yaml_parser_t parser;
-    yaml_event_t events[DEEPEST + 3]; /* by depth; one that is not in use is all zero */
+    yaml_event_t events[DEEPEST + 3]; /* by depth of nesting; unused ones are all zero */
     const char *path, *text;
     JoxYamlRole role;
     size_t length; /* of the text */
     Anchor anchors[256];
     uint32_t anchor_count;
-    uint64_t *nodes; /* of all files, as if every alias were written out */
+    uint64_t *nodes; /* nodes of all files, counted as if every alias were written out */
     bool failed;
 } Parse;
 
-static JoxPosition mark(const Parse *p, yaml_mark_t from, yaml_mark_t to) {
+static JoxPosition get_position(const Parse *p, yaml_mark_t from, yaml_mark_t to) {
     int end = to.line == from.line ? (int)to.column + 1 : (int)from.column + 2;
     return (JoxPosition){p->path, (int)from.line + 1, (int)from.column + 1, end};
 }
 
-static void fail(Parse *p, JoxPosition at, const char *code, const char *text, const char *hint) {
+static void report_yaml_error(Parse *p, JoxPosition at, const char *code, const char *text,
+                              const char *hint) {
     if (!p->failed)
         jox_diag_error(p->diagnostics, at, code, hint, "%s", text);
     p->failed = true;
 }
 
-/* Of a text that is no map. */
-static void fail_whole(Parse *p, bool empty) {
+/* Reports that the whole file is empty, or not a map. */
+static void report_no_map(Parse *p, bool empty) {
     static const struct {
         const char *empty, *other, *hint;
     } SAY[] = {
@@ -65,12 +67,12 @@ static void fail_whole(Parse *p, bool empty) {
         [JOX_YAML_PATCH] = {"this patch is empty", "a patch must be a map of keys",
                             "Example: {patch: tawaf, duration: 60}"},
     };
-    fail(p, (JoxPosition){p->path, 1, 1, 2}, "bad-yaml",
-         empty ? SAY[p->role].empty : SAY[p->role].other, SAY[p->role].hint);
+    report_yaml_error(p, (JoxPosition){p->path, 1, 1, 2}, "bad-yaml",
+                      empty ? SAY[p->role].empty : SAY[p->role].other, SAY[p->role].hint);
 }
 
-/* Whether a line is indented by a tab, of which YAML allows none there. */
-static bool is_tabbed(const Parse *p, size_t line) {
+/* Whether a line is indented by a tab, which YAML forbids. */
+static bool is_indented_by_tab(const Parse *p, size_t line) {
     const char *at = p->text, *end = p->text + p->length;
     for (; at < end && line > 0; at++)
         line -= *at == '\n';
@@ -79,41 +81,42 @@ static bool is_tabbed(const Parse *p, size_t line) {
     return at < end && *at == '\t';
 }
 
-static bool next_event(Parse *p, yaml_event_t *event) {
+static bool parse_event(Parse *p, yaml_event_t *event) {
     if (yaml_parser_parse(&p->parser, event))
         return true;
     if (p->parser.error == YAML_MEMORY_ERROR)
         jox_out_of_memory(0);
     yaml_mark_t at = p->parser.problem_mark;
     JoxPosition position = {p->path, (int)at.line + 1, (int)at.column + 1, (int)at.column + 2};
-    if (p->parser.error == YAML_READER_ERROR) /* a character that YAML has not, by its offset */
-        fail(p, jox_position_in(p->path, p->text, p->parser.problem_offset), "bad-yaml",
-             p->parser.problem, "Take it out");
-    else if (is_tabbed(p, at.line))
-        fail(p, position, "tab", "this line is indented by a tab", "Indent by spaces");
+    if (p->parser.error == YAML_READER_ERROR) /* a character that YAML forbids */
+        report_yaml_error(p, jox_position_in(p->path, p->text, p->parser.problem_offset),
+                          "bad-yaml", p->parser.problem, "Take it out");
+    else if (is_indented_by_tab(p, at.line))
+        report_yaml_error(p, position, "tab", "this line is indented by a tab", "Indent by spaces");
     else
-        fail(p, position, "bad-yaml", p->parser.problem ? p->parser.problem : "this is not YAML",
-             "Check indentation and quotes");
+        report_yaml_error(p, position, "bad-yaml",
+                          p->parser.problem ? p->parser.problem : "this is not YAML",
+                          "Check indentation and quotes");
     return false;
 }
 
-/* The text of a scalar; NULL with an error where it has a zero byte, as of "\\0". */
-static char *scalar_text(Parse *p, const yaml_event_t *event, JoxPosition at) {
+/* Copies the text of a scalar; NULL with an error if it has a zero byte, from "\\0". */
+static char *copy_scalar(Parse *p, const yaml_event_t *event, JoxPosition at) {
     const char *text = (const char *)event->data.scalar.value;
     if (strlen(text) == event->data.scalar.length)
         return jox_arena_text(p->arena, text);
-    fail(p, at, "bad-text", "a text has no zero byte", "Take \\0 or \\x00 out");
+    report_yaml_error(p, at, "bad-text", "a text has no zero byte", "Take \\0 or \\x00 out");
     return NULL;
 }
 
-static uint64_t tree_size(const JoxYaml *node, int depth) {
+static uint64_t count_nodes(const JoxYaml *node, int depth) {
     uint64_t size = 1;
     for (uint32_t i = 0; i < node->count && depth < DEEPEST && size < MOST_NODES; i++)
-        size += tree_size(node->items[i], depth + 1);
+        size += count_nodes(node->items[i], depth + 1);
     return size;
 }
 
-static void remember(Parse *p, const yaml_char_t *name, JoxYaml *node) {
+static void keep_anchor(Parse *p, const yaml_char_t *name, JoxYaml *node) {
     if (name && p->anchor_count < 256)
         p->anchors[p->anchor_count++] =
             (Anchor){jox_arena_text(p->arena, (const char *)name), node};
@@ -125,12 +128,12 @@ static JoxYaml *resolve_alias(Parse *p, const char *name, JoxPosition at) {
     for (uint32_t i = p->anchor_count; i-- > 0;) {
         if (strcmp(p->anchors[i].name, name) != 0)
             continue;
-        *p->nodes += tree_size(p->anchors[i].node, 0);
+        *p->nodes += count_nodes(p->anchors[i].node, 0);
         if (*p->nodes > MOST_NODES)
-            fail(p, at, "too-large", "aliases make this scene too large", NULL);
+            report_yaml_error(p, at, "too-large", "aliases make this scene too large", NULL);
         return p->anchors[i].node;
     }
-    fail(p, at, "unknown-anchor", "there is no anchor of this name before", NULL);
+    report_yaml_error(p, at, "unknown-anchor", "there is no anchor of this name before", NULL);
     return NULL;
 }
 
@@ -138,26 +141,26 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
     yaml_event_t *event = &p->events[depth + 1];
     JoxYaml *bases[8];
     uint32_t base_count = 0;
-    while (!p->failed && next_event(p, event)) {
+    while (!p->failed && parse_event(p, event)) {
         if (event->type == YAML_MAPPING_END_EVENT) {
             yaml_event_delete(event);
             break;
         }
-        JoxPosition at = mark(p, event->start_mark, event->end_mark);
+        JoxPosition at = get_position(p, event->start_mark, event->end_mark);
         if (event->type != YAML_SCALAR_EVENT) {
-            fail(p, at, "bad-key", "keys must be plain names", NULL);
+            report_yaml_error(p, at, "bad-key", "keys must be plain names", NULL);
             yaml_event_delete(event);
             break;
         }
-        char *key = scalar_text(p, event, at);
+        char *key = copy_scalar(p, event, at);
         yaml_event_delete(event);
-        if (!key || !next_event(p, event))
+        if (!key || !parse_event(p, event))
             break;
         JoxYaml *value = parse_node(p, event, depth + 1);
         if (!value)
             break;
         if (map->count >= MOST_KEYS) {
-            fail(p, at, "too-large", "this map has too many keys", NULL);
+            report_yaml_error(p, at, "too-large", "this map has too many keys", NULL);
         } else if (strcmp(key, "<<") == 0) {
             bool list = value->kind == JOX_YAML_LIST;
             for (uint32_t i = 0; i < (list ? value->count : 1); i++) {
@@ -178,15 +181,16 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
         jox_yaml_merge(p->arena, map, bases[i]);
 }
 
-/* Makes the node that begins with `event`, which it deletes. */
+/* Parses the node that begins with `event`, and deletes the event. */
 static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
-    JoxPosition at = mark(p, event->start_mark, event->end_mark);
+    JoxPosition at = get_position(p, event->start_mark, event->end_mark);
     JoxYaml *node = NULL;
     if (depth > DEEPEST || ++*p->nodes > MOST_NODES) {
-        fail(p, at, "too-large",
-             depth > DEEPEST ? "this is nested too deeply"
-                             : "this scene is too large, with the files that it includes",
-             NULL);
+        report_yaml_error(p, at, "too-large",
+                          depth > DEEPEST
+                              ? "this is nested too deeply"
+                              : "this scene is too large, with the files that it includes",
+                          NULL);
     } else if (event->type == YAML_ALIAS_EVENT) {
         node = resolve_alias(p, (const char *)event->data.alias.anchor, at);
     } else {
@@ -194,13 +198,13 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
         node->position = at;
         if (event->type == YAML_SCALAR_EVENT) {
             node->kind = JOX_YAML_SCALAR;
-            node->text = scalar_text(p, event, at);
+            node->text = copy_scalar(p, event, at);
             node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
-            remember(p, event->data.scalar.anchor, node);
+            keep_anchor(p, event->data.scalar.anchor, node);
         } else if (event->type == YAML_SEQUENCE_START_EVENT) {
             node->kind = JOX_YAML_LIST;
             yaml_event_t *item = &p->events[depth + 1];
-            while (!p->failed && next_event(p, item)) {
+            while (!p->failed && parse_event(p, item)) {
                 if (item->type == YAML_SEQUENCE_END_EVENT) {
                     yaml_event_delete(item);
                     break;
@@ -209,18 +213,19 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
                 if (child)
                     jox_yaml_add(p->arena, node, NULL, at, child);
             }
-            remember(p, event->data.sequence_start.anchor, node); /* after: no cycles */
+            keep_anchor(p, event->data.sequence_start.anchor,
+                        node); /* after its items, so that they cannot refer to it */
         } else if (event->type == YAML_MAPPING_START_EVENT) {
             node->kind = JOX_YAML_MAP;
             parse_map_items(p, node, depth);
-            remember(p, event->data.mapping_start.anchor, node);
+            keep_anchor(p, event->data.mapping_start.anchor, node);
         }
     }
     yaml_event_delete(event);
     return p->failed ? NULL : node;
 }
 
-static void release_parse(void *parse) {
+static void free_parse(void *parse) {
     Parse *p = parse;
     for (size_t e = 0; e < sizeof p->events / sizeof *p->events; e++)
         yaml_event_delete(&p->events[e]);
@@ -230,19 +235,19 @@ static void release_parse(void *parse) {
 static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
     if (!yaml_parser_initialize(&p->parser))
         jox_out_of_memory(0);
-    jox_heap_register(p, release_parse);
+    jox_heap_register(p, free_parse);
     p->text = text;
     p->length = length;
     yaml_parser_set_input_string(&p->parser, (const unsigned char *)text, length);
     yaml_event_t *event = &p->events[0];
     JoxYaml *root = NULL;
-    while (!p->failed && next_event(p, event)) {
+    while (!p->failed && parse_event(p, event)) {
         bool end = event->type == YAML_STREAM_END_EVENT;
         bool starts = event->type == YAML_MAPPING_START_EVENT ||
                       event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_SCALAR_EVENT;
         if (starts && root)
-            fail(p, mark(p, event->start_mark, event->end_mark), "bad-yaml",
-                 "a file is one document; this is a second", NULL);
+            report_yaml_error(p, get_position(p, event->start_mark, event->end_mark), "bad-yaml",
+                              "a file is one document; this is a second", NULL);
         if (starts && !p->failed)
             root = parse_node(p, event, 0);
         else
@@ -251,20 +256,20 @@ static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
             break;
     }
     jox_heap_unregister(p);
-    release_parse(p);
+    free_parse(p);
     if (!p->failed && (!root || root->kind != JOX_YAML_MAP))
-        fail_whole(p, !root);
+        report_no_map(p, !root);
     return p->failed ? NULL : root;
 }
 
 /* ---- files ---- */
 
-static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t length,
-                     JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from);
+static JoxYaml *load_file(JoxArena *arena, const char *path, const char *text, size_t length,
+                          JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from);
 
-/* Files that this one includes, merged under it in their order. */
-static void include(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFiles *files,
-                    JoxDiagnostics *diagnostics) {
+/* Merges the files that a tree includes into it, in their order; its own keys win. */
+static void include_files(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFiles *files,
+                          JoxDiagnostics *diagnostics) {
     JoxYaml *names = jox_yaml_get(root, "include");
     uint32_t count = !names ? 0 : names->kind == JOX_YAML_LIST ? names->count : 1;
     for (uint32_t i = 0; i < count; i++) {
@@ -276,8 +281,8 @@ static void include(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFil
         }
         char *beside = jox_arena_beside(arena, path, name->text);
         struct stat info;
-        if (files->plain && (*name->text == '/' || strstr(name->text, "..") ||
-                             (lstat(beside, &info) == 0 && S_ISLNK(info.st_mode)))) {
+        if (files->untrusted && (*name->text == '/' || strstr(name->text, "..") ||
+                                 (lstat(beside, &info) == 0 && S_ISLNK(info.st_mode)))) {
             jox_diag_error(diagnostics, name->position, "bad-include",
                            "A mod includes files beside its own, by plain names",
                            "a mod cannot include '%.100s'", name->text);
@@ -298,14 +303,14 @@ static void include(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFil
                            name->text);
             continue;
         }
-        JoxYaml *base = load(arena, beside, NULL, 0, files, diagnostics, name->position);
+        JoxYaml *base = load_file(arena, beside, NULL, 0, files, diagnostics, name->position);
         if (base)
             jox_yaml_merge(arena, root, base);
     }
 }
 
-static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t length,
-                     JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from) {
+static JoxYaml *load_file(JoxArena *arena, const char *path, const char *text, size_t length,
+                          JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from) {
     char *own = NULL;
     const char *wrong = NULL;
     if (!text)
@@ -337,11 +342,11 @@ static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t
         root = parse_text(parse, file->text, length);
     jox_free(parse);
     if (root)
-        include(arena, root, file->path, files, diagnostics);
+        include_files(arena, root, file->path, files, diagnostics);
     return root;
 }
 
 JoxYaml *jox_yaml_load(JoxArena *arena, const char *path, const char *text, size_t length,
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics) {
-    return load(arena, path, text, length, files, diagnostics, (JoxPosition){0});
+    return load_file(arena, path, text, length, files, diagnostics, (JoxPosition){0});
 }

@@ -1,4 +1,5 @@
-/* Examples of the scene format, one for each owner of keys; between them they show every key. */
+/* Examples of the scene format, at least one for each owner of keys; together they show every key.
+   Tests read and run them, and the reference shows them. */
 #include "scene/scene.h"
 
 #define OPENING "jostle: 1\n"

@@ -1,6 +1,7 @@
+/* Finds mods in folders, chooses those that are named or enabled, and gives values to their
+ * settings. */
 #include "scene/mods.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,10 +10,11 @@
 #include "base/file.h"
 #include "base/format/path.h"
 #include "base/mem.h"
-#include "scene/mods_on.h"
+#include "scene/mods_enabled.h"
 #include "scene/mods_parts.h"
 
-static void look_into(JoxModsFind *f, const char *folder) {
+/* Reads the mods in the folders of a folder; links are not followed. */
+static void search_folder(JoxModsFind *f, const char *folder) {
     char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
     int count = 0;
     while (names && names[count])
@@ -28,11 +30,13 @@ static void look_into(JoxModsFind *f, const char *folder) {
     jox_free(names);
 }
 
-static void look_everywhere(JoxModsFind *f) {
+/* Reads the mods that are named by their folders, then those of the scene and of the user. */
+static void search_folders(JoxModsFind *f) {
     const char *scene = f->def->scene, *slash = scene ? strrchr(scene, '/') : NULL;
     const char *home = getenv("XDG_DATA_HOME"), *user = getenv("HOME");
     char folder[1024];
-    for (uint32_t n = 0; n < f->def->named_count; n++) /* first, so that they win */
+    for (uint32_t n = 0; n < f->def->named_count;
+         n++) /* first: of two mods with one name the first wins */
         if (jox_mods_is_folder(f->def->named[n])) {
             snprintf(folder, sizeof folder, "%s", f->def->named[n]);
             for (size_t k = strlen(folder); k > 1 && folder[k - 1] == '/'; k--)
@@ -42,18 +46,18 @@ static void look_everywhere(JoxModsFind *f) {
     if (scene) {
         snprintf(folder, sizeof folder, "%.*s/mods", slash ? (int)(slash - scene) : 1,
                  slash ? scene : ".");
-        look_into(f, folder);
+        search_folder(f, folder);
     }
     if (home && *home)
         snprintf(folder, sizeof folder, "%.900s/jostle/mods", home);
     else
         snprintf(folder, sizeof folder, "%.900s/.local/share/jostle/mods", user ? user : "");
     if ((home && *home) || user)
-        look_into(f, folder);
+        search_folder(f, folder);
 }
 
-/* Looks for a mod that is asked for beside a folder that holds one; whether it is there. */
-static bool look_beside(JoxModsFind *f, const char *folder, const char *name) {
+/* Reads the mod `name` beside the folder of another one; whether it is there. */
+static bool search_beside(JoxModsFind *f, const char *folder, const char *name) {
     char path[1200];
     struct stat info;
     snprintf(path, sizeof path, "%.900s/../%.80s/mod.yaml", folder, name);
@@ -65,13 +69,13 @@ static bool look_beside(JoxModsFind *f, const char *folder, const char *name) {
     return jox_mods_index(f->mods, name) >= 0;
 }
 
-/* What is named, and what a mod needs, may lie beside the mod whose scene it is, or that needs it:
-   not every mod lies in the mods/ of its scene. */
-static void look_for_others(JoxModsFind *f) {
+/* Searches mods that are named or depended on, but not found yet: beside the mod that the scene
+   belongs to, beside named mods, and beside the mod that depends on them. */
+static void search_missing_mods(JoxModsFind *f) {
     const JoxMods *mods = f->mods;
     char own[1024] = "";
     struct stat info;
-    if (f->def->scene) { /* of a mod, whose scenes lie in a folder of it */
+    if (f->def->scene) { /* a mod's scenes lie in a folder of the mod */
         char sheet[1200];
         snprintf(own, sizeof own, "%.*s..", (int)jox_path_folder(f->def->scene), f->def->scene);
         snprintf(sheet, sizeof sheet, "%s/mod.yaml", own);
@@ -81,22 +85,23 @@ static void look_for_others(JoxModsFind *f) {
         const char *name = f->def->named[n];
         bool found =
             strchr(name, '/') || jox_mods_is_folder(name) || jox_mods_index(mods, name) >= 0;
-        found = found || (*own && look_beside(f, own, name));
+        found = found || (*own && search_beside(f, own, name));
         for (uint32_t k = 0; k < f->def->named_count && !found; k++)
-            found = jox_mods_is_folder(f->def->named[k]) && look_beside(f, f->def->named[k], name);
+            found =
+                jox_mods_is_folder(f->def->named[k]) && search_beside(f, f->def->named[k], name);
     }
-    for (uint32_t m = 0; m < mods->found_count; m++) /* those found here, too */
+    for (uint32_t m = 0; m < mods->found_count; m++) /* also over mods that this loop finds */
         for (uint32_t d = 0; d < f->needs[m].depend_count; d++) {
             char name[64];
             const char *version;
             jox_mod_split_dependency(f->needs[m].depends[d]->text, name, &version);
             if (jox_mods_index(mods, name) < 0)
-                look_beside(f, mods->found[m].folder, name);
+                search_beside(f, mods->found[m].folder, name);
         }
 }
 
-/* Those that a person turned on. */
-static void choose_on(JoxModsFind *f) {
+/* Chooses the mods that the user has enabled. */
+static void choose_enabled(JoxModsFind *f) {
     JoxMods *mods = f->mods;
     for (uint32_t m = 0; m < mods->found_count && !f->def->named_only; m++) {
         const JoxMod *mod = &mods->found[m];
@@ -108,8 +113,9 @@ static void choose_on(JoxModsFind *f) {
     }
 }
 
-/* Those that are named, by the command line or the scene. */
-static void choose(JoxModsFind *f) {
+/* Chooses the mods that the command line and the scene name, and reads the scene's values of their
+   settings. */
+static void choose_named(JoxModsFind *f) {
     JoxMods *mods = f->mods;
     for (uint32_t n = 0; n < f->def->named_count; n++) {
         int32_t m =
@@ -117,22 +123,22 @@ static void choose(JoxModsFind *f) {
         if (m >= 0)
             f->needs[m].wanted = true;
         else if (m == -1)
-            jox_mods_missing(f, (JoxPosition){"--mod", 0, 0, 0}, f->def->named[n], "");
+            jox_mods_report_missing(f, (JoxPosition){"--mod", 0, 0, 0}, f->def->named[n], "");
     }
     if (!f->def->scene)
         return;
     JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
-    JoxDiagnostics later = {0}; /* the scene's own errors are for its loader */
-    JoxYaml *root = jox_yaml_load(f->reader.arena, f->def->scene, NULL, 0, files, &later);
+    JoxDiagnostics ignored = {0}; /* jox_scene_read reports errors of the scene */
+    JoxYaml *root = jox_yaml_load(f->reader.arena, f->def->scene, NULL, 0, files, &ignored);
     const JoxYaml *map = jox_yaml_get(root, "mods");
-    jox_diag_free(&later);
+    jox_diag_free(&ignored);
     if (map && map->kind != JOX_YAML_MAP)
         jox_scene_error(&f->reader, map, "bad-type", "mods: {NAME: {}}",
                         "mods maps names of mods to their settings");
     for (uint32_t k = 0; map && map->kind == JOX_YAML_MAP && k < map->count; k++) {
         int32_t m = jox_mods_index(mods, map->keys[k]);
         if (m < 0) {
-            jox_mods_missing(f, map->key_positions[k], map->keys[k], "the scene");
+            jox_mods_report_missing(f, map->key_positions[k], map->keys[k], "the scene");
             continue;
         }
         f->needs[m].wanted = true;
@@ -161,8 +167,8 @@ static void choose(JoxModsFind *f) {
                                files->items[i].length);
 }
 
-/* "mods.NAME.SETTING=VALUE" of the command line; values are checked against their ranges. */
-static void set_settings(JoxModsFind *f) {
+/* Sets "mods.NAME.SETTING=VALUE" of the command line, and checks the values of all settings. */
+static void apply_command_line_settings(JoxModsFind *f) {
     for (uint32_t s = 0; s < f->def->set_count; s++) {
         const char *set = f->def->sets[s], *equals = strchr(set, '=');
         if (strncmp(set, "mods.", 5) != 0 || !equals)
@@ -209,16 +215,16 @@ JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
     mods->found = jox_arena_take(mods->memory, JOX_MOST_MODS, sizeof *mods->found);
     f->def = def;
     f->mods = mods;
-    f->on = jox_mods_on_read();
+    f->enabled = jox_mods_read_enabled();
     f->reader =
         (JoxReader){.arena = mods->memory, .diagnostics = diagnostics, .format = &jox_scene_format};
-    look_everywhere(f);
-    look_for_others(f);
-    choose(f);
-    choose_on(f);
-    set_settings(f);
+    search_folders(f);
+    search_missing_mods(f);
+    choose_named(f);
+    choose_enabled(f);
+    apply_command_line_settings(f);
     jox_mods_order(f);
-    jox_free(f->on);
+    jox_free(f->enabled);
     jox_free(f);
     return mods;
 }
@@ -228,7 +234,9 @@ void jox_mods_free(JoxMods *mods) {
         return;
     for (uint32_t m = 0; m < mods->count; m++)
         for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
-            if (mods->items[m].patches[p].lua) /* named by who reads Lua, the rest by the arena */
+            if (mods->items[m]
+                    .patches[p]
+                    .lua) /* set by the reader of Lua; the arena owns the others */
                 jox_free(mods->items[m].patches[p].target);
     jox_arena_free(mods->memory);
     jox_free(mods);

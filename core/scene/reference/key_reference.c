@@ -1,15 +1,16 @@
-/* The reference of the scene format: for a terminal, and as a page of Markdown. */
+/* Prints the table of keys as a reference: as plain text for a terminal, and as a page of Markdown.
+ */
 #include <string.h>
 
-#include "scene/format/schema.h"
+#include "scene/format/keys.h"
 #include "scene/scene.h"
 
 static bool has_range(const JoxKey *key) {
     return key->least != key->greatest || key->least != 0;
 }
 
-/* "this, that" of "this|that". */
-static void listed(JoxText *out, const char *before, const char *texts, const char *after) {
+/* Prints "this|that" as "this, that", between two texts. */
+static void print_texts(JoxText *out, const char *before, const char *texts, const char *after) {
     jox_text_add(out, before);
     for (; *texts; texts++)
         jox_text_append(out, *texts == '|' ? ", " : texts, *texts == '|' ? 2 : 1);
@@ -29,12 +30,12 @@ void jox_scene_print_reference(JoxText *out) {
         jox_text_printf(out, "  %-12s %-14s %-6s ", k->name, TYPES[k->type], k->unit);
         if (has_range(k) && k->type <= JOX_TYPE_WHOLE)
             jox_text_printf(out, "%.9g to %.9g; ", k->least, k->greatest);
-        if (*k->standard == '!')
+        if (*k->default_text == '!')
             jox_text_add(out, "required; ");
-        else if (*k->standard)
-            listed(out, "default ", k->standard, "; ");
+        else if (*k->default_text)
+            print_texts(out, "default ", k->default_text, "; ");
         if (k->choices) {
-            jox_choices_text(k->choices, out);
+            jox_choices_print(k->choices, out);
             jox_text_add(out, "; ");
         }
         jox_text_printf(out, "%s\n", k->meaning);
@@ -43,7 +44,7 @@ void jox_scene_print_reference(JoxText *out) {
 
 /* ---- Markdown ---- */
 
-static void type_name(const JoxKey *key, JoxText *out) {
+static void print_type(const JoxKey *key, JoxText *out) {
     static const char *const TYPES[] = {"number", "whole number", "true or false",  "text",
                                         "[x, y]", "[x, y, z]",    "list of [x, y]", "name or names",
                                         "map",    "list",         "map of values"};
@@ -59,10 +60,10 @@ static void type_name(const JoxKey *key, JoxText *out) {
         {"start[1]", "list of [s, x, y] or [s, x, y, vx, vy]"},
         {"xy[2][2]", "two lists of [x, y]"},
         {"quantity**", "map: mod to map of values"}};
-    const char *of = key->of ? key->of : "";
+    const char *content = key->content ? key->content : "";
     char name[32];
     for (size_t i = 0; i < sizeof CONTENTS / sizeof *CONTENTS; i++)
-        if (!strcmp(CONTENTS[i][0], of)) {
+        if (!strcmp(CONTENTS[i][0], content)) {
             jox_text_add(out, CONTENTS[i][1]);
             return;
         }
@@ -71,14 +72,17 @@ static void type_name(const JoxKey *key, JoxText *out) {
             jox_text_printf(out, "%s`%s`", i ? ", " : "", name);
         return;
     }
-    size_t base = strcspn(of, "*[");
+    size_t base = strcspn(content, "*[");
     for (size_t i = 0; i < jox_scene_format.owner_count; i++) {
         const JoxOwner *owner = &jox_scene_format.owners[i];
-        if (strlen(owner->name) != base || strncmp(of, owner->name, base) != 0)
+        if (strlen(owner->name) != base || strncmp(content, owner->name, base) != 0)
             continue;
-        jox_text_add(out, of[base] == '*' ? "map: name to [" : of[base] ? "list of [" : "[");
+        jox_text_add(out, content[base] == '*' ? "map: name to ["
+                          : content[base]      ? "list of ["
+                                               : "[");
         jox_text_printf(out, "%s](#", owner->name);
-        for (const char *c = owner->heading; *c; c++) /* the anchor that pages make of a heading */
+        for (const char *c = owner->heading; *c;
+             c++) /* the anchor that Markdown makes of a heading */
             jox_text_printf(out, "%c", *c == ' ' ? '-' : *c >= 'A' && *c <= 'Z' ? *c + 32 : *c);
         jox_text_add(out, ")");
         return;
@@ -86,7 +90,7 @@ static void type_name(const JoxKey *key, JoxText *out) {
     jox_text_add(out, TYPES[key->type]);
 }
 
-static void table(const char *owner, JoxText *out) {
+static void print_key_table(const char *owner, JoxText *out) {
     jox_text_add(out, "| key | type | unit | range | default | meaning |\n"
                       "|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < jox_scene_format.key_count; i++) {
@@ -94,25 +98,26 @@ static void table(const char *owner, JoxText *out) {
         if (strcmp(key->owner, owner) != 0)
             continue;
         jox_text_printf(out, "| `%s` | ", key->name);
-        type_name(key, out);
+        print_type(key, out);
         jox_text_printf(out, " | %s | ", key->unit);
         if (has_range(key))
             jox_text_printf(out, "%.9g to %.9g", key->least, key->greatest);
-        if (*key->standard == '!')
+        if (*key->default_text == '!')
             jox_text_add(out, " | required");
-        else if (*key->standard)
-            listed(out, " | `", key->standard, "`");
+        else if (*key->default_text)
+            print_texts(out, " | `", key->default_text, "`");
         else
             jox_text_add(out, " | ");
         jox_text_printf(out, " | %s", key->meaning);
-        if (key->later)
-            jox_text_printf(out, "; edited during a run, from the next start on (%s)", key->later);
+        if (key->restart_reason)
+            jox_text_printf(out, "; edited during a run, from the next start on (%s)",
+                            key->restart_reason);
         jox_text_add(out, " |\n");
     }
 }
 
-/* "`this`, `that` and `those`" */
-static void marked(const char *keys, JoxText *out) {
+/* Prints "this|that|those" as "`this`, `that` and `those`". */
+static void print_quoted(const char *keys, JoxText *out) {
     char name[64], next[64];
     for (int i = 0; jox_choice_name(keys, i, name, sizeof name); i++) {
         bool last = !jox_choice_name(keys, i + 1, next, sizeof next);
@@ -120,14 +125,14 @@ static void marked(const char *keys, JoxText *out) {
     }
 }
 
-static void alternatives(const char *owner, JoxText *out) {
+static void print_alternatives(const char *owner, JoxText *out) {
     static const char *const RULES[] = {"Exactly one of ", "At most one of ", "At least one of "};
     JoxText kinds = {0};
     bool any = false;
-    jox_owner_kinds(&jox_scene_format, owner, &kinds);
+    jox_owner_list_kinds(&jox_scene_format, owner, &kinds);
     if (kinds.length) {
         jox_text_printf(out, "\n%s", RULES[JOX_EXACTLY_ONE]);
-        marked(kinds.data, out);
+        print_quoted(kinds.data, out);
         jox_text_add(out, " is given.");
         any = true;
     }
@@ -136,7 +141,7 @@ static void alternatives(const char *owner, JoxText *out) {
         if (strcmp(rule->owner, owner) != 0)
             continue;
         jox_text_printf(out, "%s%s", any ? " " : "\n", RULES[rule->rule]);
-        marked(rule->keys, out);
+        print_quoted(rule->keys, out);
         jox_text_add(out, " is given.");
         any = true;
     }
@@ -145,7 +150,7 @@ static void alternatives(const char *owner, JoxText *out) {
     jox_text_free(&kinds);
 }
 
-static void units(JoxText *out) {
+static void print_units(JoxText *out) {
     const char *kind = NULL;
     jox_text_add(out,
                  "Numbers are in SI units, angles in degrees; a number may also carry its unit "
@@ -163,23 +168,23 @@ static void units(JoxText *out) {
 #undef X
 }
 
-void jox_scene_reference_markdown(JoxText *out) {
+void jox_scene_print_markdown(JoxText *out) {
     for (size_t i = 0; i < jox_scene_format.owner_count; i++) {
         const JoxOwner *owner = &jox_scene_format.owners[i];
         bool inner = owner->heading[0] >= 'a' && owner->heading[0] <= 'z';
         jox_text_printf(out, "%s %s\n\n", inner ? "###" : "##", owner->heading);
-        if (*owner->text)
-            jox_text_printf(out, "%s\n\n", owner->text);
+        if (*owner->description)
+            jox_text_printf(out, "%s\n\n", owner->description);
         if (!strcmp(owner->name, "scene")) {
-            units(out);
+            print_units(out);
             jox_text_add(out, "\n");
         }
         for (int p = 0; !strcmp(owner->name, "place") && p < (int)jox_place_kind_count; p++)
             jox_text_printf(out, "- `%s`: %s%s", jox_place_kinds[p].name,
                             jox_place_kinds[p].meaning,
                             p + 1 < (int)jox_place_kind_count ? "\n" : "\n\n");
-        table(owner->name, out);
-        alternatives(owner->name, out);
+        print_key_table(owner->name, out);
+        print_alternatives(owner->name, out);
         for (size_t e = 0; e < jox_scene_example_count; e++)
             if (!strcmp(jox_scene_examples[e].owner, owner->name))
                 jox_text_printf(out, "\n```yaml\n%s```\n", jox_scene_examples[e].yaml);

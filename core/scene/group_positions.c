@@ -1,4 +1,4 @@
-/* Where the agents of a group stand at the start. */
+/* Computes where the agents of a group stand at the start. Called by groups.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,31 +10,31 @@
 #include "base/number/pi.h"
 #include "geom/fill.h"
 #include "geom/wall_images.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
 enum { MOST_AGENTS = 1000000 };
-static const float CLOSEST =
-    0.005f; /* m between those on a circle or a line, who are moved apart */
+/* m between agents on a circle or a line; the first step moves them apart. */
+static const float CLOSEST = 0.005f;
 
-/* The places that a group fills, or keeps out of: indices. */
-void jox_key_fills(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads the indices of the places that a group fills, or keeps out of. */
+void jox_key_read_fills(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const JoxYaml *const *names;
     uint32_t count = jox_read_names(r, node, &names), n = 0;
     uint32_t *out = jox_arena_take(r->arena, count, sizeof *out);
     for (uint32_t i = 0; i < count; i++) {
-        int32_t place = jox_load_place(r, names[i]);
-        /* One that was wrong has no points; that is reported already. */
+        int32_t place = jox_scene_find_place(r, names[i]);
+        /* A place that is wrong has no points, and is reported already. */
         if (place >= 0 &&
-            (r->load->scene->places[place].count || r->load->scene->places[place].member_count))
+            (r->draft->scene->places[place].count || r->draft->scene->places[place].member_count))
             out[n++] = (uint32_t)place;
     }
     JOX_ASSERT(n <= count);
     *JOX_MEMBER(uint32_t *, item, key->offset) = out;
-    *JOX_MEMBER(uint32_t, item, key->counter) = n;
+    *JOX_MEMBER(uint32_t, item, key->count_offset) = n;
 }
 
-/* Whether all of a group stand along a way of so many metres; else an error. */
-static bool fit_along(const JoxReader *r, const JoxYaml *map, const JoxGroup *group, float way) {
+/* Whether a group has room along `way` m; reports an error if not. */
+static bool check_length(const JoxReader *r, const JoxYaml *map, const JoxGroup *group, float way) {
     char agents[JOX_NOUN];
     const bool fit = (float)(group->count - 1) * CLOSEST <= way;
     if (!fit)
@@ -44,15 +44,15 @@ static bool fit_along(const JoxReader *r, const JoxYaml *map, const JoxGroup *gr
     return fit;
 }
 
-static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+static void fill_circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxPlace *place =
-        r->load->fill.in_count == 1 ? &r->load->scene->places[r->load->fill.in[0]] : NULL;
+        r->draft->fill.in_count == 1 ? &r->draft->scene->places[r->draft->fill.in[0]] : NULL;
     if (!place || !jox_place_is_spot(place)) {
         jox_scene_error(r, map, "bad-fill", "in: a place with point and radius",
                         "a circle is filled about one point");
         return;
     }
-    if (!fit_along(r, map, group, (float)JOX_TURN * place->radius))
+    if (!check_length(r, map, group, (float)JOX_TURN * place->radius))
         return;
     group->centre = place->centre;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
@@ -63,18 +63,18 @@ static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     }
 }
 
-/* Along one line, each in the middle of an equal share of it: where the line's ends are joined by
-   periodic edges, nobody stands closer there than elsewhere. */
-static void line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+/* Places agents along one line, each in the middle of an equal share of it: so the distances are
+   equal even where periodic bounds join the line's ends. */
+static void fill_line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxPlace *place =
-        r->load->fill.in_count == 1 ? &r->load->scene->places[r->load->fill.in[0]] : NULL;
+        r->draft->fill.in_count == 1 ? &r->draft->scene->places[r->draft->fill.in[0]] : NULL;
     if (!place || !jox_place_is_line(place)) {
         jox_scene_error(r, map, "bad-fill", "in: a place with line",
                         "`fill: line` goes along one line");
         return;
     }
     JoxV2 from = place->points[0], way = jox_sub(place->points[1], from);
-    if (!fit_along(r, map, group, jox_length(way)))
+    if (!check_length(r, map, group, jox_length(way)))
         return;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
     for (uint32_t i = 0; i < group->count; i++)
@@ -82,8 +82,8 @@ static void line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
             jox_add(from, jox_scale(way, (float)((i + 0.5) / (double)group->count)));
 }
 
-/* Where those of the groups before it stand; the caller frees them. */
-static JoxV2 *others(const JoxSceneSpec *s, uint32_t *count) {
+/* Returns the positions of all groups read so far, to be freed by jox_free. */
+static JoxV2 *list_positions(const JoxSceneSpec *s, uint32_t *count) {
     *count = 0;
     for (uint32_t g = 0; g < s->group_count; g++)
         *count += s->groups[g].positions ? s->groups[g].count : 0;
@@ -96,13 +96,13 @@ static JoxV2 *others(const JoxSceneSpec *s, uint32_t *count) {
     return points;
 }
 
-static void area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFillMode spread,
-                 float spacing, uint32_t number, JoxGroup *group) {
+static void fill_area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFillMode spread,
+                      float spacing, uint32_t number, JoxGroup *group) {
     JoxV2 *positions = NULL, *taken = NULL;
     if (spread == JOX_FILL_RANDOM)
-        a->taken = taken = others(r->load->scene, &a->taken_count);
+        a->taken = taken = list_positions(r->draft->scene, &a->taken_count);
     uint32_t fit =
-        jox_fill(a, spread, group->count, spacing, r->load->scene->seed, number, &positions);
+        jox_fill(a, spread, group->count, spacing, r->draft->scene->seed, number, &positions);
     jox_free(taken);
     a->taken = NULL;
     char agents[JOX_NOUN];
@@ -118,9 +118,10 @@ static void area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFillMode
     jox_free(positions);
 }
 
-/* Whether a source makes agents like a group. */
+/* Whether a source of the scene has `like: GROUP`. Sources are read after groups, hence from the
+ * tree. */
 static bool has_source(const JoxReader *r, const JoxGroup *group) {
-    const JoxYaml *list = jox_yaml_get(r->load->root, "sources");
+    const JoxYaml *list = jox_yaml_get(r->draft->root, "sources");
     for (uint32_t s = 0; list && list->kind == JOX_YAML_LIST && s < list->count; s++) {
         const JoxYaml *like = jox_yaml_get(list->items[s], "like");
         if (like && like->kind == JOX_YAML_SCALAR && strcmp(like->text, group->name) == 0)
@@ -129,9 +130,9 @@ static bool has_source(const JoxReader *r, const JoxGroup *group) {
     return false;
 }
 
-/* `node`: the group, or the list of its agents' points. */
-static void check_bounds(const JoxReader *r, const JoxYaml *node, const JoxGroup *group) {
-    const JoxSceneSpec *s = r->load->scene;
+/* Reports the first agent outside the bounds, at `node`: the group, or the list of its points. */
+static void check_group_bounds(const JoxReader *r, const JoxYaml *node, const JoxGroup *group) {
+    const JoxSceneSpec *s = r->draft->scene;
     for (uint32_t i = 0; s->bounded && group->positions && i < group->count; i++) {
         JoxV2 p = group->positions[i];
         if (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y)
@@ -144,19 +145,19 @@ static void check_bounds(const JoxReader *r, const JoxYaml *node, const JoxGroup
     }
 }
 
-/* Whether a count says that there is nobody: one that is wrong does not. */
-static bool is_zero(const JoxYaml *count) {
+/* Whether a count is written as 0; false if it is wrong. */
+static bool is_zero_count(const JoxYaml *count) {
     char *end;
     return count->kind == JOX_YAML_SCALAR && strtod(count->text, &end) == 0.0 && !*end;
 }
 
-/* How many agents a group has at the start; 0, with an error, if that is impossible. */
-static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea *area,
-                          const JoxGroup *group) {
+/* Returns the number of agents at the start, from the count or the density; 0 with an error. */
+static uint32_t compute_count(const JoxReader *r, const JoxYaml *map, const JoxArea *area,
+                              const JoxGroup *group) {
     const JoxYaml *density = jox_yaml_get(map, "density");
     const JoxYaml *from = density ? density : jox_yaml_get(map, "count");
     const double number =
-        density ? floor(r->load->fill.density * jox_area_floor(area) + 0.5) : (double)group->count;
+        density ? floor(r->draft->fill.density * jox_area_floor(area) + 0.5) : (double)group->count;
     if (!(number >= 1 && number <= MOST_AGENTS)) {
         jox_scene_error(r, from, "out-of-range",
                         "A group may begin empty, with count: 0, where a source is like it",
@@ -164,8 +165,8 @@ static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea 
         return 0;
     }
     double all = number;
-    for (uint32_t g = 0; g < r->load->scene->group_count; g++) /* those before it */
-        all += r->load->scene->groups[g].count;
+    for (uint32_t g = 0; g < r->draft->scene->group_count; g++)
+        all += r->draft->scene->groups[g].count;
     if (all <= MOST_AGENTS)
         return (uint32_t)number;
     jox_scene_error(r, from, "too-many", NULL,
@@ -173,19 +174,20 @@ static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea 
     return 0;
 }
 
-/* Points that were given one by one. */
-static void take_points(const JoxReader *r, const JoxYaml *at, JoxGroup *group) {
+/* Uses the points of the key `at`. */
+static void take_given_points(const JoxReader *r, const JoxYaml *at, JoxGroup *group) {
     group->fill = JOX_FILL_AT;
-    check_bounds(r, at, group);
+    check_group_bounds(r, at, group);
 }
 
-/* Period of the bounds, m; 0 along an axis that is not joined. */
-static JoxV2 period_of(const JoxSceneSpec *s) {
+/* Returns the period of the bounds, m; 0 along an axis that is not joined. */
+static JoxV2 get_period(const JoxSceneSpec *s) {
     return (JoxV2){s->periodic_x ? s->high.x - s->low.x : 0.0f,
                    s->periodic_y ? s->high.y - s->low.y : 0.0f};
 }
 
-/* Copies the walls that agents keep clear of at the start: open gates too, and images. */
+/* Copies the walls that agents keep clear of at the start: with open gates, and with images of
+   walls beyond periodic bounds. To be freed by jox_walls_free. */
 static JoxWalls copy_shut_walls(const JoxSceneSpec *s) {
     JoxWalls shut = s->walls, walls = {0};
     shut.rings = jox_alloc((size_t)shut.ring_count + 1, sizeof *shut.rings);
@@ -194,41 +196,41 @@ static JoxWalls copy_shut_walls(const JoxSceneSpec *s) {
         shut.rings[r].open = false;
     }
     jox_walls_standing(&walls, &shut, true);
-    jox_wall_images_add(&walls, (JoxV2){s->low.x, s->low.y}, period_of(s), (JoxV2){0.0f, 0.0f});
+    jox_wall_images_add(&walls, (JoxV2){s->low.x, s->low.y}, get_period(s), (JoxV2){0.0f, 0.0f});
     jox_free(shut.rings);
     return walls;
 }
 
 /* Sets the positions of a group's agents in its places. */
-static void fill_places(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxGroup *group) {
-    const struct JoxLoadFill *fill = &r->load->fill;
+static void fill_group_places(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxGroup *group) {
+    const struct JoxFillDraft *fill = &r->draft->fill;
     if (group->fill == JOX_FILL_CIRCLE) {
-        circle(r, map, group);
+        fill_circle(r, map, group);
         return;
     }
     if (group->fill == JOX_FILL_LINE) {
-        line(r, map, group);
+        fill_line(r, map, group);
         return;
     }
-    area(r, map, a, group->fill, isfinite(fill->spacing) ? fill->spacing : 0.0f,
-         r->load->scene->group_count, group);
+    fill_area(r, map, a, group->fill, isfinite(fill->spacing) ? fill->spacing : 0.0f,
+              r->draft->scene->group_count, group);
     group->in = fill->in;
     group->in_count = fill->in_count;
     group->outside = fill->outside;
     group->outside_count = fill->outside_count;
 }
 
-void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+void jox_place_group(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxYaml *at = jox_yaml_get(map, "at"), *count = jox_yaml_get(map, "count");
     const JoxYaml *density = jox_yaml_get(map, "density");
-    const JoxSceneSpec *s = r->load->scene;
-    const struct JoxLoadFill *fill = &r->load->fill;
+    const JoxSceneSpec *s = r->draft->scene;
+    const struct JoxFillDraft *fill = &r->draft->fill;
     if (at) {
-        take_points(r, at, group);
+        take_given_points(r, at, group);
         return;
     }
     if (jox_yaml_get(map, "starts")) {
-        jox_load_starts(r, map, group);
+        jox_place_group_starts(r, map, group);
         return;
     }
     if (!count == !density) {
@@ -236,8 +238,8 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
                         "a group needs one of count, density, at and starts");
         return;
     }
-    if (density ? !isfinite(r->load->fill.density) : group->count == 0 && !is_zero(count))
-        return; /* wrong, and reported */
+    if (density ? !isfinite(r->draft->fill.density) : group->count == 0 && !is_zero_count(count))
+        return; /* wrong, and reported already */
     if (count && group->count == 0 && has_source(r, group))
         return; /* nobody is there at the start */
     if (fill->in_count == 0) {
@@ -254,13 +256,13 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
                  .out_count = fill->outside_count,
                  .walls = &walls,
                  .clear = 0.2f,
-                 .period = period_of(s)};
-    group->count = number_of(r, map, &a, group);
+                 .period = get_period(s)};
+    group->count = compute_count(r, map, &a, group);
     if (group->count > 0)
-        fill_places(r, map, &a, group);
+        fill_group_places(r, map, &a, group);
     jox_walls_free(&walls);
     if (group->count == 0)
         return;
     JOX_ASSERT(group->positions || r->diagnostics->errors > 0);
-    check_bounds(r, map, group);
+    check_group_bounds(r, map, group);
 }

@@ -1,16 +1,16 @@
-/* Starts of a group: who comes in when, where and how fast, as a recording has it. */
+/* Reads the starts of a group: when, where and how fast each agent comes in, as in a recording. */
 #include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/sort.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
 enum { MOST_STARTS = 100000 };
 #define LATEST 1e6 /* s */
 #define FASTEST 10 /* m/s */
 
-/* [s, x, y] or [s, x, y, vx, vy]; false with an error. */
+/* Reads [s, x, y] or [s, x, y, vx, vy]; without a velocity it is NAN. False with an error. */
 static bool read_start(const JoxReader *r, const JoxYaml *row, JoxStart *start) {
     static const char *const UNITS[] = {"s", "m", "m", "m/s", "m/s"};
     static const double LEAST[] = {0, -JOX_FARTHEST, -JOX_FARTHEST, -FASTEST, -FASTEST};
@@ -36,8 +36,8 @@ static bool read_start(const JoxReader *r, const JoxYaml *row, JoxStart *start) 
     return true;
 }
 
-static bool in_bounds(const JoxReader *r, const JoxYaml *row, JoxV2 p) {
-    const JoxSceneSpec *s = r->load->scene;
+static bool check_start_bounds(const JoxReader *r, const JoxYaml *row, JoxV2 p) {
+    const JoxSceneSpec *s = r->draft->scene;
     if (!s->bounded || (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y))
         return true;
     jox_scene_error(r, row, "out-of-bounds", NULL, "(%g, %g) is outside the scene's bounds", p.x,
@@ -45,7 +45,7 @@ static bool in_bounds(const JoxReader *r, const JoxYaml *row, JoxV2 p) {
     return false;
 }
 
-void jox_key_starts(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+void jox_key_read_starts(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxGroup *group = item;
     (void)key;
     if (!node)
@@ -58,18 +58,18 @@ void jox_key_starts(const JoxReader *r, const JoxKey *key, const JoxYaml *node, 
     group->starts = jox_arena_take(r->arena, node->count, sizeof *group->starts);
     for (uint32_t i = 0; i < node->count; i++)
         if (read_start(r, node->items[i], &group->starts[group->start_count]) &&
-            in_bounds(r, node->items[i], group->starts[group->start_count].at))
+            check_start_bounds(r, node->items[i], group->starts[group->start_count].at))
             group->start_count++;
     JOX_ASSERT(group->start_count <= node->count);
 }
 
-static int by_time(const void *left, const void *right, const void *context) {
+static int compare_start_times(const void *left, const void *right, const void *context) {
     const JoxStart *a = left, *b = right;
     (void)context;
     return a->time < b->time ? -1 : a->time > b->time;
 }
 
-void jox_load_starts(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+void jox_place_group_starts(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     for (uint32_t s = 0; s < group->set_count; s++)
         if (group->set[s].kind == JOX_SET_ANTIPODE)
             jox_scene_error(r, jox_yaml_get(map, "starts"), "bad-value",
@@ -84,7 +84,8 @@ void jox_load_starts(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     group->count = 0;
     if (group->start_count == 0)
         return; /* wrong, and reported */
-    jox_sort(group->starts, group->start_count, sizeof *group->starts, by_time, NULL, NULL);
+    jox_sort(group->starts, group->start_count, sizeof *group->starts, compare_start_times, NULL,
+             NULL);
     group->positions = jox_arena_take(r->arena, group->start_count, sizeof *group->positions);
     while (group->count < group->start_count && group->starts[group->count].time == 0.0) {
         group->positions[group->count] = group->starts[group->count].at;

@@ -1,12 +1,13 @@
-/* Sources and sinks of a scene. */
+/* Reads sources, where agents come in, and sinks, where they leave. */
 #include <math.h>
 
 #include "base/assert.h"
-#include "scene/internal.h"
+#include "scene/scene_draft.h"
 
 enum { MOST_TIMES = 10000 };
 
-/* The point opposite on the circle is that of agents who stand on it at the start. */
+/* Reports a source like a group whose agents go to the opposite point of their circle: agents that
+   come in later do not stand on one. */
 static void refuse_antipode(const JoxReader *r, const JoxYaml *like, const JoxGroup *group) {
     for (uint32_t s = 0; s < group->set_count; s++)
         if (group->set[s].kind == JOX_SET_ANTIPODE) {
@@ -19,8 +20,8 @@ static void refuse_antipode(const JoxReader *r, const JoxYaml *like, const JoxGr
         }
 }
 
-/* A list of times, s. */
-void jox_key_times(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads a list of times, s. */
+void jox_key_read_times(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxAgentSource *source = item;
     if (!node)
         return;
@@ -42,8 +43,8 @@ void jox_key_times(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
     }
 }
 
-/* [s, 1/s] in order of time. */
-void jox_key_curve(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+/* Reads a list of [s, 1/s] with rising times. */
+void jox_key_read_curve(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxAgentSource *source = item;
     if (!node)
         return;
@@ -74,7 +75,7 @@ void jox_key_curve(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
 
 bool jox_finish_source(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     JoxAgentSource *source = item;
-    const JoxSceneSpec *s = r->load->scene;
+    const JoxSceneSpec *s = r->draft->scene;
     (void)good;
     source->every = isfinite(source->every) ? source->every : 0.0;
     if (source->people > 0 && source->every == 0.0 && !jox_yaml_get(map, "times"))
@@ -86,7 +87,7 @@ bool jox_finish_source(const JoxReader *r, const JoxYaml *map, void *item, bool 
         !jox_yaml_get(map, "curve") && !jox_yaml_get(map, "times"))
         jox_scene_error(r, map, "missing-key", "rate: 2, or keep: 1000",
                         "a source needs a rate, a number to keep, times or a curve");
-    /* -1: there is none of the name */
+    /* -1: no such name */
     if ((int32_t)source->place < 0 || (int32_t)source->like < 0)
         return false;
     JOX_ASSERT(source->place < s->place_count && source->like < s->group_count);
@@ -96,5 +97,5 @@ bool jox_finish_source(const JoxReader *r, const JoxYaml *map, void *item, bool 
 
 bool jox_finish_sink(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     (void)r, (void)map, (void)good;
-    return (int32_t)((const JoxAgentSink *)item)->place >= 0; /* -1: there is none of the name */
+    return (int32_t)((const JoxAgentSink *)item)->place >= 0; /* -1: no such name */
 }
