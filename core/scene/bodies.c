@@ -63,8 +63,8 @@ void jox_key_read_path(const JoxReader *r, const JoxKey *key, const JoxYaml *lis
     path->count = list->count + 1;
 }
 
-/* Reads numbers of blocks or copies along x, y and z; 1 each if missing. False if missing or wrong.
- */
+/* Reads numbers of blocks or copies along x, y and z; 1 each if missing. False if the
+   node is missing or wrong. */
 static bool read_counts(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
                         const char *what, double count[3]) {
     count[0] = count[1] = count[2] = 1;
@@ -126,8 +126,8 @@ static void set_mass(const JoxReader *r, const JoxYaml *map, JoxBodyDraft *draft
     def->mass = each * def->shape.count[0] * def->shape.count[1] * def->shape.count[2];
 }
 
-/* Checks and sets how the body moves: a kinematic body has no mass, and has a path or a velocity.
- */
+/* Checks and sets how the body moves: a kinematic body has no mass, and has a path or a
+   velocity. */
 static void set_motion(const JoxReader *r, const JoxYaml *map, JoxBodyDraft *draft) {
     JoxBodyDef *def = &draft->body.def;
     const JoxYaml *path = jox_yaml_get(map, "path"), *velocity = jox_yaml_get(map, "velocity");

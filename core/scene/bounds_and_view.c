@@ -76,7 +76,7 @@ const char *jox_scene_choose_colouring(const JoxSceneSpec *scene, uint32_t state
 #undef X
     };
     /* Two states, as "walks" and "is gone", tell little; more than eight colours are hard to tell
-     * apart. */
+       apart. */
     enum { TELLING_STATES = 3, MOST_GROUPS = 8 };
     if (scene && scene->view.colour > 0)
         return NAMES[scene->view.colour - 1];

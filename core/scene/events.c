@@ -13,7 +13,7 @@ static bool is_static_body(const JoxBodyDef *def) {
 }
 
 /* Checks the name of a body that is "thrown", "pushed" (then it must have mass) or "moved"
- * (kinematic). */
+   (kinematic). */
 static void check_event_body(const JoxReader *r, const JoxYaml *name, const char *done) {
     const bool moved = strcmp(done, "moved") == 0;
     const char *names[256];

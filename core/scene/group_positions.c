@@ -119,7 +119,7 @@ static void fill_area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFil
 }
 
 /* Whether a source of the scene has `like: GROUP`. Sources are read after groups, hence from the
- * tree. */
+   tree. */
 static bool has_source(const JoxReader *r, const JoxGroup *group) {
     const JoxYaml *list = jox_yaml_get(r->draft->root, "sources");
     for (uint32_t s = 0; list && list->kind == JOX_YAML_LIST && s < list->count; s++) {

@@ -62,7 +62,7 @@ static bool read_parameter_quantity(const JoxReader *r, const JoxYaml *value, Jo
 }
 
 /* Reads one value of a map: a number, a distribution, true or false, or a place; false with an
- * error. */
+   error. */
 static bool read_group_value(const JoxReader *r, const JoxYaml *value, bool numbers_only,
                              JoxGroupValue *set) {
     const JoxSceneSpec *s = r->draft->scene;

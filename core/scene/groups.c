@@ -12,7 +12,8 @@
 
 /* Finds the file of a behaviour: of a mod, beside the scene, in ../behaviours, or installed; NULL
    with an error. */
-static char *find_behaviour(const JoxSceneDraft *draft, const char *name, JoxPosition position) {
+static char *find_behaviour_file(const JoxSceneDraft *draft, const char *name,
+                                 JoxPosition position) {
     JoxArena *arena = draft->reader.arena;
     /* A value of --set stands in no file: look from the scene. */
     const char *from = strcmp(position.file, JOX_SET_OPTION) ? position.file : draft->scene->path;
@@ -39,7 +40,7 @@ void jox_key_read_behaviour(const JoxReader *r, const JoxKey *key, const JoxYaml
         return;
     group->mix = jox_arena_take(r->arena, 1, sizeof *group->mix);
     *group->mix = (JoxGroupMix){.weight = 1, .position = node->position};
-    group->mix->behaviour = find_behaviour(r->draft, node->text, node->position);
+    group->mix->behaviour = find_behaviour_file(r->draft, node->text, node->position);
     group->mix_count = group->mix->behaviour != NULL;
 }
 
@@ -62,7 +63,7 @@ void jox_key_read_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map,
             jox_scene_error(r, map->items[i], "out-of-range", NULL, "a weight must be above 0");
             continue;
         }
-        entry->behaviour = find_behaviour(r->draft, map->keys[i], entry->position);
+        entry->behaviour = find_behaviour_file(r->draft, map->keys[i], entry->position);
         sum += entry->weight;
         group->mix_count += entry->behaviour != NULL;
     }

@@ -211,7 +211,7 @@ static void write_queue_cost(Journey *j, uint32_t step, uint32_t queue) {
 }
 
 /* Writes the states of a choice of queues, and of each queue: the way there, in it, and at its
- * head. */
+   head. */
 static void write_queue_states(Journey *j, uint32_t step) {
     const JoxJourneyStep *s = &j->group->journey[step];
     char name[256], when[256];
@@ -361,7 +361,7 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
 }
 
 /* Writes the head of the behaviour. own.whim_N is an agent's error in judging queue N of a choice,
- * s. */
+   s. */
 static void write_behaviour_head(Journey *j) {
     uint32_t most = 0;
     for (uint32_t s = 0; s < j->group->journey_count; s++)

@@ -13,7 +13,7 @@
 #include "base/mem.h"
 
 enum {
-    HASH = 64 /* digits */,
+    HASH = 64 /* hexadecimal digits */,
     MOST_FILES = 1024,
     LARGEST_FILE = 16 << 20,
     DEEPEST = 8,
@@ -28,7 +28,7 @@ typedef struct ModFiles {
     uint32_t files;
 } ModFiles;
 
-static bool hash_file(ModFiles *c, const char *path, size_t root) {
+static bool hash_mod_file(ModFiles *c, const char *path, size_t root) {
     char hash[HASH + 1];
     size_t length;
     char *data = ++c->files <= MOST_FILES ? jox_read_file(path, LARGEST_FILE, &length) : NULL;
@@ -56,7 +56,7 @@ static bool hash_files_below(ModFiles *c, const char *folder, size_t root, int d
             /* Hidden folders, as of version control, are no part of the mod. */
             good = **name == '.' || hash_files_below(c, path.data, root, depth + 1);
         } else if (lstat(path.data, &info) == 0 && S_ISREG(info.st_mode)) {
-            good = hash_file(c, path.data, root);
+            good = hash_mod_file(c, path.data, root);
         } else {
             jox_text_printf(c->error, "'%s' is no plain file", path.data);
             good = false;

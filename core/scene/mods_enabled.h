@@ -1,7 +1,7 @@
 /* The list of mods that the user has enabled: the file jostle/mods-on in the user's configuration
    ($XDG_CONFIG_HOME, else ~/.config). A line holds the hash of the mod's files when it was enabled,
-   its name and its folder, so that a mod whose files have changed is off until it is enabled again.
- */
+   its name and its folder, so that a mod whose files have changed is off until it is enabled
+   again. */
 #ifndef JOX_SCENE_MODS_ENABLED_H
 #define JOX_SCENE_MODS_ENABLED_H
 

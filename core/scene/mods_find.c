@@ -1,5 +1,5 @@
-/* Finds mods in folders, chooses those that are named or enabled, and gives values to their
- * settings. */
+/* Finds mods in folders, chooses mods that are named or enabled, and gives values to their
+   settings. */
 #include "scene/mods.h"
 
 #include <stdio.h>
@@ -129,7 +129,7 @@ static void choose_named(JoxModsFind *f) {
         return;
     JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
     JoxDiagnostics ignored = {0}; /* jox_scene_read reports errors of the scene */
-    JoxYaml *root = jox_yaml_load(f->reader.arena, f->def->scene, NULL, 0, files, &ignored);
+    JoxYaml *root = jox_yaml_read(f->reader.arena, f->def->scene, NULL, 0, files, &ignored);
     const JoxYaml *map = jox_yaml_get(root, "mods");
     jox_diag_free(&ignored);
     if (map && map->kind != JOX_YAML_MAP)

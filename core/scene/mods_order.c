@@ -1,5 +1,5 @@
 /* Decides which of the chosen mods are applied, by their dependencies and conflicts, and orders
- * them. */
+   them. */
 #include <string.h>
 
 #include "base/assert.h"

@@ -44,7 +44,7 @@ static void *get_node_value(void *c, void *map, const char *key) {
     return jox_yaml_get(map, key);
 }
 
-static JoxPosition find_position(void *c, const JoxPatchPlace *at) {
+static JoxPosition find_change_position(void *c, const JoxPatchPlace *at) {
     (void)c;
     const JoxYaml *map = at->map, *value = at->value;
     for (uint32_t k = 0; map && k < map->count; k++)
@@ -56,7 +56,7 @@ static JoxPosition find_position(void *c, const JoxPatchPlace *at) {
 static void set_node_value(void *c, void *map, const char *key, const JoxPatchPlace *at,
                            void *value) {
     if (at)
-        jox_yaml_put(get_arena(c), map, key, find_position(c, at), value);
+        jox_yaml_put(get_arena(c), map, key, find_change_position(c, at), value);
     else
         jox_yaml_set(get_arena(c), map, key, value);
 }
@@ -145,11 +145,11 @@ static void report_missing_node(void *c, void *node, const char *name, const Jox
     const JoxReader *reader = c;
     const JoxYaml *n = node;
     if (is_of_list)
-        jox_diag_error(reader->diagnostics, find_position(c, at), "unknown-item",
+        jox_diag_error(reader->diagnostics, find_change_position(c, at), "unknown-item",
                        "Items go by their `name`, or by their number from 0; append: [...] adds",
                        "this list has no item '%.60s'", name);
     else
-        jox_diag_error(reader->diagnostics, find_position(c, at), "unknown-key",
+        jox_diag_error(reader->diagnostics, find_change_position(c, at), "unknown-key",
                        jox_scene_suggest(reader, name, n->keys, n->count),
                        "there is no '%.60s' to take away", name);
 }
@@ -171,7 +171,7 @@ JoxYaml *jox_mods_patch_scene(JoxSceneDraft *draft, JoxYaml *root, JoxYamlFiles 
                                .text = get_node_text,
                                .is_item = has_node_id,
                                .admit = admit_node,
-                               .position = find_position,
+                               .position = find_change_position,
                                .enter = enter_node,
                                .skips = skips_head_key,
                                .missing = report_missing_node,
@@ -186,7 +186,7 @@ JoxYaml *jox_mods_patch_scene(JoxSceneDraft *draft, JoxYaml *root, JoxYamlFiles 
                 !jox_patch_is_target(file->target, draft->scene->path, options->mods,
                                      options->mod_count))
                 continue;
-            JoxYaml *change = jox_yaml_load(draft->reader.arena, file->path, NULL, 0, files,
+            JoxYaml *change = jox_yaml_read(draft->reader.arena, file->path, NULL, 0, files,
                                             draft->reader.diagnostics);
             if (!change || change->kind != JOX_YAML_MAP)
                 continue;

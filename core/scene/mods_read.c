@@ -92,7 +92,7 @@ static void read_target(JoxModsFind *f, JoxModPatch *patch) {
     files->untrusted = true;
     files->role = JOX_YAML_PATCH;
     JoxYaml *root =
-        jox_yaml_load(f->reader.arena, patch->path, NULL, 0, files, f->reader.diagnostics);
+        jox_yaml_read(f->reader.arena, patch->path, NULL, 0, files, f->reader.diagnostics);
     const JoxYaml *target = jox_yaml_get(root, "patch");
     patch->replaces = !target;
     target = target ? target : jox_yaml_get(root, "replace");
@@ -169,7 +169,7 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     files->role = JOX_YAML_MOD;
     size_t errors = r->diagnostics->errors;
     JoxYaml *root = check_mod_file(f, path, (JoxPosition){path, 0, 0, 0})
-                        ? jox_yaml_load(r->arena, path, NULL, 0, files, r->diagnostics)
+                        ? jox_yaml_read(r->arena, path, NULL, 0, files, r->diagnostics)
                         : NULL;
     if (root && mods->found_count == JOX_MOST_MODS) {
         jox_diag_error(r->diagnostics, root->position, "too-many", "Take some out of the folder",

@@ -44,7 +44,7 @@ bool jox_read_box(const JoxReader *r, const JoxYaml *node, JoxV2 *low, JoxV2 *hi
     return points != NULL;
 }
 
-static void store_points(const JoxKey *key, void *item, const JoxV2 *points, uint32_t count) {
+static void store_key_points(const JoxKey *key, void *item, const JoxV2 *points, uint32_t count) {
     JOX_ASSERT(points || count == 0);
     *JOX_MEMBER(const JoxV2 *, item, key->offset) = points;
     *JOX_MEMBER(uint32_t, item, key->count_offset) = count;
@@ -53,14 +53,14 @@ static void store_points(const JoxKey *key, void *item, const JoxV2 *points, uin
 void jox_key_read_ring(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     uint32_t count = 0;
     const JoxV2 *ring = node ? jox_read_polygon(r, node, &count) : NULL;
-    store_points(key, item, ring, count);
+    store_key_points(key, item, ring, count);
 }
 
 void jox_key_read_points(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     uint32_t count = 0;
     const JoxV2 *points = node ? jox_read_points(r, node, 1, &count) : NULL;
     if (node) /* else the count of another key stays */
-        store_points(key, item, points, count);
+        store_key_points(key, item, points, count);
 }
 
 void jox_key_read_point(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
@@ -69,7 +69,7 @@ void jox_key_read_point(const JoxReader *r, const JoxKey *key, const JoxYaml *no
         return;
     JoxV2 *point = jox_arena_take(r->arena, 1, sizeof *point);
     *point = jox_v2((float)v[0], (float)v[1]);
-    store_points(key, item, point, 1);
+    store_key_points(key, item, point, 1);
 }
 
 /* Reads a line of two points that lie apart into out[0] and out[1]; false with an error. */
@@ -94,7 +94,7 @@ static bool read_two_points(const JoxReader *r, const JoxYaml *node, JoxV2 *out)
 
 void jox_key_read_line(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxV2 *points = jox_arena_take(r->arena, 2, sizeof *points);
-    store_points(key, item, points, node && read_two_points(r, node, points) ? 2 : 0);
+    store_key_points(key, item, points, node && read_two_points(r, node, points) ? 2 : 0);
 }
 
 void jox_key_read_lines(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
@@ -105,7 +105,7 @@ void jox_key_read_lines(const JoxReader *r, const JoxKey *key, const JoxYaml *no
                         "%s is a list of two lines", key->name);
     for (uint32_t i = 0; node && i < 2 && node->kind == JOX_YAML_LIST && i < node->count; i++)
         good = read_two_points(r, node->items[i], points + 2 * i) && good;
-    store_points(key, item, points, good ? 4 : 0);
+    store_key_points(key, item, points, good ? 4 : 0);
 }
 
 void jox_key_read_box(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {

@@ -37,7 +37,7 @@ JoxSceneSpec *jox_scene_read_text(const char *name, const char *text, size_t len
     draft.scene->memory = arena;
     draft.datadir = options ? options->datadir : NULL;
     draft.scene->path = jox_arena_text(arena, name);
-    JoxYaml *root = jox_yaml_load(arena, draft.scene->path, text, length, files, diagnostics);
+    JoxYaml *root = jox_yaml_read(arena, draft.scene->path, text, length, files, diagnostics);
     /* Patches copy what they change; jox_scene_set_value changes the root in place. */
     draft.scene->own_tree =
         root && options && options->set_count ? jox_yaml_copy(arena, root) : root;

@@ -14,7 +14,7 @@ static const char *split_path(const char **path, char part[64]) {
     return part;
 }
 
-static const JoxYaml *find_item(const JoxYaml *node, const char *key) {
+static const JoxYaml *find_yaml_item(const JoxYaml *node, const char *key) {
     JoxYaml **slot = node ? jox_yaml_slot(node, key) : NULL;
     return slot ? *slot : NULL;
 }
@@ -22,14 +22,14 @@ static const JoxYaml *find_item(const JoxYaml *node, const char *key) {
 static const JoxYaml *find_node(const JoxYaml *node, const char *path) {
     char part[64];
     while (node && *path)
-        node = find_item(node, split_path(&path, part));
+        node = find_yaml_item(node, split_path(&path, part));
     return node;
 }
 
 enum { LONGEST = 400 }; /* bytes of a value, beyond which no items are printed */
 
 /* Appends a value as it is written, on one line. */
-static void print_value(const JoxYaml *node, JoxText *out) {
+static void print_yaml_value(const JoxYaml *node, JoxText *out) {
     const bool map = node->kind == JOX_YAML_MAP;
     if (node->kind == JOX_YAML_SCALAR) {
         jox_text_add(out, node->text);
@@ -38,7 +38,7 @@ static void print_value(const JoxYaml *node, JoxText *out) {
     jox_text_add(out, map ? "{" : "[");
     for (uint32_t k = 0; k < node->count && out->length < LONGEST; k++) {
         jox_text_printf(out, "%s%s%s", k ? ", " : "", map ? node->keys[k] : "", map ? ": " : "");
-        print_value(node->items[k], out);
+        print_yaml_value(node->items[k], out);
     }
     jox_text_add(out, map ? "}" : "]");
 }
@@ -46,13 +46,13 @@ static void print_value(const JoxYaml *node, JoxText *out) {
 bool jox_scene_print_changed_value(const JoxPatchChange *change, const char *rest, JoxText *out) {
     const JoxYaml *node = find_node(change->value, rest);
     if (node)
-        print_value(node, out);
+        print_yaml_value(node, out);
     return node != NULL;
 }
 
 static void visit_value(const JoxYaml *node, JoSetBy by, JoSetVisit *visit, void *context) {
     JoxText value = {0};
-    print_value(node, &value);
+    print_yaml_value(node, &value);
     visit(context, &(JoSetting){.by = by,
                                 .value = value.data,
                                 .file = node->position.file,
@@ -98,9 +98,9 @@ bool jox_scene_visit_default(const JoxSceneSpec *spec, const char *path, JoSetVi
             return key && visit_default(key, visit, context);
         if (!key->content)
             return false;
-        node = find_item(node, part);
+        node = find_yaml_item(node, part);
         const size_t plain = strcspn(key->content, "*[");
-        if (key->content[plain] && !(node = find_item(node, split_path(&path, part))))
+        if (key->content[plain] && !(node = find_yaml_item(node, split_path(&path, part))))
             return false;
         snprintf(owner, sizeof owner, "%.*s", (int)plain, key->content);
     }

@@ -16,8 +16,8 @@ enum {
     LONGEST = 2000000 /* m, of all walls: loads are recorded for each metre */
 };
 
-/* Whether a file may be read: one that a mod names must lie beside the mod's own, by a plain name.
- */
+/* Whether a file may be read: one that a mod names must lie beside the mod's own, by a plain
+   name. */
 static bool may_read_file(const JoxSceneDraft *draft, const JoxYaml *name, const char *path) {
     struct stat info;
     const bool plain = *name->text != '/' && !strstr(name->text, "..") &&

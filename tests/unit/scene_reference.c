@@ -75,7 +75,7 @@ static void examples_show_every_key(void **state) {
             char *include = strstr(own, "include:");
             if (include)
                 memcpy(include, "without:", 8);
-            JoxYaml *root = jox_yaml_load(arena, "example.yaml", own, strlen(own), files, &d);
+            JoxYaml *root = jox_yaml_read(arena, "example.yaml", own, strlen(own), files, &d);
             assert_non_null(root);
             for (uint32_t k = 0; include && k < root->count; k++)
                 if (!strcmp(root->keys[k], "without"))
@@ -201,7 +201,7 @@ static JoxYaml *schema_tree(JoxArena *arena, const char *root) {
     JoxDiagnostics d = {0};
     JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
     jox_scene_print_json_schema(root, &text);
-    JoxYaml *tree = jox_yaml_load(arena, "schema.json", text.data, text.length, files, &d);
+    JoxYaml *tree = jox_yaml_read(arena, "schema.json", text.data, text.length, files, &d);
     if (!tree)
         show(&d, "schema");
     assert_non_null(tree);

@@ -9,7 +9,7 @@
 #include "base/assert.h"
 #include "base/format/noun.h"
 
-enum { MOST_KEYS = 64 }; /* of an owner */
+enum { MOST_KEYS = 64 }; /* keys of an owner */
 
 /* ---- the table ---- */
 
@@ -238,7 +238,8 @@ static void store_uint32(const JoxReader *reader, const JoxKey *key, const JoxYa
     }
 }
 
-static void read_key(const JoxReader *reader, const JoxKey *key, const JoxYaml *node, void *item) {
+static void store_value(const JoxReader *reader, const JoxKey *key, const JoxYaml *node,
+                        void *item) {
     double value;
     item = key->in_draft ? (void *)reader->draft : item;
     switch (key->store) {
@@ -300,11 +301,11 @@ bool jox_owner_read(const JoxReader *reader, const JoxYaml *map, const char *nam
     for (size_t i = 0; i < reader->format->key_count; i++) {
         const JoxKey *key = &reader->format->keys[i];
         if (!key->selected_kind && !strcmp(key->owner, name))
-            read_key(reader, key, map ? jox_yaml_get(map, key->name) : NULL, item);
+            store_value(reader, key, map ? jox_yaml_get(map, key->name) : NULL, item);
     }
     if (selecting) { /* last: its reader may use the values of the others */
         *JOX_MEMBER(int, item, owner->kind_offset - 1) = selecting->selected_kind - 1;
-        read_key(reader, selecting, jox_yaml_get(map, selecting->name), item);
+        store_value(reader, selecting, jox_yaml_get(map, selecting->name), item);
     }
     good = good && reader->diagnostics->errors == errors;
     return map && owner->finish ? owner->finish(reader, map, item, good) : good;

@@ -2,10 +2,9 @@
    type, unit, range, default and meaning, and the member that its value is stored in. A JoxOwner is
    a kind of map that has keys ("scene", "place", "wall", ...). Since values are read by walking the
    rows, and the reference pages and JSON schemas are printed from them, a key is documented if it
-   is read. The table of the scene format is scene/key_table.c; it calls for each map:
-       jox_owner_read -> jox_owner_check_keys -> the readers of keys (JoxKey.read) ->
-   JoxOwner.finish and, once all items of a map or list are read, JoxOwner.resolve for each of them.
- */
+   is read. The table of the scene format is scene/key_table.c. For each map jox_owner_read calls
+   jox_owner_check_keys, the readers of its keys (JoxKey.read), and JoxOwner.finish; when all items
+   of a map or list are read, JoxOwner.resolve is called for each of them. */
 #ifndef JOX_SCENE_KEYS_H
 #define JOX_SCENE_KEYS_H
 
@@ -160,8 +159,8 @@ void jox_key_read_items(const JoxReader *reader, const JoxKey *key, const JoxYam
 /* Returns a number within the key's range; if the node is NULL or wrong (reported), the default, or
    NAN if there is none. */
 double jox_key_read_number(const JoxReader *reader, const JoxKey *key, const JoxYaml *node);
-/* Reads two or three numbers within the key's range; false if the node is NULL or wrong (reported).
- */
+/* Reads two or three numbers within the key's range; false if the node is NULL or wrong
+   (reported). */
 bool jox_key_read_vector(const JoxReader *reader, const JoxKey *key, const JoxYaml *node,
                          double *out, int count);
 /* Returns the text of a scalar node; NULL if the node is NULL, or not a scalar: then reports that

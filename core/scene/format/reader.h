@@ -19,8 +19,8 @@ void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *c
 /* Whether `name` is allowed as the name of a `what` ("group"); reports an error if not. */
 bool jox_scene_check_name(const JoxReader *reader, JoxPosition at, const char *what,
                           const char *name);
-/* Returns the hint "Did you mean 'x'?", in the arena, for a misspelt word; NULL if no name is near.
- */
+/* Returns the hint "Did you mean 'x'?", in the arena, for a misspelt word; NULL if no name is
+   near. */
 const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,
                               size_t count);
 

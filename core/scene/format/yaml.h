@@ -47,7 +47,7 @@ typedef struct JoxYamlFiles {
 
 /* Reads a file, or `text` under the name `path`, with what it includes, and appends the files to
    the list; NULL with errors. */
-JoxYaml *jox_yaml_load(JoxArena *arena, const char *path, const char *text, size_t length,
+JoxYaml *jox_yaml_read(JoxArena *arena, const char *path, const char *text, size_t length,
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics);
 /* Whether two trees hold the same, whatever their positions. Both may be NULL. */
 bool jox_yaml_same(const JoxYaml *a, const JoxYaml *b);

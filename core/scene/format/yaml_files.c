@@ -264,8 +264,8 @@ static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
 
 /* ---- files ---- */
 
-static JoxYaml *load_file(JoxArena *arena, const char *path, const char *text, size_t length,
-                          JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from);
+static JoxYaml *read_yaml_file(JoxArena *arena, const char *path, const char *text, size_t length,
+                               JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from);
 
 /* Merges the files that a tree includes into it, in their order; its own keys win. */
 static void include_files(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFiles *files,
@@ -303,14 +303,14 @@ static void include_files(JoxArena *arena, JoxYaml *root, const char *path, JoxY
                            name->text);
             continue;
         }
-        JoxYaml *base = load_file(arena, beside, NULL, 0, files, diagnostics, name->position);
+        JoxYaml *base = read_yaml_file(arena, beside, NULL, 0, files, diagnostics, name->position);
         if (base)
             jox_yaml_merge(arena, root, base);
     }
 }
 
-static JoxYaml *load_file(JoxArena *arena, const char *path, const char *text, size_t length,
-                          JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from) {
+static JoxYaml *read_yaml_file(JoxArena *arena, const char *path, const char *text, size_t length,
+                               JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from) {
     char *own = NULL;
     const char *wrong = NULL;
     if (!text)
@@ -346,7 +346,7 @@ static JoxYaml *load_file(JoxArena *arena, const char *path, const char *text, s
     return root;
 }
 
-JoxYaml *jox_yaml_load(JoxArena *arena, const char *path, const char *text, size_t length,
+JoxYaml *jox_yaml_read(JoxArena *arena, const char *path, const char *text, size_t length,
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics) {
-    return load_file(arena, path, text, length, files, diagnostics, (JoxPosition){0});
+    return read_yaml_file(arena, path, text, length, files, diagnostics, (JoxPosition){0});
 }

@@ -41,7 +41,7 @@ static void write_types(JoxJson *json, const char *const types[2]) {
 }
 
 /* Writes the schema of a text that matches a pattern, as member `key`; NULL: as an item of an
- * array. */
+   array. */
 static void write_pattern(JoxJson *json, const char *key, const char *pattern) {
     jox_json_object(json, key);
     write_type(json, "string");
@@ -149,8 +149,8 @@ static void write_parameters(JoxJson *json) {
     jox_json_end(json);
 }
 
-/* Whether an owner has a key `name`. */
-static bool has_names(const char *owner, size_t length) {
+/* Whether items of an owner have names: whether it has a key `name`. */
+static bool owner_has_name(const char *owner, size_t length) {
     for (size_t k = 0; k < jox_scene_format.key_count; k++) {
         const JoxKey *key = &jox_scene_format.keys[k];
         if (strlen(key->owner) == length && !strncmp(key->owner, owner, length) &&
@@ -178,7 +178,7 @@ static void write_content(const JoxKey *key, size_t length, JoxJson *json) {
         size_t open = length - 1;
         while (content[open] != '[')
             open--;
-        if (has_names(content, open)) /* a map changes items content an included scene by name */
+        if (owner_has_name(content, open)) /* a map changes items of an included scene by name */
             write_types(json, (const char *const[]){"array", "object"});
         else
             write_type(json, "array");
@@ -223,7 +223,7 @@ static void write_choices(const JoxKey *key, JoxJson *json) {
 }
 
 /* Writes the schema of one name or choice, or a list of them. */
-static void write_names(const JoxKey *key, JoxJson *json) {
+static void write_names_schema(const JoxKey *key, JoxJson *json) {
     jox_json_array(json, "anyOf");
     for (int list = 0; list < 2; list++) {
         jox_json_object(json, NULL);
@@ -263,7 +263,7 @@ static void write_key_type(const JoxKey *key, JoxJson *json) {
         write_vector(key, key->type == JOX_TYPE_POINT ? 2 : 3, json);
         return;
     case JOX_TYPE_NAMES:
-        write_names(key, json);
+        write_names_schema(key, json);
         return;
     default:
         break;
@@ -325,7 +325,7 @@ static bool is_joined(const char *owner) {
     return !strcmp(owner, "scene") || !strcmp(owner, "place") || !strcmp(owner, "group");
 }
 
-static void write_object(const char *owner, JoxJson *json) {
+static void write_owner_schema(const char *owner, JoxJson *json) {
     write_type(json, "object");
     jox_json_bool(json, "additionalProperties", false);
     if (!is_joined(owner))
@@ -401,7 +401,7 @@ void jox_scene_print_json_schema(const char *root_owner, JoxText *out) {
     jox_json_string(&json, "$schema", "http://json-schema.org/draft-07/schema#");
     jox_json_string(&json, "title",
                     scene ? "A scene of Jostle" : "The mod.yaml of a mod for Jostle");
-    write_object(root_owner, &json);
+    write_owner_schema(root_owner, &json);
     if (scene)
         jox_schema_write_required_of_scene(&json);
     json.lines = 2;
@@ -411,7 +411,7 @@ void jox_scene_print_json_schema(const char *root_owner, JoxText *out) {
         if (!belongs_to_root(jox_scene_format.owners[i].name, root_owner))
             continue;
         jox_json_object(&json, jox_scene_format.owners[i].name);
-        write_object(jox_scene_format.owners[i].name, &json);
+        write_owner_schema(jox_scene_format.owners[i].name, &json);
         jox_json_end(&json);
     }
     jox_json_end(&json);

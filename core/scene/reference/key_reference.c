@@ -1,5 +1,5 @@
-/* Prints the table of keys as a reference: as plain text for a terminal, and as a page of Markdown.
- */
+/* Prints the table of keys as a reference: as plain text for a terminal, and as a page of
+   Markdown. */
 #include <string.h>
 
 #include "scene/format/keys.h"

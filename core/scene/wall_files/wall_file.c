@@ -1,3 +1,4 @@
+/* Chooses the reader of a text with walls, and takes the text out of a recording. */
 #include "scene/wall_files/wall_file.h"
 
 #include <ctype.h>

@@ -96,7 +96,7 @@ static uint32_t find_side_slot(const Geometry *g, const struct Side *side) {
 }
 
 /* Adds the side between a and b to the table; false if it is there, in either direction. */
-static bool add_side(Geometry *g, JoxV2 a, JoxV2 b) {
+static bool add_wall_side(Geometry *g, JoxV2 a, JoxV2 b) {
     struct Side side = {(int32_t)lroundf(a.x * 1000), (int32_t)lroundf(a.y * 1000),
                         (int32_t)lroundf(b.x * 1000), (int32_t)lroundf(b.y * 1000), true};
     if (side.ax > side.bx || (side.ax == side.bx && side.ay > side.by))
@@ -125,7 +125,7 @@ static void add_new_sides(Geometry *g, bool closed) {
     uint32_t from = 0, sides = closed ? g->count : g->count - 1, fresh = 0;
     bool *new = jox_alloc(sides + 1, sizeof *new);
     for (uint32_t s = 0; s < sides; s++)
-        fresh += new[s] = add_side(g, g->points[s], g->points[(s + 1) % g->count]);
+        fresh += new[s] = add_wall_side(g, g->points[s], g->points[(s + 1) % g->count]);
     if (closed && fresh == sides) {
         jox_walls_add_polyline(g->walls, g->points, g->count, true, g->options->height);
         jox_free(new);
@@ -144,7 +144,7 @@ static void add_new_sides(Geometry *g, bool closed) {
 }
 
 /* Adds the current line as walls, or as an obstacle, and begins another. */
-static void add_line(Geometry *g) {
+static void add_current_line(Geometry *g) {
     uint32_t a, b;
     if (g->count < 2) {
         g->count = 0;
@@ -191,7 +191,7 @@ static void end_piece(Geometry *g) {
     JoxV2 *kept = jox_alloc(fresh, sizeof *kept);
     memcpy(kept, g->points + g->piece, fresh * sizeof *kept);
     g->count = g->piece;
-    add_line(g);
+    add_current_line(g);
     memcpy(g->points, kept, fresh * sizeof *kept);
     g->count = fresh;
     jox_free(kept);
@@ -262,7 +262,7 @@ static void warn_of_slope(Geometry *g, const char **attributes) {
 static void begin_obstacle(Geometry *g, const char **attributes) {
     double height;
     const char *text = find_attribute(attributes, "height");
-    add_line(g); /* the walls before it */
+    add_current_line(g); /* the walls before it */
     g->in_obstacle = true;
     g->height = g->options->height;
     if (text && parse_xml_number(text, &height) && height > 0.0 &&
@@ -272,7 +272,7 @@ static void begin_obstacle(Geometry *g, const char **attributes) {
 
 static void begin_door(Geometry *g, const char **attributes) {
     const char *id = find_attribute(attributes, "id");
-    add_line(g);
+    add_current_line(g);
     if (!id || !jox_name_is_plain(id) || strlen(id) > 40) {
         report_xml_error(g, "<transition id=\"1\" ...>",
                          "a transition needs an id: letters and digits%s", "");
@@ -328,7 +328,7 @@ static void XMLCALL end_element(void *context, const char *name) {
         end_door(g);
     } else if (g->inside == NOTHING && (!strcmp(name, "obstacle") || !strcmp(name, "subroom") ||
                                         !strcmp(name, "geometry"))) {
-        add_line(g);
+        add_current_line(g);
         g->in_obstacle = false;
     }
 }
