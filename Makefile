@@ -213,7 +213,7 @@ $(B)/%.o: %.c Makefile
 # Files compiled at -O3, which vectorizes their loops over numbers without changing a bit: kernels and a few others.
 VECTORISED := core/record/fields/density core/record/fields/density_put core/record/fields/density_diffuse \
            core/world/guard core/world/statistics core/agents/agents core/force/stages/forces core/force/push/pass_on core/force/contact/crush_load \
-           core/machine/group core/machine/think core/machine/target core/nav/near/perceive core/nav/move/move \
+           core/machine/batches core/machine/think core/machine/target core/nav/near/perceive core/nav/move/move \
            $(foreach k,$(SRC_WIDE:%.c=%),$(ISAS:%=$k.%))
 $(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)
 define wide

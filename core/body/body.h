@@ -17,7 +17,7 @@
 
 #include "base/sections.h"
 #include "base/text.h"
-#include "body/path.h"
+#include "body/drive_path.h"
 #include "geom/objects.h"
 #include "geom/walls.h"
 #include "jostle.h"

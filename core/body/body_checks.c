@@ -3,9 +3,9 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "body/ball_hits.h"
 #include "body/bonds.h"
 #include "body/footprint.h"
-#include "body/sweep.h"
 
 static bool is_finite_triple(const double v[3]) {
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);

@@ -1,4 +1,4 @@
-/* Graph of blocks and bonds: creates, searches, splits it. bonds_load.c computes the loads. */
+/* Graph of blocks and bonds: creates, searches, splits it. bond_forces.c computes the loads. */
 #include "body/bonds.h"
 
 #include <math.h>

@@ -19,11 +19,11 @@ extern "C" {
 #include "base/clock.h"
 #include "base/mem.h"
 #include "base/sort.h"
+#include "body/ball_hits.h"
 #include "body/body.h"
 #include "body/bonds.h"
 #include "body/footprint.h"
 #include "body/image.h"
-#include "body/sweep.h"
 #include "geom/wall_grid.h"
 }
 

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "cli/cli.h"
 
 /* Prints hints on parts of behaviours that had no effect, one a line. */

@@ -1,6 +1,6 @@
 /* The machines of a scene as JSON: states with their parameters and the place that set each, and
    transitions as they are written. Also the line of Lua that would set a parameter. Called for the
-   scene message (live_scene.c) and the command `lua` (scene_verbs.c). */
+   scene message (live_scene.c) and the command `lua` (scene_commands.c). */
 #include <ctype.h>
 #include <math.h>
 

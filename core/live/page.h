@@ -53,7 +53,7 @@ void jox_live_say(JoxLivePage *page, uint32_t client, const char *level, const c
 /* Answers a command that cannot be carried out by {"type": "refused", ...}. */
 void jox_live_refuse(const JoxLiveRequest *request, const char *why);
 
-/* page_verbs.c: parses a browser's command and carries it out, or refuses it. */
+/* page_commands.c: parses a browser's command and carries it out, or refuses it. */
 void jox_live_run_command(JoxLivePage *page, JoxLiveWatcher *watcher, const char *json);
 /* Tells the server which channels a browser receives. */
 void jox_live_set_channels(JoxLivePage *page, const JoxLiveWatcher *watcher);

@@ -5,7 +5,7 @@
 
 #include "live/live_parts.h"
 #include "live/replay.h"
-#include "record/local.h"
+#include "record/local_samples.h"
 #include "record/trajectory_reader.h"
 
 /* No frame, no slot, no row of a body. */

@@ -62,7 +62,7 @@ void jox_scene_page_diagnosed(void *scene, const bool *parts, const JoxDiagnosti
 /* Sends a client, or JOX_VIEW_ALL, the errors that are kept. */
 void jox_scene_page_send_errors(void *scene, uint32_t client);
 void jox_scene_page_forget_errors(JoxScenePage *scene);
-/* scene_verbs.c: commands of browsers, by verb. */
+/* scene_commands.c: commands of browsers, by verb. */
 void jox_scene_page_pause(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_step(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_restart(void *scene, const JoxLiveRequest *request);

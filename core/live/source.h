@@ -59,7 +59,8 @@ typedef struct JoxLiveSource {
     /* Steps or plays if that is due at wall time `now`, s; returns the time until the next call is
        due, s, 0 for at once. */
     double (*advance)(void *self, double now);
-    /* By command. NULL: the source lacks it, or page_verbs.c handles it (colour, field, speed). */
+    /* By command. NULL: the source lacks it, or page_commands.c handles it (colour, field, speed).
+     */
     void (*verbs[JOX_LIVE_VERB_COUNT])(void *self, const JoxLiveRequest *request);
 } JoxLiveSource;
 

@@ -8,7 +8,7 @@
 #include "base/format/diag.h"
 #include "base/text.h"
 #include "lua/language/scope.h"
-#include "lua/vm/limits.h"
+#include "lua/vm/script_limits.h"
 #include "machine/run.h"
 
 /* JOX_MOST_FAILURES: failures of a function in a second of simulated time at which it is suspended.

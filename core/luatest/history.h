@@ -1,5 +1,5 @@
 /* Record of which agents have been in which state since a test's scene was loaded; `reaches`,
-   `never` and `entered` of tests (scene.c) read it. */
+   `never` and `entered` of tests (scene_methods.c) read it. */
 #ifndef JOX_LUATEST_HISTORY_H
 #define JOX_LUATEST_HISTORY_H
 

@@ -1,10 +1,10 @@
 /* Shared by the files of luatest: the running test file, and the functions that make its tables and
-   texts. testing.c owns a JoxTestRun; the functions of tests find it by jox_test_run_of. */
+   texts. test_file.c owns a JoxTestRun; the functions of tests find it by jox_test_run_of. */
 #ifndef JOX_LUATEST_INTERNAL_H
 #define JOX_LUATEST_INTERNAL_H
 
 #include "lua/language/script.h"
-#include "luatest/testing.h"
+#include "luatest/test_file.h"
 
 /* A test that a file has registered. */
 typedef struct JoxTest {

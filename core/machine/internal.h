@@ -13,7 +13,7 @@ typedef struct JoxBatchRange {
     uint32_t begin, count; /* range of scratch->grouped */
 } JoxBatchRange;
 
-/* A parameter that was computed to an invalid number, such as NaN (odd.c). */
+/* A parameter that was computed to an invalid number, such as NaN (invalid_values.c). */
 typedef struct JoxTold JoxTold;
 typedef struct JoxOdd {
     bool found;
@@ -134,7 +134,7 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t agent, const JoxSteerTer
 /* Returns the direction of a term wander: it turns gradually, leads away from walls, and back into
    the place `target` if that is given. */
 JoxV2 jox_steer_wander(const JoxMachineRun *run, uint32_t agent, int32_t target);
-/* steering/rows.c: writes the spots of all agents in rows to scratch->row. */
+/* steering/formation.c: writes the spots of all agents in rows to scratch->row. */
 void jox_rows_form(JoxMachineRun *run);
 /* gather_ground.c: returns the term by which agents in a state wait in an area, or NULL. */
 const JoxSteerTerm *jox_gather_term(const JoxState *state);
@@ -263,10 +263,10 @@ void jox_counts_spend(JoxMachineRun *run);
 void jox_counts_add_before(JoxMachineCounts *counts, const char *from, const char *to,
                            uint64_t taken);
 void jox_counts_free(JoxMachineCounts *counts);
-/* odd.c: odd parameters are numbers that are invalid for their parameter. jox_is_odd tests one;
-   jox_odd_look finds the first odd number of a batch that was not reported yet, and stores it in
-   `first` if it comes before that; jox_odd_first returns the first of all workers; jox_odd_tell
-   reports it. */
+/* invalid_values.c: odd parameters are numbers that are invalid for their parameter. jox_is_odd
+   tests one; jox_odd_look finds the first odd number of a batch that was not reported yet, and
+   stores it in `first` if it comes before that; jox_odd_first returns the first of all workers;
+   jox_odd_tell reports it. */
 bool jox_is_odd(int parameter, double value);
 void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, int parameter,
                   const double *values, JoxOdd *first);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "picture/draw_parts.h"
 #include "record/danger/levels.h"
 

@@ -1,4 +1,5 @@
-/* Figures and sections shared by the pages of runs (page.c) and of recordings (report_page.c). */
+/* Figures and sections shared by the pages of runs (run_page.c) and of recordings
+ * (recording_page.c). */
 #ifndef JOX_REPORT_PAGE_PARTS_H
 #define JOX_REPORT_PAGE_PARTS_H
 

@@ -1,4 +1,4 @@
-/* A report on a recording (jo_report): report.c loads, measures and writes files, report_page.c
+/* A report on a recording (jo_report): report.c loads, measures and writes files, recording_page.c
    writes index.html. */
 #ifndef JOX_REPORT_REPORT_H
 #define JOX_REPORT_REPORT_H

@@ -1,4 +1,4 @@
-/* A run as the subject of a report: used by its page (page.c), its listener (run_report.c) and
+/* A run as the subject of a report: used by its page (run_page.c), its listener (run_report.c) and
    comparisons. */
 #ifndef JOX_REPORT_RUN_SUBJECT_H
 #define JOX_REPORT_RUN_SUBJECT_H

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 #include "jostle.h"
 #include "record/danger/danger.h"
-#include "record/local.h"
+#include "record/local_samples.h"
 #include "record/regions.h"
 
 /* jox_run_collect_* attach a listener that collects from here on, unless it is there already. False

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"

@@ -60,8 +60,8 @@ void jox_run_release_listeners(JoScene *scene);
    is longer than the interval. */
 bool jox_run_is_due(const JoScene *scene, double interval);
 
-/* Name of the piece (base/format/pieces.h) of a checkpoint that is the name of a kind of listener,
-   a zero, and its sections. */
+/* Name of the piece (base/format/piece_file.h) of a checkpoint that is the name of a kind of
+   listener, a zero, and its sections. */
 #define JOX_PIECE_LISTENER "listener"
 /* Gives a listener what one of its kind had, by the checkpoint that the scene was resumed from.
    False with `error` where it has none such. */

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "run/run.h"
 

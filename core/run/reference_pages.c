@@ -4,7 +4,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "jostle_tools.h"
-#include "lua/reference.h"
+#include "lua/behaviour_reference.h"
 #include "run/run.h"
 #include "world/verbs/verbs.h"
 

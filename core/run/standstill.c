@@ -2,7 +2,7 @@
    whose goal no way leads. Said while the run goes on, once each. */
 #include <math.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "run/run.h"
 #include "run/standstill.h"

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "nav/spots/spots.h"
 #include "run/run.h"

@@ -2,7 +2,7 @@
    numbers, then name and unit. */
 #include <string.h>
 
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "base/mem.h"
 #include "sweep/sweep.h"
 

@@ -1,5 +1,5 @@
-/* Samples curves over time and fields over the floor while one run goes on. run.c attaches this as
-   a listener of the scene and fetches the result as pieces. */
+/* Samples curves over time and fields over the floor while one run goes on. simulate.c attaches
+   this as a listener of the scene and fetches the result as pieces. */
 #include <math.h>
 #include <string.h>
 

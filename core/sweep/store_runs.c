@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/format/json.h"
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "base/guard.h"
 #include "record/aggregate.h"
 #include "sweep/store.h"

@@ -10,7 +10,7 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "base/guard.h"
 #include "run/messages.h"
 #include "sweep/inputs.h"

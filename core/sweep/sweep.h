@@ -73,9 +73,10 @@ typedef struct JoxSweepRun {
    so many points of a curve, and at most so many cells of a field. */
 enum { JOX_SWEEP_SAMPLES = 240, JOX_SWEEP_CELLS = 20000 };
 
-/* Simulates a run and appends its results to `pieces` (base/format/pieces.h): "state" (a number),
-   "reason" (text, unless done), "said" (all messages), and if it ended "numbers" (JoxSweepNumbers),
-   "summary", "plan" (JSON of plan_json.c), "curve" and "field". Called in a child process. */
+/* Simulates a run and appends its results to `pieces` (base/format/piece_file.h): "state" (a
+   number), "reason" (text, unless done), "said" (all messages), and if it ended "numbers"
+   (JoxSweepNumbers), "summary", "plan" (JSON of plan_json.c), "curve" and "field". Called in a
+   child process. */
 void jox_sweep_simulate(const JoxSweepRun *run, JoxText *pieces);
 
 typedef struct JoxSweepNumbers {

@@ -8,8 +8,8 @@
 
 #include "base/assert.h"
 #include "base/file.h"
-#include "base/format/noun.h"
 #include "base/format/path.h"
+#include "base/format/plurals.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "world/world.h"

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "base/assert.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/number/bits.h"
 #include "world/world.h"
 

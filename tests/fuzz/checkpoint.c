@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "base/mem.h"
 #include "support/fuzz.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/format/diag.h"
 #include "base/format/name.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/text.h"
 
 static void json_escapes_any_bytes(void **state) {

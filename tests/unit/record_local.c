@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "record/local.h"
+#include "record/local_samples.h"
 #include "record_draw.h"
 #include "unit/assert_near.h"
 

@@ -1,7 +1,7 @@
 /* Every example of the page of words runs: each is written out as a behaviour, or as a mod's patch
    of one, and lived by three agents in a yard. */
 #include "base/text.h"
-#include "lua/reference.h"
+#include "lua/behaviour_reference.h"
 #include "messages.h"
 #include "run/run.h"
 #include "unit/test_folder.h"

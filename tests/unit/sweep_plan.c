@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/clock.h"
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "base/mem.h"
 #include "sweep/sweep.h"
 

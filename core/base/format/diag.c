@@ -1,5 +1,5 @@
 #include "base/format/diag.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "base/format/mod.h"
 #include "geom/place.h"
 #include "geom/walls.h"
-#include "lua/vm/limits.h"
+#include "lua/vm/script_limits.h"
 
 /* All scripts of a run with their limits (NULL: the defaults), which are copied. Freeing it frees
    the scripts and so the functions of all machines, but not the machines. */

@@ -10,7 +10,7 @@
 #include <lua.h>
 
 #include "base/text.h"
-#include "lua/vm/limits.h"
+#include "lua/vm/script_limits.h"
 #include "lua/vm/source.h"
 
 /* Shared by all Lua states of a run; outlives them. */

@@ -1,5 +1,5 @@
-/* Measures what people bear in each frame and what the fields show at samples. limits.c has the
-   limits and writes the figures. */
+/* Measures what people bear in each frame and what the fields show at samples. danger_limits.c has
+   the limits and writes the figures. */
 #include "record/danger/danger.h"
 
 #include <math.h>

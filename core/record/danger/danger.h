@@ -10,7 +10,7 @@
 
    Compression and load are exponential means over 1 s for each person: sustained pushes, not the
    knock of one step. It also collects levels of service (levels.h), congestion (congestion.h), flow
-   over lines (lines.h), loads on walls (walls.h) and when people left (leaving.h).
+   over lines (line_counts.h), loads on walls (wall_loads.h) and when people left (leaving.h).
 
    A run or an analysis of a recording creates one, adds lines and areas, gives each frame by
    jox_danger_frame, and at the end reads the figures or writes the JSON of the summary. */
@@ -25,7 +25,7 @@
 #include "geom/place.h"
 #include "geom/walls.h"
 #include "record/frame.h"
-#include "record/local.h"
+#include "record/local_samples.h"
 #include "world/exits.h"
 #include "world/probe.h"
 
@@ -83,7 +83,7 @@ typedef struct JoxDanger JoxDanger;
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
 /* Creates one on local densities of the caller, which gives each frame to `local` first. */
 JoxDanger *jox_danger_create_on(JoxLocal *local);
-/* Adds a line to measure, such as a door (lines.h), before the first frame. */
+/* Adds a line to measure, such as a door (line_counts.h), before the first frame. */
 void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);
 /* Adds the lines of probes `flow`, the polygons among the places, and the areas of probes
    `measure`. */

@@ -1,4 +1,4 @@
-/* Members of JoxDanger and constants that danger.c and limits.c share, and report/ for its
+/* Members of JoxDanger and constants that danger.c and danger_limits.c share, and report/ for its
    tables. */
 #ifndef JOX_RECORD_DANGER_PARTS_H
 #define JOX_RECORD_DANGER_PARTS_H
@@ -7,10 +7,10 @@
 #include "record/danger/congestion.h"
 #include "record/danger/danger.h"
 #include "record/danger/leaving.h"
-#include "record/danger/lines.h"
-#include "record/danger/walls.h"
+#include "record/danger/line_counts.h"
+#include "record/danger/wall_loads.h"
 #include "record/fields/voronoi_people.h"
-#include "record/local.h"
+#include "record/local_samples.h"
 
 enum {
     JOX_DANGER_EXITS = JOX_LEAVING_EXITS, /* exits with a column of their own over time */

@@ -12,7 +12,7 @@
    map may ask for that, as in Curtis et al.'s study of the Mataf.
 
    A caller creates a density, sets the walls by jox_density_walls before each sample, samples
-   crowds, and frees it. record/local.h does this for most users. */
+   crowds, and frees it. record/local_samples.h does this for most users. */
 #ifndef JOX_RECORD_FIELDS_DENSITY_H
 #define JOX_RECORD_FIELDS_DENSITY_H
 

@@ -12,7 +12,7 @@
 
 #include "base/mem.h"
 #include "record/fields/density.h"
-#include "record/local.h"
+#include "record/local_samples.h"
 #include "record/probes/probe_parts.h"
 
 enum { DENSITY, SPEED, COMPRESSION, FIELDS };

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 

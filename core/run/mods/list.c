@@ -7,7 +7,7 @@
 #include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "base/pack.h"
+#include "base/result_block.h"
 #include "run/messages.h"
 #include "run/read_scene.h"
 #include "scene/mods_enabled.h"

@@ -2,7 +2,7 @@
 #ifndef JOX_RUN_MODS_SETTINGS_H
 #define JOX_RUN_MODS_SETTINGS_H
 
-#include "base/pack.h"
+#include "base/result_block.h"
 #include "run/run.h"
 
 /* Begins the list in a pack; and what the value is now, as text. */

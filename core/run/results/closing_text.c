@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"

@@ -1,7 +1,7 @@
 /* People whom sources or start times had due and who did not come in: for the closing lines of a
    run and for its figures. */
 #include "run/results/demand.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "run/run.h"
 
 enum { MOST_TOLD = 5 }; /* sources named in the closing lines */

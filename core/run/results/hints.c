@@ -8,7 +8,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "base/pack.h"
+#include "base/result_block.h"
 #include "run/run.h"
 #include "run/scene_machines.h"
 

@@ -2,7 +2,7 @@
    its figures. */
 #include <math.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "run/results/kept_people.h"
 #include "run/run.h"
 #include "run/standstill.h"

@@ -8,7 +8,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "base/pack.h"
+#include "base/result_block.h"
 #include "jostle_tools.h"
 #include "run/probe_listener.h"
 #include "run/run.h"

@@ -5,9 +5,9 @@
 
 #include "base/assert.h"
 #include "base/format/json.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/guard.h"
-#include "base/pack.h"
+#include "base/result_block.h"
 #include "jostle_tools.h"
 #include "run/results/result_structs.h"
 #include "run/run.h"

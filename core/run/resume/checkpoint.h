@@ -2,7 +2,7 @@
 #ifndef JOX_RUN_RESUME_CHECKPOINT_H
 #define JOX_RUN_RESUME_CHECKPOINT_H
 
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "run/run.h"
 
 #define JOX_CHECKPOINT_LATEST "latest.checkpoint"

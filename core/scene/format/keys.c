@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 
 enum { MOST_KEYS = 64 }; /* keys of an owner */
 

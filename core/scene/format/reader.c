@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/format/name.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/text.h"
 
 void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,

@@ -217,7 +217,7 @@ double *jox_side_sorted_values(const JoxSide *side, const char *figure, size_t *
 void jox_compare_write_text(const JoxComparison *c, JoxText *out);
 void jox_compare_write_json(const JoxComparison *c, JoxText *out);
 /* Write into the def's folder: plots.c curve-N.svg and effects.svg, side_maps.c plan-N.svg and PNG,
-   page.c index.html, which contains these. They return false with a sentence in `why`. */
+   compare_page.c index.html, which contains these. They return false with a sentence in `why`. */
 bool jox_compare_draw_plots(const JoxComparison *c, JoxText *why);
 bool jox_compare_draw_plans(const JoxComparison *c, JoxText *why);
 void jox_compare_put_plans(FILE *out, const JoxComparison *c);

@@ -6,7 +6,7 @@
 #include "base/format/json.h"
 #include "base/guard.h"
 #include "record/aggregate.h"
-#include "record/local.h"
+#include "record/local_samples.h"
 #include "record/trajectories.h"
 #include "run/messages.h"
 #include "sweep/compare/compare.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "picture/html.h"
 #include "picture/plot.h"
 #include "record/danger/danger.h"

@@ -1,7 +1,7 @@
 /* Writes the summary of a sweep of one variant in sentences: the first section of its page. */
 #include <stdio.h>
 
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "picture/html.h"
 #include "record/danger/danger.h"
 #include "sweep/compare/compare.h"

@@ -1,7 +1,7 @@
 /* Runs test files of behaviours, written in Lua. The runner knows scenes by a driver alone, which
-   test.c implements for the command `jostle test`. */
-#ifndef JOX_LUATEST_TESTING_H
-#define JOX_LUATEST_TESTING_H
+   run_tests.c implements for the command `jostle test`. */
+#ifndef JOX_LUATEST_TEST_FILE_H
+#define JOX_LUATEST_TEST_FILE_H
 
 #include "lua/loader.h"
 

@@ -1,6 +1,6 @@
 /* Rows of agents (term `formation`): along a line, or abreast behind another agent. Agents are
    placed in the order in which they stand along the row, so that no ways cross. */
-#include "machine/rows.h"
+#include "machine/formation.h"
 
 #include "base/assert.h"
 #include "base/sort.h"

@@ -1,5 +1,5 @@
 /* Counts crossings of lines in each frame, and samples flow, queue and level of service. */
-#include "record/danger/lines.h"
+#include "record/danger/line_counts.h"
 
 #include <math.h>
 

@@ -11,8 +11,8 @@
  *
  * Part 0 begins with the struct that is returned. The pointer that jox_pack_add returns is valid
  * until the next call for the same part. */
-#ifndef JOX_BASE_PACK_H
-#define JOX_BASE_PACK_H
+#ifndef JOX_BASE_RESULT_BLOCK_H
+#define JOX_BASE_RESULT_BLOCK_H
 
 #include <stddef.h>
 #include <stdint.h>

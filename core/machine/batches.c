@@ -5,7 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
-#include "machine/rows.h"
+#include "machine/formation.h"
 
 JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run) {
     if (!run->scratch)

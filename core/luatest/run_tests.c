@@ -1,5 +1,5 @@
 /* jo_test: runs test files and prints or writes their results. Implements the driver by which tests
-   load and step scenes (testing.h). */
+   load and step scenes (test_file.h). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
-#include "luatest/testing.h"
+#include "luatest/test_file.h"
 #include "run/load_scene.h"
 #include "run/run.h"
 

@@ -1,5 +1,5 @@
 /* Updates the mean load of each wall piece in each frame, and writes the figures. */
-#include "record/danger/walls.h"
+#include "record/danger/wall_loads.h"
 
 #include <math.h>
 #include <string.h>

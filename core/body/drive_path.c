@@ -1,4 +1,4 @@
-#include "body/path.h"
+#include "body/drive_path.h"
 
 #include <math.h>
 #include <stddef.h>

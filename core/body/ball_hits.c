@@ -1,4 +1,4 @@
-#include "body/sweep.h"
+#include "body/ball_hits.h"
 
 #include <string.h>
 

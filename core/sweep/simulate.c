@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 #include "run/results/result_structs.h"
 #include "run/run.h"
 #include "sweep/sweep.h"

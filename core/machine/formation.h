@@ -1,7 +1,7 @@
-/* Agents that stand in rows (steering term JOX_STEER_FORMATION): group.c reserves the entries,
-   steering/rows.c fills them. */
-#ifndef JOX_MACHINE_ROWS_H
-#define JOX_MACHINE_ROWS_H
+/* Agents that stand in rows (steering term JOX_STEER_FORMATION): batches.c reserves the entries,
+   steering/formation.c fills them. */
+#ifndef JOX_MACHINE_FORMATION_H
+#define JOX_MACHINE_FORMATION_H
 
 #include "machine/internal.h"
 

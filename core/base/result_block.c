@@ -1,4 +1,4 @@
-#include "base/pack.h"
+#include "base/result_block.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* Finds the running test file from a Lua state. Apart from testing.c, so that the functions of
+/* Finds the running test file from a Lua state. Apart from test_file.c, so that the functions of
    tests need not call the file that calls them. */
 #include "luatest/internal.h"
 

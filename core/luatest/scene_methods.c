@@ -1,5 +1,5 @@
 /* The functions of tests that concern scenes: `scene` and `refused`, and the methods of a scene,
-   which step it, read it and assert. Scenes are reached through the driver (testing.h). */
+   which step it, read it and assert. Scenes are reached through the driver (test_file.h). */
 #include "luatest/internal.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 #include "base/guard.h"
 #include "jostle_tools.h"
 #include "picture/html.h"

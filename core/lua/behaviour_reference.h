@@ -1,6 +1,6 @@
 /* Pages and files generated from the vocabulary. The command `jostle reference` prints them. */
-#ifndef JOX_LUA_REFERENCE_H
-#define JOX_LUA_REFERENCE_H
+#ifndef JOX_LUA_BEHAVIOUR_REFERENCE_H
+#define JOX_LUA_BEHAVIOUR_REFERENCE_H
 
 #include "base/text.h"
 

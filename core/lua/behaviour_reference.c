@@ -1,4 +1,4 @@
-#include "lua/reference.h"
+#include "lua/behaviour_reference.h"
 
 #include <stdio.h>
 #include <string.h>

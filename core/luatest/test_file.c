@@ -1,6 +1,6 @@
 /* Runs a test file: its code registers tests, which are then called one by one, each with its own
    budget of instructions. */
-#include "luatest/testing.h"
+#include "luatest/test_file.h"
 
 #include <string.h>
 

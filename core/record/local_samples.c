@@ -1,6 +1,6 @@
 /* Samples density, flow and crowd pressure of frames every half second. The velocity in flow and
    pressure is that between samples. */
-#include "record/local.h"
+#include "record/local_samples.h"
 
 #include <math.h>
 

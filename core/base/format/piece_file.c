@@ -1,4 +1,4 @@
-#include "base/format/pieces.h"
+#include "base/format/piece_file.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Numbers with nouns in the singular or plural ("12 agents"), and articles, for messages. */
-#ifndef JOX_BASE_FORMAT_NOUN_H
-#define JOX_BASE_FORMAT_NOUN_H
+#ifndef JOX_BASE_FORMAT_PLURALS_H
+#define JOX_BASE_FORMAT_PLURALS_H
 
 #include <stdint.h>
 

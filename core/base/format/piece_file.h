@@ -1,7 +1,7 @@
 /* The file format of checkpoints: a head and a list of named pieces, each with a checksum. Numbers
    are in this machine's representation: a checkpoint cannot be moved to another kind of machine. */
-#ifndef JOX_BASE_FORMAT_PIECES_H
-#define JOX_BASE_FORMAT_PIECES_H
+#ifndef JOX_BASE_FORMAT_PIECE_FILE_H
+#define JOX_BASE_FORMAT_PIECE_FILE_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* Path of a kinematic body: position and velocity at a given time. bullet_drive.cc calls it at
    each substep. */
-#ifndef JOX_BODY_PATH_H
-#define JOX_BODY_PATH_H
+#ifndef JOX_BODY_DRIVE_PATH_H
+#define JOX_BODY_DRIVE_PATH_H
 
 #include <stdbool.h>
 #include <stdint.h>

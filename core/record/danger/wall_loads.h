@@ -1,8 +1,8 @@
 /* Loads on walls, in pieces of at most a metre: the mean of each over 1 s, as for people, its
    greatest value, and since when it exceeds what a steel railing withstood. danger.c owns and feeds
    it. */
-#ifndef JOX_RECORD_DANGER_WALLS_H
-#define JOX_RECORD_DANGER_WALLS_H
+#ifndef JOX_RECORD_DANGER_WALL_LOADS_H
+#define JOX_RECORD_DANGER_WALL_LOADS_H
 
 #include <stdbool.h>
 

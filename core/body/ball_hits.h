@@ -1,7 +1,7 @@
 /* Sweep of a fast body, taken as a sphere, against people, taken as upright cylinders: finds the
    first hit and its impulse. bullet_step.cc calls it in each substep. */
-#ifndef JOX_BODY_SWEEP_H
-#define JOX_BODY_SWEEP_H
+#ifndef JOX_BODY_BALL_HITS_H
+#define JOX_BODY_BALL_HITS_H
 
 #include "body/body.h"
 

@@ -1,4 +1,4 @@
-#include "base/format/noun.h"
+#include "base/format/plurals.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/format/noun.h"
 #include "base/format/path.h"
+#include "base/format/plurals.h"
 #include "base/hash.h"
 #include "picture/html.h"
 #include "picture/plot.h"

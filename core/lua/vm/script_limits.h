@@ -1,7 +1,7 @@
 /* Limits of a script, and the record of its files. Included by the VM and, through lua/loader.h, by
    the tools. */
-#ifndef JOX_LUA_VM_LIMITS_H
-#define JOX_LUA_VM_LIMITS_H
+#ifndef JOX_LUA_VM_SCRIPT_LIMITS_H
+#define JOX_LUA_VM_SCRIPT_LIMITS_H
 
 #include <stddef.h>
 #include <stdint.h>

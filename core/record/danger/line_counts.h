@@ -12,8 +12,8 @@
 
    Stop-and-go: the flow is below 0.8 per m s while the density before the line is 3.5 per m2 or
    more. Congestion is measured elsewhere (congestion.h). */
-#ifndef JOX_RECORD_DANGER_LINES_H
-#define JOX_RECORD_DANGER_LINES_H
+#ifndef JOX_RECORD_DANGER_LINE_COUNTS_H
+#define JOX_RECORD_DANGER_LINE_COUNTS_H
 
 #include <stdbool.h>
 #include <stdint.h>

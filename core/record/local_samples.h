@@ -1,8 +1,8 @@
 /* Local density, flow and crowd pressure on one grid, sampled every half second from the frames of
    a run or of a recording (fields/density.h, fields/pressure.h). Maps, danger, tables and summaries
    read it; jox_local_free frees all of it. */
-#ifndef JOX_RECORD_LOCAL_H
-#define JOX_RECORD_LOCAL_H
+#ifndef JOX_RECORD_LOCAL_SAMPLES_H
+#define JOX_RECORD_LOCAL_SAMPLES_H
 
 #include <stdbool.h>
 
