@@ -77,7 +77,7 @@ static void print_setting_place(const JoSetting *by, JoxText *out) {
 
 static void add_setter(JoScene *scene, uint32_t i, const JoxWatched *watched, int parameter,
                        JoxJson *json) {
-    JoSettings *settings = jox_run_parameter_why(scene, i, watched, parameter);
+    JoSettings *settings = jox_run_parameter_settings(scene, i, watched, parameter);
     JoxText text = {0};
     JOX_ASSERT(settings->count > 0);
     print_setting_place(&settings->items[settings->count - 1], &text);

@@ -30,14 +30,14 @@ void jox_batch_free(JoxBatch *batch) {
 }
 
 bool jox_reload_use(JoxReload *r, uint32_t part, const char *path) {
-    jox_changes_uses(&r->changes, part, path);
+    jox_changes_add_use(&r->changes, part, path);
     return !r->watch || jox_watch_add(r->watch, path);
 }
 
 /* What a batch is made of counts from here on; if it could not go live, that counts too. */
 static void settle(JoxReload *r, const JoxBatch *batch, bool live) {
     if (live)
-        jox_changes_live(&r->changes, batch->parts);
+        jox_changes_mark_live(&r->changes, batch->parts);
     for (uint32_t c = 0; c < batch->count; c++) {
         const JoxChange *change = &batch->changes[c];
         for (uint32_t f = 0; f < change->files.count && (live || !change->added); f++)
@@ -167,7 +167,7 @@ static void say_mods(const JoxReload *r, JoxBatch *batch) {
         for (int part = 0; part < JOX_RELOAD_MOD_PARTS; part++) {
             char path[JOX_LONGEST_PATH];
             jox_reload_mod_path(r->scene, m, part, path);
-            if (jox_changes_has(&r->changes, JOX_PART_MODS, path))
+            if (jox_changes_affects(&r->changes, JOX_PART_MODS, path))
                 jox_text_printf(&batch->said, "%s %s at the next start\n", path, LATER[part]);
         }
 }
@@ -209,7 +209,7 @@ typedef struct Vetted {
 static void keep_file(void *context, const char *path, const char *text, size_t length) {
     Vetted *vetted = context;
     jox_overlay_put(&vetted->files, path, text, length);
-    jox_watch_read(vetted->watch, path, text, length);
+    jox_watch_set_known(vetted->watch, path, text, length);
 }
 
 /* Has them read by the scene's vetter, and loads them from what it read. */
@@ -286,7 +286,7 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
     const JoxMachineRun *machines = &scene->world->machines;
     bool parts[JOX_PARTS];
     double written;
-    if (!jox_changes_next(&r->changes, parts, &written))
+    if (!jox_changes_take_next(&r->changes, parts, &written))
         return NULL;
     JoxBatch *batch = jox_alloc(1, sizeof *batch);
     memcpy(batch->parts, parts, sizeof parts);

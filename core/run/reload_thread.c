@@ -18,13 +18,14 @@ enum { MEMORY_ROOM = 8 }; /* slots that a new version may add without a copy of 
 
 static void changed(void *context, const char *path, double written) {
     JoxReload *r = context;
-    jox_changes_file(&r->changes, path, written);
+    jox_changes_add_changed_file(&r->changes, path, written);
 }
 
 static void load_until_stopped(JoxReload *r) {
     uint64_t signal;
     while (read(r->stop, &signal, sizeof signal) != (ssize_t)sizeof signal) {
-        jox_watch_wait(r->watch, r->stop, jox_changes_fresh(&r->changes) ? 0.002 : 1.0, changed, r);
+        jox_watch_wait(r->watch, r->stop, jox_changes_has_untried(&r->changes) ? 0.002 : 1.0,
+                       changed, r);
         bool busy = atomic_load(&r->ready) != 0; /* one at a time: it is compared with what runs */
         jox_reload_free_retired(r);
         if (!busy)
@@ -158,14 +159,14 @@ bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *err
         return false;
     }
     for (uint32_t f = 0; f < files->number; f++)
-        jox_changes_file(&r->changes, files->files[f].path, 0.0);
+        jox_changes_add_changed_file(&r->changes, files->files[f].path, 0.0);
     atomic_store(&r->next_id, scene->world->state.agents.next_id);
     while ((batch = jox_batch_prepare(r))) {
         live &= jox_batch_take(scene, batch);
         jox_reload_free_retired(r);
         for (uint32_t f = 0; f < files->number; f++) /* a file that only the new version uses */
             if (jox_run_is_live(scene, &files->files[f]))
-                jox_changes_drop(&r->changes, files->files[f].path);
+                jox_changes_forget_file(&r->changes, files->files[f].path);
     }
     if (!live)
         jox_error(error, JO_INPUT,

@@ -10,7 +10,7 @@ static const char *try_next(JoxChanges *c) {
     bool parts[JOX_PARTS] = {false};
     double written;
     size_t n = 0;
-    if (jox_changes_next(c, parts, &written))
+    if (jox_changes_take_next(c, parts, &written))
         for (uint32_t p = 0; p < JOX_PARTS; p++)
             if (parts[p])
                 text[n++] = p == JOX_PART_SCENE ? 'p' : (char)('0' + p);
@@ -22,7 +22,7 @@ static void make_live(JoxChanges *c, const char *which) {
     bool parts[JOX_PARTS] = {false};
     for (; *which; which++)
         parts[*which == 'p' ? JOX_PART_SCENE : *which - '0'] = true;
-    jox_changes_live(c, parts);
+    jox_changes_mark_live(c, parts);
 }
 
 /* Parts 0 and 1 share lib, 1 and 2 share more; 3 stands alone. */
@@ -31,8 +31,8 @@ static JoxChanges make_four_parts(void) {
                                           {"1", "more"}, {"2", "c"},   {"2", "more"}, {"3", "d"}};
     JoxChanges c = {0};
     for (size_t i = 0; i < sizeof USES / sizeof *USES; i++)
-        jox_changes_uses(&c, (uint32_t)(USES[i][0][0] - '0'), USES[i][1]);
-    jox_changes_uses(&c, JOX_PART_SCENE, "scene");
+        jox_changes_add_use(&c, (uint32_t)(USES[i][0][0] - '0'), USES[i][1]);
+    jox_changes_add_use(&c, JOX_PART_SCENE, "scene");
     return c;
 }
 
@@ -40,44 +40,44 @@ static void only_what_changed_together_goes_together(void **state) {
     (void)state;
     JoxChanges c = make_four_parts();
     assert_string_equal(try_next(&c), "");
-    jox_changes_file(&c, "a", 1.0);
+    jox_changes_add_changed_file(&c, "a", 1.0);
     assert_string_equal(try_next(&c), "0"); /* lib has not changed */
     make_live(&c, "0");
-    jox_changes_uses(&c, 0, "a");
-    jox_changes_uses(&c, 0, "lib");
-    jox_changes_file(&c, "lib", 2.0);
+    jox_changes_add_use(&c, 0, "a");
+    jox_changes_add_use(&c, 0, "lib");
+    jox_changes_add_changed_file(&c, "lib", 2.0);
     assert_string_equal(try_next(&c), "01");
     assert_string_equal(try_next(&c), ""); /* tried */
-    jox_changes_file(&c, "more", 3.0);
+    jox_changes_add_changed_file(&c, "more", 3.0);
     assert_string_equal(try_next(&c), "012"); /* 0 and 1 are not live yet */
-    jox_changes_file(&c, "d", 4.0);
-    jox_changes_file(&c, "scene", 4.0);
-    assert_true(jox_changes_fresh(&c));
+    jox_changes_add_changed_file(&c, "d", 4.0);
+    jox_changes_add_changed_file(&c, "scene", 4.0);
+    assert_true(jox_changes_has_untried(&c));
     assert_string_equal(try_next(&c), "3");
     assert_string_equal(try_next(&c), "p");
     assert_string_equal(try_next(&c), "");
-    assert_false(jox_changes_fresh(&c));
+    assert_false(jox_changes_has_untried(&c));
     jox_changes_free(&c);
 }
 
 static void what_is_live_is_settled(void **state) {
     (void)state;
     JoxChanges c = make_four_parts();
-    jox_changes_file(&c, "lib", 1.0);
-    jox_changes_file(&c, "a", 1.0);
+    jox_changes_add_changed_file(&c, "lib", 1.0);
+    jox_changes_add_changed_file(&c, "a", 1.0);
     assert_string_equal(try_next(&c), "01");
-    jox_changes_file(&c, "a", 2.0); /* saved once more while it is being loaded */
+    jox_changes_add_changed_file(&c, "a", 2.0); /* saved once more while it is being loaded */
     make_live(&c, "01");
-    jox_changes_uses(&c, 0, "a");
-    jox_changes_uses(&c, 1, "b");
-    jox_changes_uses(&c, 1, "lib");
+    jox_changes_add_use(&c, 0, "a");
+    jox_changes_add_use(&c, 1, "b");
+    jox_changes_add_use(&c, 1, "lib");
     assert_string_equal(try_next(&c), "0"); /* no longer made of lib */
     make_live(&c, "0");
-    jox_changes_file(&c, "b", 3.0);
+    jox_changes_add_changed_file(&c, "b", 3.0);
     assert_string_equal(try_next(&c), "1");
-    jox_changes_file(&c, "nobody", 3.0);
+    jox_changes_add_changed_file(&c, "nobody", 3.0);
     assert_string_equal(try_next(&c), "");
-    assert_false(jox_changes_fresh(&c));
+    assert_false(jox_changes_has_untried(&c));
     jox_changes_free(&c);
 }
 
@@ -86,10 +86,10 @@ static void when_it_was_written_is_the_last_of_all(void **state) {
     JoxChanges c = make_four_parts();
     bool parts[JOX_PARTS];
     double written;
-    jox_changes_file(&c, "b", 7.0);
-    jox_changes_file(&c, "lib", 5.0);
-    jox_changes_file(&c, "d", 9.0);
-    assert_true(jox_changes_next(&c, parts, &written));
+    jox_changes_add_changed_file(&c, "b", 7.0);
+    jox_changes_add_changed_file(&c, "lib", 5.0);
+    jox_changes_add_changed_file(&c, "d", 9.0);
+    assert_true(jox_changes_take_next(&c, parts, &written));
     assert_true(parts[0] && parts[1] && !parts[3] && written == 7.0);
     jox_changes_free(&c);
 }

@@ -1,5 +1,5 @@
-/* Checkpoints of a run: written between two steps, at those at which all that collects can be left
-   and taken up again. */
+/* Writes checkpoints of a run (jo_scene_checkpoint): a listener that writes a file every few
+   seconds of simulated time, after a step at which all state can be saved exactly. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,20 +17,20 @@
 
 typedef struct Checkpoint {
     char *folder, *note;
-    FILE *claim;    /* of the folder */
+    FILE *claim;    /* lock of the folder, against other runs */
     uint64_t every; /* ticks */
-    uint64_t due;   /* the tick from which on the next one is */
+    uint64_t due;   /* first tick at which the next one may be written */
 } Checkpoint;
 
-/* ---- what is in it ---- */
+/* ---- content ---- */
 
-static void add_text(JoxText *out, const char *name, const char *text) {
+static void add_text_piece(JoxText *out, const char *name, const char *text) {
     if (text)
         jox_pieces_add(out, name, text, strlen(text));
 }
 
-/* The texts of all files: as they were read, or as they are live since. */
-static void add_files(JoxText *out, const JoScene *scene) {
+/* Adds the texts of all files of the scene, as they are live. */
+static void add_scene_files(JoxText *out, const JoScene *scene) {
     JoxOverlay all = {0};
     jox_run_texts(scene, &all);
     JoxText piece = {0};
@@ -44,7 +44,8 @@ static void add_files(JoxText *out, const JoScene *scene) {
     jox_overlay_free(&all);
 }
 
-/* The numbers of tags and teams, which follow from all versions of the behaviours that ran. */
+/* Adds the numbers of tags and teams, as these depend on all versions of the behaviours that ran.
+ */
 static void add_names(JoxText *out, const JoScene *scene) {
     JoxText piece = {0};
     jox_text_append(&piece, jox_run_names_path, strlen(jox_run_names_path) + 1);
@@ -53,6 +54,7 @@ static void add_names(JoxText *out, const JoScene *scene) {
     jox_text_free(&piece);
 }
 
+/* Adds the sections of listeners that go on in a resumed run. */
 static void add_listeners(JoxText *out, const JoScene *scene) {
     JoxText piece = {0};
     for (uint32_t l = 0; l < scene->listeners.count; l++) {
@@ -69,6 +71,7 @@ static void add_listeners(JoxText *out, const JoScene *scene) {
     jox_text_free(&piece);
 }
 
+/* Adds the definition with which the scene was loaded, its tick and its hash. */
 static void add_def(JoxText *out, const JoScene *scene) {
     const JoSceneDef *def = &scene->def;
     const JoxCheckpointNumbers numbers = {.tick = scene->world->state.tick,
@@ -81,28 +84,29 @@ static void add_def(JoxText *out, const JoScene *scene) {
                                           .has_dt = def->has_dt,
                                           .no_density = def->no_density};
     jox_pieces_add(out, JOX_PIECE_NUMBERS, &numbers, sizeof numbers);
-    add_text(out, JOX_PIECE_PATH, def->path);
-    add_text(out, JOX_PIECE_INPUT, def->input_log);
+    add_text_piece(out, JOX_PIECE_PATH, def->path);
+    add_text_piece(out, JOX_PIECE_INPUT, def->input_log);
     for (size_t o = 0; o < def->override_count; o++)
-        add_text(out, JOX_PIECE_SET, def->overrides[o]);
+        add_text_piece(out, JOX_PIECE_SET, def->overrides[o]);
     for (uint32_t m = 0; m < scene->mods->count; m++) {
         const char *folder = scene->mods->items[m].folder;
-        JoxText path = {0}; /* a plain name would be looked for elsewhere */
+        JoxText path = {0}; /* a name without / would be searched in other folders */
         jox_text_printf(&path, "%s%s", strchr(folder, '/') ? "" : "./", folder);
-        add_text(out, JOX_PIECE_MOD, path.data);
+        add_text_piece(out, JOX_PIECE_MOD, path.data);
         jox_text_free(&path);
     }
 }
 
-/* ---- writing it ---- */
+/* ---- the file ---- */
 
-/* The folder's own entries reach the disk. */
+/* Flushes the names in the folder to the disk. */
 static bool sync_folder(const Checkpoint *c) {
     return fsync(fileno(c->claim)) == 0;
 }
 
-/* Whole under its name, and on the disk; the one before keeps another name. */
-static bool write_file(const Checkpoint *c, const JoxText *data, JoError *error) {
+/* Writes a file under a temporary name, flushes it, and renames it to the latest checkpoint, so
+   that a crash leaves a whole one; the one before gets the other name. */
+static bool replace_latest(const Checkpoint *c, const JoxText *data, JoError *error) {
     JoxText latest = {0}, before = {0};
     jox_text_printf(&latest, "%s/%s", c->folder, JOX_CHECKPOINT_LATEST);
     jox_text_printf(&before, "%s/%s", c->folder, JOX_CHECKPOINT_BEFORE);
@@ -121,8 +125,8 @@ static bool write_file(const Checkpoint *c, const JoxText *data, JoError *error)
     return good;
 }
 
-/* What lies in other files is there before the checkpoint that counts on it. */
-static bool settle(const JoScene *scene, JoError *error) {
+/* Flushes the files of listeners and the input log, which a resumed run continues. */
+static bool flush_other_files(const JoScene *scene, JoError *error) {
     for (uint32_t l = 0; l < scene->listeners.count; l++) {
         const JoxListener *listener = &scene->listeners.items[l];
         if (listener->kind->settle && !listener->kind->settle(listener->self, error))
@@ -134,33 +138,33 @@ static bool settle(const JoScene *scene, JoError *error) {
     return false;
 }
 
-static bool frame(void *self, JoScene *scene, JoError *error) {
+static bool write_checkpoint_if_due(void *self, JoScene *scene, JoError *error) {
     Checkpoint *c = self;
     if (scene->world->state.tick < c->due || !jox_world_snapshot_is_exact(scene->world))
         return true;
     c->due = scene->world->state.tick + c->every;
     JoxText state = {0}, out = {0};
-    bool good = settle(scene, error) && jox_world_snapshot(scene->world, &state, error);
+    bool good = flush_other_files(scene, error) && jox_world_snapshot(scene->world, &state, error);
     if (good) {
         jox_pieces_begin(&out);
         add_def(&out, scene);
-        add_text(&out, JOX_PIECE_NOTE, c->note);
-        add_files(&out, scene);
-        add_names(&out,
-                  scene); /* after the files: one of an earlier checkpoint may be among them */
+        add_text_piece(&out, JOX_PIECE_NOTE, c->note);
+        add_scene_files(&out, scene);
+        /* after the files, among which an earlier checkpoint's may be: the last one counts */
+        add_names(&out, scene);
         jox_pieces_add(&out, JOX_PIECE_STATE, state.data, state.length);
         add_listeners(&out, scene);
         jox_pieces_end(&out);
-        good = write_file(c, &out, error);
+        good = replace_latest(c, &out, error);
     }
     jox_text_free(&state);
     jox_text_free(&out);
     return good;
 }
 
-/* ---- its listener ---- */
+/* ---- the listener ---- */
 
-static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool begin_checkpoints(void *self, JoScene *scene, const void *options, JoError *error) {
     Checkpoint *c = self;
     const JoxCheckpointDef *def = options;
     if (!scene->def.resumable || !(def->every > 0.0)) {
@@ -182,7 +186,7 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
     return true;
 }
 
-static void release(void *self) {
+static void free_checkpoints(void *self) {
     Checkpoint *c = self;
     if (c->claim)
         jox_file_close(c->claim);
@@ -192,9 +196,9 @@ static void release(void *self) {
 
 static const JoxListenerKind CHECKPOINTS = {.name = "checkpoints",
                                             .size = sizeof(Checkpoint),
-                                            .begin = begin,
-                                            .frame = frame,
-                                            .release = release};
+                                            .begin = begin_checkpoints,
+                                            .frame = write_checkpoint_if_due,
+                                            .release = free_checkpoints};
 
 bool jo_scene_checkpoint(JoScene *scene, const char *directory, double every, const char *note,
                          JoError *error) {

@@ -1,5 +1,5 @@
-/* A run goes on from a checkpoint: the scene is loaded from the texts that the file holds, and
-   given the state. */
+/* Resumes a run from a checkpoint (jo_scene_resume): loads the scene from the texts in the file,
+   and restores the state. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "base/mem.h"
 #include "run/resume/checkpoint.h"
 
-static const size_t LARGEST = (size_t)4 << 30; /* bytes of a checkpoint */
+static const size_t LARGEST_CHECKPOINT = (size_t)4 << 30; /* bytes */
 
 /* A checkpoint that was read; its texts point into `file`. */
 typedef struct Read {
@@ -26,7 +26,7 @@ typedef struct Read {
 
 /* ---- reading ---- */
 
-static void take_text(const char ***list, size_t *count, size_t *capacity, const char *text) {
+static void append_text(const char ***list, size_t *count, size_t *capacity, const char *text) {
     JOX_RESERVE(*list, *capacity, *count + 1);
     (*list)[(*count)++] = text;
 }
@@ -43,16 +43,16 @@ static void take_piece(Read *r, const JoxPiece *piece) {
     else if (strcmp(name, JOX_PIECE_NOTE) == 0)
         r->note = data;
     else if (strcmp(name, JOX_PIECE_SET) == 0)
-        take_text(&r->sets, &r->set_count, &r->set_capacity, data);
+        append_text(&r->sets, &r->set_count, &r->set_capacity, data);
     else if (strcmp(name, JOX_PIECE_MOD) == 0)
-        take_text(&r->mods, &r->mod_count, &r->mod_capacity, data);
+        append_text(&r->mods, &r->mod_count, &r->mod_capacity, data);
     else if (strcmp(name, JOX_PIECE_STATE) == 0)
         r->state = *piece;
     else if (strcmp(name, JOX_PIECE_FILE) == 0 && head <= piece->length)
         jox_overlay_put(&r->files, data, data + head, piece->length - head);
 }
 
-static void free_read(Read *r) {
+static void free_checkpoint_read(Read *r) {
     jox_text_free(&r->file);
     jox_free(r->sets);
     jox_free(r->mods);
@@ -60,10 +60,10 @@ static void free_read(Read *r) {
     *r = (Read){0};
 }
 
-/* All of a file is verified before anything of it is used. */
-static bool read_file(Read *r, const char *path, JoError *error) {
+/* Reads a checkpoint; its checksums are verified before anything of it is used. */
+static bool read_checkpoint(Read *r, const char *path, JoError *error) {
     char why[200] = "";
-    r->file.data = jox_read_file(path, LARGEST, &r->file.length);
+    r->file.data = jox_read_file(path, LARGEST_CHECKPOINT, &r->file.length);
     if (!r->file.data) {
         jox_error(error, JO_INPUT, "cannot read the checkpoint '%.300s': %s", path,
                   jox_file_why(errno));
@@ -79,18 +79,18 @@ static bool read_file(Read *r, const char *path, JoError *error) {
     return !*why;
 }
 
-/* The file, or the newest whole one of a folder. */
-static bool find(Read *r, const JoSceneDef *def, const char *path, JoError *error) {
+/* Reads a checkpoint from a file, or the newest undamaged one of a folder. */
+static bool find_checkpoint(Read *r, const JoSceneDef *def, const char *path, JoError *error) {
     static const char *const NAMES[] = {JOX_CHECKPOINT_LATEST, JOX_CHECKPOINT_BEFORE};
     struct stat info;
     if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode))
-        return read_file(r, path, error);
+        return read_checkpoint(r, path, error);
     JoError first = {0};
     for (int n = 0; n < 2; n++) {
         JoxText full = {0};
         JoError wrong = {0};
         jox_text_printf(&full, "%s/%s", path, NAMES[n]);
-        const bool good = read_file(r, full.data, &wrong);
+        const bool good = read_checkpoint(r, full.data, &wrong);
         jox_text_free(&full);
         if (good && first.code) {
             JoxText said = {0};
@@ -100,7 +100,7 @@ static bool find(Read *r, const JoSceneDef *def, const char *path, JoError *erro
         }
         if (good)
             return true;
-        free_read(r);
+        free_checkpoint_read(r);
         first = n ? first : wrong;
     }
     if (error)
@@ -110,7 +110,8 @@ static bool find(Read *r, const JoSceneDef *def, const char *path, JoError *erro
 
 /* ---- state ---- */
 
-static bool restore(JoScene *scene, const Read *r, JoError *error) {
+/* Restores the world and checks its hash, then gives the listeners their state. */
+static bool restore_state(JoScene *scene, const Read *r, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
     if (!jox_world_restore(scene->world, r->state.data, r->state.length, error))
@@ -129,7 +130,8 @@ static bool restore(JoScene *scene, const Read *r, JoError *error) {
     return jox_run_take_up_all(scene, error);
 }
 
-static JoScene *load(const JoSceneDef *def, const Read *r, JoError *error) {
+/* Loads the scene from the texts of the checkpoint alone, with its definition, and restores it. */
+static JoScene *load_from_texts(const JoSceneDef *def, const Read *r, JoError *error) {
     JoSceneDef own = *def;
     own.path = r->path;
     own.overrides = r->sets;
@@ -146,7 +148,7 @@ static JoScene *load(const JoSceneDef *def, const Read *r, JoError *error) {
     const JoxOverlay *before = jox_overlay_use(&r->files);
     JoScene *scene = jo_scene_load(&own, error);
     jox_overlay_use(before);
-    if (scene && !restore(scene, r, error)) {
+    if (scene && !restore_state(scene, r, error)) {
         jo_scene_free(scene);
         scene = NULL;
     }
@@ -160,8 +162,9 @@ JoScene *jo_scene_resume(const JoSceneDef *def, const char *path, char **note, J
     JOX_GUARD (NULL, error)
         return NULL;
     Read read = {0};
-    JoScene *scene = find(&read, def, path, error) ? load(def, &read, error) : NULL;
+    JoScene *scene =
+        find_checkpoint(&read, def, path, error) ? load_from_texts(def, &read, error) : NULL;
     *note = scene && read.note ? jox_disown(jox_strdup(read.note)) : NULL;
-    free_read(&read);
+    free_checkpoint_read(&read);
     return scene;
 }

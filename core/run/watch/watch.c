@@ -15,14 +15,14 @@
 #include "base/text.h"
 
 enum { LARGEST_FILE = 16 << 20 };
-static const double QUIET = 0.030; /* s */
+static const double QUIET = 0.030; /* s without events before files are read */
 
 typedef struct WatchedFile {
-    char *path, *name; /* name: the last part of path; empty where path is a folder, with a / */
-    int folder;        /* inotify's number of its folder, or of the nearest one that is there */
-    bool away;         /* its folder is not there */
-    char digest[65];   /* of the content last reported; "" when it could not be read */
-    bool moved;        /* something happened to it since */
+    char *path, *name; /* name: last part of the path; empty if the path is a folder, with / */
+    int folder;        /* inotify's number of its folder, or of the nearest one above that exists */
+    bool away;         /* its folder does not exist */
+    char digest[65];   /* SHA-256 of the known content; "" if the file could not be read */
+    bool moved;        /* it had an event since its content was read */
 } WatchedFile;
 
 struct JoxWatch {
@@ -32,13 +32,13 @@ struct JoxWatch {
     size_t count, capacity;
 };
 
-/* Whether a file of that name is one that Jostle reads, and not an editor's own. */
+/* Returns whether a name is that of a file that Jostle reads, and not of an editor's backup. */
 static bool is_source(const char *name) {
     const char *ending = strrchr(name, '.');
     return *name != '.' && ending && (!strcmp(ending, ".lua") || !strcmp(ending, ".yaml"));
 }
 
-/* Digests the names of a folder's sources; a folder that is not there has none. */
+/* Digests the names of the .lua and .yaml files in a folder; none if the folder does not exist. */
 static void digest_names(const char *folder, char digest[65]) {
     JoxText all = {0};
     char **names = jox_folder_names(folder, false);
@@ -63,7 +63,7 @@ static void digest_watched(const WatchedFile *file, char digest[65]) {
     jox_free(text);
 }
 
-static void release(void *watch) {
+static void close_watch(void *watch) {
     close(((JoxWatch *)watch)->inotify);
 }
 
@@ -75,15 +75,15 @@ JoxWatch *jox_watch_create(void) {
         return NULL;
     }
     watch->inotify = inotify;
-    return jox_heap_register(watch, release);
+    return jox_heap_register(watch, close_watch);
 }
 
-static bool is_folder(const char *path) {
+static bool is_existing_folder(const char *path) {
     struct stat info;
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* Watches the folder of a file, or, while that is not there, the nearest one above it. */
+/* Watches the folder of a file, or the nearest one above it that exists. False with errno. */
 static bool watch_folder(JoxWatch *watch, WatchedFile *file) {
     char folder[4096], missing[4096];
     snprintf(folder, sizeof folder, "%.*s", (int)(file->name - file->path), file->path);
@@ -96,8 +96,8 @@ static bool watch_folder(JoxWatch *watch, WatchedFile *file) {
             inotify_add_watch(watch->inotify, n ? folder : ".",
                               IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_CREATE | IN_DELETE |
                                   IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
-        if (file->folder >= 0 && file->away && is_folder(missing)) {
-            file->away = false; /* made in between */
+        if (file->folder >= 0 && file->away && is_existing_folder(missing)) {
+            file->away = false; /* it was made in the meantime */
             strcpy(folder, missing);
             continue;
         }
@@ -132,28 +132,29 @@ bool jox_watch_add(JoxWatch *watch, const char *path) {
     return true;
 }
 
-void jox_watch_read(JoxWatch *watch, const char *path, const char *text, size_t length) {
+void jox_watch_set_known(JoxWatch *watch, const char *path, const char *text, size_t length) {
     const size_t before = watch->count;
     if (!jox_watch_add(watch, path))
         return;
     for (size_t i = 0; i < watch->count; i++)
         if (strcmp(watch->files[i].path, path) == 0) {
             jox_sha256_hex(text, length, watch->files[i].digest);
-            watch->files[i].moved |= i >= before; /* it may have changed before it was watched */
+            watch->files[i].moved |= i >= before; /* it may have changed since it was read */
         }
 }
 
-/* Folders come and go: a file whose own appears, or is another one now, is looked at. */
+/* Watches the folder of a file anew if the event says that it appeared, or was moved or removed.
+   Returns whether the file is to be read again. */
 static bool follow_folder(JoxWatch *watch, WatchedFile *file, const struct inotify_event *event) {
     bool appears = file->away && (event->mask & IN_ISDIR);
     bool goes = event->mask & (IN_DELETE_SELF | IN_MOVE_SELF);
     if (!appears && !goes)
         return false;
     watch_folder(watch, file);
-    return file->moved = !file->away || !*file->name; /* a folder that goes has lost its names */
+    return file->moved = !file->away || !*file->name; /* a removed folder has lost its names */
 }
 
-/* A folder that is elsewhere now, unless it has come back. */
+/* Stops watching a folder that was moved, unless a file is still watched in it. */
 static void leave_folder(JoxWatch *watch, int folder) {
     for (size_t i = 0; i < watch->count; i++)
         if (watch->files[i].folder == folder)
@@ -161,8 +162,8 @@ static void leave_folder(JoxWatch *watch, int folder) {
     inotify_rm_watch(watch->inotify, folder);
 }
 
-/* Marks the files that events speak of; a lost event marks them all. What else happens beside them
-   does not count as unrest. */
+/* Reads all events and marks the files that they concern; if events were lost, all files. Events of
+   other files in the folders do not prolong the wait for quiet. */
 static void read_events(JoxWatch *watch) {
     _Alignas(struct inotify_event) char block[4096];
     ssize_t got;
@@ -188,15 +189,15 @@ static void read_events(JoxWatch *watch) {
     }
 }
 
-static bool any_moved(const JoxWatch *watch) {
+static bool has_moved_files(const JoxWatch *watch) {
     for (size_t i = 0; i < watch->count; i++)
         if (watch->files[i].moved)
             return true;
     return false;
 }
 
-/* When a file was last written, or, put in place of another, changed. */
-static double written_at(const char *path) {
+/* Returns when a file was written, or moved to its path, whichever is later; s since 1970. */
+static double read_write_time(const char *path) {
     struct stat info;
     if (stat(path, &info) != 0)
         return 0.0;
@@ -211,7 +212,7 @@ void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *chan
                             {.fd = other, .events = POLLIN}};
     poll(fds, other >= 0 ? 2 : 1, (int)(seconds * 1e3));
     read_events(watch);
-    while (any_moved(watch) && jox_clock_wall() - watch->last_event < QUIET) {
+    while (has_moved_files(watch) && jox_clock_wall() - watch->last_event < QUIET) {
         double left = QUIET - (jox_clock_wall() - watch->last_event);
         poll(fds, 1, (int)(left * 1e3) + 1);
         read_events(watch);
@@ -225,7 +226,7 @@ void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *chan
         digest_watched(file, digest);
         if (digest[0] && strcmp(digest, file->digest) != 0) {
             strcpy(file->digest, digest);
-            changed(context, file->path, written_at(file->path));
+            changed(context, file->path, read_write_time(file->path));
         }
     }
 }
@@ -234,7 +235,7 @@ void jox_watch_free(JoxWatch *watch) {
     if (!watch)
         return;
     jox_heap_unregister(watch);
-    release(watch);
+    close_watch(watch);
     for (size_t i = 0; i < watch->count; i++)
         jox_free(watch->files[i].path);
     jox_free(watch->files);

@@ -1,4 +1,4 @@
-/* The public calls about mods: listed, and turned on and off. */
+/* Lists the mods of a scene (jo_mods_list), and turns mods on and off (jo_mods_enable). */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 #include "run/read_scene.h"
 #include "scene/mods_enabled.h"
 
-/* ---- listed ---- */
+/* ---- the list ---- */
 
 enum { HEAD, ITEMS, PATCHES, SETTINGS }; /* parts of a pack */
 
@@ -38,7 +38,7 @@ static void add_settings(JoxPack *pack, const JoxMod *mod) {
     }
 }
 
-static void add_mod(JoxPack *pack, const JoxMod *mod, bool taken) {
+static void add_listed_mod(JoxPack *pack, const JoxMod *mod, bool taken) {
     static const JoModSwitch SWITCHES[] = {
         [JOX_MOD_OFF] = JO_MOD_OFF, [JOX_MOD_CHANGED] = JO_MOD_CHANGED, [JOX_MOD_ON] = JO_MOD_ON};
     JoMod *item = jox_pack_add(pack, ITEMS, sizeof *item);
@@ -68,13 +68,13 @@ JoMods *jo_mods_list(const JoSceneDef *def) {
     JoMods *head = jox_pack_add(&pack, HEAD, sizeof *head);
     jox_pack_list(&pack, HEAD, &head->items, ITEMS);
     for (uint32_t m = 0; m < mods->count; m++)
-        add_mod(&pack, &mods->items[m], true);
+        add_listed_mod(&pack, &mods->items[m], true);
     for (uint32_t f = 0; f < mods->found_count; f++) {
         bool taken = false;
         for (uint32_t m = 0; m < mods->count; m++)
             taken |= mods->number[m] == f;
         if (!taken)
-            add_mod(&pack, &mods->found[f], false);
+            add_listed_mod(&pack, &mods->found[f], false);
     }
     head->taken = mods->count;
     head->count = (uint32_t)(jox_pack_length(&pack, ITEMS) / sizeof(JoMod));
@@ -86,9 +86,9 @@ JoMods *jo_mods_list(const JoSceneDef *def) {
 
 /* ---- on and off ---- */
 
-/* Turns the mod of the name, or in the folder, on or off, if it is among those that a scene of the
-   path (or NULL) would find; *found says whether it is. */
-static bool turn(const char *scene, const char *mod, bool on, bool *found, JoError *error) {
+/* Turns a mod on or off, given by its name or folder, if the scene at a path would find it; `scene`
+   may be NULL. Sets *found if it does. */
+static bool switch_mod(const char *scene, const char *mod, bool on, bool *found, JoError *error) {
     const JoSceneDef def = {
         .path = scene, .mods = &mod, .mod_count = 1, .named_mods_only = true, .message = NULL};
     JoxDiagnostics problems = {0};
@@ -108,7 +108,7 @@ static bool turn(const char *scene, const char *mod, bool on, bool *found, JoErr
     const bool good = one && jox_mods_enable(one->name, one->folder, on, &why);
     if (one && !good)
         jox_error(error, JO_FAILED, "%s", why.data);
-    else if (folder && !one) /* its mod.yaml is what is wrong */
+    else if (folder && !one) /* its mod.yaml is wrong */
         jox_run_report(NULL, NULL, &problems, error);
     jox_text_free(&why);
     jox_mods_free(mods);
@@ -116,8 +116,9 @@ static bool turn(const char *scene, const char *mod, bool on, bool *found, JoErr
     return good;
 }
 
-/* The mod that may be meant, of those that a scene of each path (or NULL) would find. */
-static const char *find_near(const char *const places[3], const char *mod, char hint[JOX_HINT]) {
+/* Returns a suggestion for a misspelt mod, from those that scenes at the places would find, or
+   NULL. */
+static const char *suggest_mod(const char *const places[3], const char *mod, char hint[JOX_HINT]) {
     const char *near = NULL;
     for (int p = 0; p < 3 && !near; p++) {
         const JoSceneDef def = {.path = places[p], .named_mods_only = true};
@@ -135,18 +136,18 @@ static const char *find_near(const char *const places[3], const char *mod, char 
 
 bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error) {
     JOX_REQUIRE(def && jox_run_is_whole(def) && mod, false);
-    /* Without a scene: the user's mods, then those of scenes here. */
+    /* without a scene: the user's mods, then those of scenes in this folder */
     const char *const places[] = {def->path, def->path ? NULL : "./scene",
                                   def->path ? NULL : "scenes/scene"};
     bool found = false;
     *error = (JoError){0};
     for (int p = 0; p < 3; p++)
-        if ((p == 0 || places[p]) && turn(places[p], mod, on, &found, error))
+        if ((p == 0 || places[p]) && switch_mod(places[p], mod, on, &found, error))
             return true;
         else if (found || error->code != JO_OK)
             return false;
     char hint[JOX_HINT];
-    const char *near = find_near(places, mod, hint);
+    const char *near = suggest_mod(places, mod, hint);
     jox_error(error, JO_INPUT, "there is no mod '%.100s' here%s%s", mod, near ? ". " : "",
               near ? near : "; give its folder, or its name and the scene that it lies beside");
     return false;

@@ -1,4 +1,5 @@
-/* What mods define for other files to use: a page of Markdown. */
+/* Writes the page of Markdown on the behaviours and library files that mods offer to others
+   (`jostle reference mods`). */
 #include <stdio.h>
 #include <string.h>
 
@@ -18,15 +19,15 @@ typedef struct Page {
     JoxDiagnostics diagnostics;
 } Page;
 
-static void add_about(Page *page, const char *about) {
+static void add_description(Page *page, const char *about) {
     if (!about)
         return;
     jox_quote_markdown(&page->out, about);
     jox_text_add(&page->out, "\n\n");
 }
 
-/* A file that others name: a behaviour, or one that they require. */
-static void add_file(Page *page, const JoxMod *mod, const char *stem, const char *path) {
+/* Adds a file that others can use: a behaviour, or a library that they require. */
+static void add_offered_file(Page *page, const JoxMod *mod, const char *stem, const char *path) {
     uint32_t count;
     char *about;
     JoxLuaExport *exports =
@@ -34,10 +35,10 @@ static void add_file(Page *page, const JoxMod *mod, const char *stem, const char
     const bool behaviour = count == 1 && strcmp(exports[0].kind, "a machine") == 0;
     if (behaviour) {
         jox_text_printf(&page->out, "### behaviour: %s:%s\n\n", mod->name, stem);
-        add_about(page, about);
+        add_description(page, about);
     } else if (count) {
         jox_text_printf(&page->out, "### require \"%s:%s\"\n\n", mod->name, stem);
-        add_about(page, about);
+        add_description(page, about);
         jox_text_add(&page->out, "| name | what | meaning |\n|---|---|---|\n");
         for (uint32_t e = 0; e < count; e++) {
             jox_text_add(&page->out, "| `");
@@ -52,7 +53,7 @@ static void add_file(Page *page, const JoxMod *mod, const char *stem, const char
     jox_lua_exports_free(exports, count);
 }
 
-static void add_mod(Page *page, const JoxMod *mod) {
+static void add_mod_chapter(Page *page, const JoxMod *mod) {
     char folder[JOX_LONGEST_PATH];
     jox_text_printf(&page->out, "## %s %s%s%s\n\n", mod->name, mod->version,
                     *mod->title ? ": " : "", mod->title);
@@ -66,7 +67,7 @@ static void add_mod(Page *page, const JoxMod *mod) {
             continue;
         snprintf(stem, sizeof stem, "%.*s", (int)(length - 4), names[n]);
         if (snprintf(path, sizeof path, "%s/%s", folder, names[n]) < (int)sizeof path)
-            add_file(page, mod, stem, path);
+            add_offered_file(page, mod, stem, path);
     }
     if (page->out.length == before)
         jox_text_add(&page->out, "It defines nothing that others could use.\n\n");
@@ -82,7 +83,7 @@ char *jo_mods_reference(const JoSceneDef *def) {
     page.scope = (JoxScope){.mods = mods->items, .mod_count = mods->count};
     jox_text_add(&page.out, "# What mods define\n\n");
     for (uint32_t m = 0; m < mods->count; m++)
-        add_mod(&page, &mods->items[m]);
+        add_mod_chapter(&page, &mods->items[m]);
     if (mods->count == 0)
         jox_text_add(&page.out, "No mod is taken: name one by --mod, or turn it on.\n");
     jox_mods_free(mods);

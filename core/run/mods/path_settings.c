@@ -1,5 +1,5 @@
-/* Who sets a value of a scene or of its behaviours: `mod why`. */
-#include <math.h>
+/* Finds which files and mods set a path of a scene or of one of its behaviours, for the command
+   `mod why` (jo_mods_why). */
 #include <stdio.h>
 #include <string.h>
 
@@ -11,43 +11,9 @@
 #include "run/mods/settings.h"
 #include "run/read_scene.h"
 
-enum { HEAD, ITEMS }; /* parts of a pack */
-
-JoSettings *jox_settings_begin(JoxPack *pack) {
-    JoSettings *head = jox_pack_add(pack, HEAD, sizeof *head);
-    jox_pack_list(pack, HEAD, &head->items, ITEMS);
-    return head;
-}
-
-void jox_settings_now(JoxPack *pack, JoSettings *head, const char *text) {
-    jox_pack_text(pack, HEAD, &head->now, text);
-}
-
-JoSettings *jox_settings_end(JoxPack *pack) {
-    const size_t count = jox_pack_length(pack, ITEMS) / sizeof(JoSetting);
-    JoSettings *settings = jox_pack_end(pack);
-    settings->count = (uint32_t)count;
-    return settings;
-}
-
-void jox_settings_add(void *context, const JoSetting *from) {
-    JoxPack *pack = context;
-    JoSetting *to = jox_pack_add(pack, ITEMS, sizeof *to);
-    *to = (JoSetting){.by = from->by,
-                      .line = from->line,
-                      .column = from->column,
-                      .removes = from->removes,
-                      .time = from->where ? from->time : (double)NAN};
-    jox_pack_text(pack, ITEMS, &to->where, from->where ? from->where : "");
-    jox_pack_text(pack, ITEMS, &to->value, from->value ? from->value : "");
-    jox_pack_text(pack, ITEMS, &to->unit, from->unit ? from->unit : "");
-    jox_pack_text(pack, ITEMS, &to->file, from->file ? from->file : "");
-    jox_pack_text(pack, ITEMS, &to->mod, from->mod ? from->mod : "");
-    jox_pack_text(pack, ITEMS, &to->version, from->version ? from->version : "");
-}
-
-/* Who set a path of the scene: its own files, then mods, then `--set`; else the default. */
-static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
+/* Adds what sets a path of the scene: its own files, then mods, then `--set`; else the default.
+   Returns whether anything does. */
+static bool add_scene_settings(const JoScene *scene, const char *path, JoxPack *pack) {
     const JoxSceneSpec *spec = scene->spec;
     bool found = jox_scene_visit_own_value(spec, path, jox_settings_add, pack);
     for (uint32_t c = 0; c < spec->changes.count; c++) {
@@ -74,8 +40,8 @@ static bool why_scene(const JoScene *scene, const char *path, JoxPack *pack) {
     return found || jox_scene_visit_default(spec, path, jox_settings_add, pack);
 }
 
-/* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */
-static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
+/* Returns the machine with a name, or from a file of that name; NULL if the scene loads none. */
+static const JoxMachine *find_named_machine(JoScene *scene, const char *name) {
     const JoxMachineRun *machines = &scene->world->machines;
     name = strchr(name, ':') ? strchr(name, ':') + 1 : name; /* "mod:name" */
     for (uint32_t m = 0; m < machines->set->count; m++) {
@@ -89,14 +55,14 @@ static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
 }
 
 /* Says that nothing sets the path, and what may have been meant. */
-static void not_set(const JoScene *scene, const char *path, const char *name, bool of_behaviour,
-                    JoError *error) {
+static void report_unset_path(const JoScene *scene, const char *path, const char *name,
+                              bool of_behaviour, JoError *error) {
     const JoxMachineRun *machines = &scene->world->machines;
     const char *names[JOX_MOST_MACHINES];
     for (uint32_t m = 0; m < machines->set->count; m++)
         names[m] = machines->set->items[m]->name;
     const char *near = jox_suggest(name, names, machines->set->count);
-    near = near && strcmp(near, name) != 0 ? near : NULL; /* it is the rest that is wrong */
+    near = near && strcmp(near, name) != 0 ? near : NULL; /* the rest of the path is wrong */
     jox_error(error, JO_INPUT,
               of_behaviour ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
                              "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"
@@ -117,15 +83,15 @@ JoSettings *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error)
     char name[128];
     size_t n = strcspn(path, ".");
     snprintf(name, sizeof name, "%.*s", (int)(n < 127 ? n : 127), path);
-    const JoxMachine *machine = find_behaviour(scene, name);
+    const JoxMachine *machine = find_named_machine(scene, name);
     JoxPack pack = {0};
-    jox_settings_now(&pack, jox_settings_begin(&pack), "");
+    jox_settings_set_value(&pack, jox_settings_begin(&pack), "");
     const bool found = machine ? path[n] && jox_lua_why(scene->lua, machine, path + n + 1,
                                                         &scene->scope, jox_settings_add, &pack)
-                               : why_scene(scene, path, &pack);
+                               : add_scene_settings(scene, path, &pack);
     JoSettings *settings = jox_settings_end(&pack);
     if (!found) {
-        not_set(scene, path, name, machine != NULL, error);
+        report_unset_path(scene, path, name, machine != NULL, error);
         jox_free(settings);
         settings = NULL;
     }
