@@ -249,7 +249,7 @@ static void add_own(Search *search, const char *name, double value) {
 }
 
 /* Stores the present value as text. */
-static void store_value(const Search *search, double value, bool truth, bool place) {
+static void store_present_value(const Search *search, double value, bool truth, bool place) {
     char number[32];
     snprintf(number, sizeof number, "%.6g", value);
     jox_settings_set_value(search->pack, search->head,
@@ -265,21 +265,21 @@ static bool list_value(Search *search, const char *name, double *value) {
     const int32_t slot = jox_machine_memory(search->machine, name);
     if (slot >= 0) {
         *value = a->memory[(size_t)search->i * a->memory_stride + (uint32_t)slot];
-        store_value(search, *value, search->machine->memory[slot].kind == JOX_MEMORY_BOOLEAN,
-                    false);
+        store_present_value(search, *value,
+                            search->machine->memory[slot].kind == JOX_MEMORY_BOOLEAN, false);
         add_memory(search, (uint32_t)slot);
         return true;
     }
     if (p >= 0) {
         *value = jox_parameter_value((JoxParameter)p, jox_param(a, p, search->i));
-        store_value(search, *value, false, false);
+        store_present_value(search, *value, false, false);
         add_parameter(search, p);
         return true;
     }
     for (uint32_t s = 0; s < search->machine->own_count; s++)
         if (strcmp(search->machine->own[s].name, name) == 0) {
             *value = jox_own(a, search->i, s);
-            store_value(search, *value, false, search->machine->own[s].is_place);
+            store_present_value(search, *value, false, search->machine->own[s].is_place);
             add_own(search, name, *value);
             return true;
         }

@@ -116,7 +116,7 @@ static void add_column(const Cells *cells, uint32_t c, uint32_t rows, JoxPack *p
     }
 }
 
-static JoTable *parse_table(char *text) {
+static JoTable *parse_probe_csv(char *text) {
     Cells cells = {0};
     JoxPack pack = {0};
     JoTable *head = jox_pack_add(&pack, HEAD, sizeof *head);
@@ -140,7 +140,7 @@ JoTable *jo_scene_probe_table(const JoScene *scene, uint32_t n) {
         free(text);
         return NULL;
     }
-    JoTable *table = jox_disown(parse_table(text));
+    JoTable *table = jox_disown(parse_probe_csv(text));
     free(text);
     return table;
 }

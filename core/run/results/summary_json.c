@@ -44,7 +44,7 @@ static void add_states(JoxJson *json, const JoWorld *world) {
     jox_json_end(json);
 }
 
-static void add_transition(void *context, const char *from, const char *to, uint64_t taken) {
+static void add_transition_count(void *context, const char *from, const char *to, uint64_t taken) {
     JoxText key = {0};
     jox_text_printf(&key, "%s>%s", from, to);
     jox_json_whole(context, key.data, taken);
@@ -56,7 +56,7 @@ static void add_transitions(JoxJson *json, const JoxMachineRun *machines) {
     jox_json_object(json, "transitions");
     for (uint32_t m = 0; m < machines->set->count; m++) {
         jox_json_object(json, machines->set->items[m]->name);
-        jox_machines_taken(machines, m, add_transition, json);
+        jox_machines_taken(machines, m, add_transition_count, json);
         jox_json_end(json);
     }
     jox_json_end(json);

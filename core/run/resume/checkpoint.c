@@ -24,7 +24,7 @@ typedef struct Checkpoint {
 
 /* ---- content ---- */
 
-static void add_text_piece(JoxText *out, const char *name, const char *text) {
+static void add_text_unless_null(JoxText *out, const char *name, const char *text) {
     if (text)
         jox_pieces_add(out, name, text, strlen(text));
 }
@@ -84,15 +84,15 @@ static void add_def(JoxText *out, const JoScene *scene) {
                                           .has_dt = def->has_dt,
                                           .no_density = def->no_density};
     jox_pieces_add(out, JOX_PIECE_NUMBERS, &numbers, sizeof numbers);
-    add_text_piece(out, JOX_PIECE_PATH, def->path);
-    add_text_piece(out, JOX_PIECE_INPUT, def->input_log);
+    add_text_unless_null(out, JOX_PIECE_PATH, def->path);
+    add_text_unless_null(out, JOX_PIECE_INPUT, def->input_log);
     for (size_t o = 0; o < def->override_count; o++)
-        add_text_piece(out, JOX_PIECE_SET, def->overrides[o]);
+        add_text_unless_null(out, JOX_PIECE_SET, def->overrides[o]);
     for (uint32_t m = 0; m < scene->mods->count; m++) {
         const char *folder = scene->mods->items[m].folder;
         JoxText path = {0}; /* a name without / would be searched in other folders */
         jox_text_printf(&path, "%s%s", strchr(folder, '/') ? "" : "./", folder);
-        add_text_piece(out, JOX_PIECE_MOD, path.data);
+        add_text_unless_null(out, JOX_PIECE_MOD, path.data);
         jox_text_free(&path);
     }
 }
@@ -148,7 +148,7 @@ static bool write_checkpoint_if_due(void *self, JoScene *scene, JoError *error) 
     if (good) {
         jox_pieces_begin(&out);
         add_def(&out, scene);
-        add_text_piece(&out, JOX_PIECE_NOTE, c->note);
+        add_text_unless_null(&out, JOX_PIECE_NOTE, c->note);
         add_scene_files(&out, scene);
         /* after the files, among which an earlier checkpoint's may be: the last one counts */
         add_names(&out, scene);

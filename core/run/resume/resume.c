@@ -26,7 +26,8 @@ typedef struct Read {
 
 /* ---- reading ---- */
 
-static void append_text(const char ***list, size_t *count, size_t *capacity, const char *text) {
+static void append_piece_text(const char ***list, size_t *count, size_t *capacity,
+                              const char *text) {
     JOX_RESERVE(*list, *capacity, *count + 1);
     (*list)[(*count)++] = text;
 }
@@ -43,9 +44,9 @@ static void take_piece(Read *r, const JoxPiece *piece) {
     else if (strcmp(name, JOX_PIECE_NOTE) == 0)
         r->note = data;
     else if (strcmp(name, JOX_PIECE_SET) == 0)
-        append_text(&r->sets, &r->set_count, &r->set_capacity, data);
+        append_piece_text(&r->sets, &r->set_count, &r->set_capacity, data);
     else if (strcmp(name, JOX_PIECE_MOD) == 0)
-        append_text(&r->mods, &r->mod_count, &r->mod_capacity, data);
+        append_piece_text(&r->mods, &r->mod_count, &r->mod_capacity, data);
     else if (strcmp(name, JOX_PIECE_STATE) == 0)
         r->state = *piece;
     else if (strcmp(name, JOX_PIECE_FILE) == 0 && head <= piece->length)

@@ -78,7 +78,7 @@ JoxWatch *jox_watch_create(void) {
     return jox_heap_register(watch, close_watch);
 }
 
-static bool is_existing_folder(const char *path) {
+static bool has_folder(const char *path) {
     struct stat info;
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
@@ -96,7 +96,7 @@ static bool watch_folder(JoxWatch *watch, WatchedFile *file) {
             inotify_add_watch(watch->inotify, n ? folder : ".",
                               IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_CREATE | IN_DELETE |
                                   IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
-        if (file->folder >= 0 && file->away && is_existing_folder(missing)) {
+        if (file->folder >= 0 && file->away && has_folder(missing)) {
             file->away = false; /* it was made in the meantime */
             strcpy(folder, missing);
             continue;
