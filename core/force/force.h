@@ -111,8 +111,13 @@ const JoxContactPlanes *jox_force_contact_planes(const JoxForces *forces);
 /* Returns the impulses of the contacts that the last step solved, in ascending order of ids:
    between agents, of agents with walls (edges) or with bodies (rows). */
 typedef enum { JOX_KEPT_PAIRS, JOX_KEPT_WALLS, JOX_KEPT_TOUCHES } JoxKeptKind;
-const struct JoxKeptImpulse *jox_force_kept(const JoxForces *forces, JoxKeptKind kind,
-                                            size_t *count);
+/* `other`: id of an agent, number of an edge, or row of a body. */
+typedef struct JoxKeptImpulse {
+    uint32_t id, other;
+    float impulse; /* N s */
+} JoxKeptImpulse;
+const JoxKeptImpulse *jox_force_kept_impulses(const JoxForces *forces, JoxKeptKind kind,
+                                              size_t *count);
 /* Returns the load of each piece of the walls, from contact to the next begin. */
 const JoxWallLoad *jox_force_wall_loads(const JoxForces *forces, uint32_t *count);
 /* Equations 8 and 9, called once vx, vy hold the new velocities: writes inferred_x, inferred_y. */

@@ -1,59 +1,9 @@
-/* Lists that the stages of force fill in parallel and sort afterwards: forces between agents, and
-   impulses on bodies. */
+/* Collects forces between agents by chunk, sorts them by receiver, and sums them. */
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "force/equations.h"
 #include "force/forces.h"
-
-void jox_chunks_grow(JoxChunkList *list, uint32_t chunks, size_t need) {
-    if (need > list->capacity) {
-        /* No realloc: nothing has to be kept, and pages that are not written stay unused. */
-        jox_free(list->items);
-        list->capacity = need + need / 2;
-        list->items = jox_alloc(list->capacity, 1);
-    }
-    JOX_RESERVE(list->counts, list->chunk_capacity, chunks);
-    JOX_ASSERT(!need || (list->items && list->capacity >= need));
-}
-
-bool jox_force_is_walled_off(const JoxForces *f, JoxV2 from, JoxV2 to) {
-    /* Tests from either end, as the grid lists edges up to half of the distance only. */
-    const JoxWallGrid *walls = f->step.walls;
-    return walls && (jox_wall_grid_has_wall_between(walls, from, to) ||
-                     jox_wall_grid_has_wall_between(walls, to, from));
-}
-
-/* Removes the agents from `found` that a wall separates from agent i. Returns how many are left. */
-static uint32_t drop_walled_off(const JoxForces *f, uint32_t i, uint32_t *found, uint32_t count) {
-    const JoxAgents *a = f->step.agents;
-    JoxV2 at = {a->x[i], a->y[i]};
-    uint32_t n = 0;
-    for (uint32_t k = 0; k < count; k++) {
-        found[n] = found[k];
-        n += !jox_force_is_walled_off(f, at, jox_add(at, jox_offset(a, i, found[k])));
-    }
-    return n;
-}
-
-uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
-    const JoxAgents *a = f->step.agents;
-    const JoxNeighbours *near = f->step.neighbours;
-    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
-    float cosine = jox_param(a, JOX_PARAM_brace_angle, i);
-    uint32_t n = 0;
-    for (uint32_t k = 0; k < near->count[i]; k++) {
-        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
-        JoxV2 offset = jox_offset(a, i, other);
-        float most = jox_at(radius, i) + jox_at(radius, other) + f->options.reach;
-        bool near_enough = f->options.literal | (jox_length2(offset) <= most * most);
-        found[n] = other; /* kept only if it counts; no branch to mispredict */
-        n += near_enough & jox_cone_holds(offset, axis, cosine);
-    }
-    n = f->options.literal ? n : drop_walled_off(f, i, found, n);
-    JOX_ASSERT(n <= near->count[i]);
-    return n;
-}
 
 /* Length of a run, in which the list of a chunk is split. The first runs of all chunks are stored
    together, then the second ones, and so on: with few transfers per chunk, few pages are
@@ -62,47 +12,61 @@ enum { RUN = 16 };
 
 void jox_transfers_begin(JoxForces *f) {
     const uint32_t most = jox_chunk_agents(f) * (f->step.neighbours->stride + 1);
-    jox_chunks_begin(&f->transfers, f->chunks, (most + RUN - 1) / RUN * RUN, sizeof(JoxTransfer));
+    jox_chunks_reserve(&f->transfers.list, f->chunks, (most + RUN - 1) / RUN * RUN,
+                       sizeof(JoxTransfer));
 }
 
 /* Returns the first entry of a run of a chunk. */
 static JoxTransfer *get_run(const JoxForces *f, uint32_t chunk, uint32_t run) {
-    return (JoxTransfer *)f->transfers.items + ((size_t)run * f->chunks + chunk) * RUN;
+    return (JoxTransfer *)f->transfers.list.items + ((size_t)run * f->chunks + chunk) * RUN;
 }
 
 void jox_transfers_add(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
-    const uint32_t at = f->transfers.counts[chunk]++;
+    const uint32_t at = f->transfers.list.counts[chunk]++;
     JOX_ASSERT(to < f->step.agents->count);
-    JOX_ASSERT(chunk < f->chunks && at < f->transfers.room);
+    JOX_ASSERT(chunk < f->chunks && at < f->transfers.list.room);
     get_run(f, chunk, at / RUN)[at % RUN] =
         (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
+}
+
+/* Asserts that transfers are sorted by receiver and come from agents that exist. Only builds with
+   assertions call it. */
+static inline void check_transfers(const JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        JOX_ASSERT(f->transfers.starts[i] <= f->transfers.starts[i + 1]);
+        for (uint32_t k = f->transfers.starts[i]; k < f->transfers.starts[i + 1]; k++) {
+            JOX_ASSERT(f->transfers.sorted[k].to == i);
+            JOX_ASSERT(jox_agents_find(a, f->transfers.sorted[k].from_id) != JOX_NO_INDEX);
+        }
+    }
 }
 
 uint32_t jox_transfers_sort(JoxForces *f) {
     uint32_t n = f->step.agents->count, total = 0;
     for (uint32_t c = 0; c < f->chunks; c++)
-        total += f->transfers.counts[c];
+        total += f->transfers.list.counts[c];
     if (!total)
         return 0;
     /* Room for a dense crowd from the start, so that a steady step never grows it. */
     uint32_t room = 6 * f->step.agents->count;
-    JOX_RESERVE(f->sorted, f->sorted_capacity, total > room ? total : room);
-    memset(f->starts, 0, ((size_t)n + 1) * sizeof *f->starts);
+    JOX_RESERVE(f->transfers.sorted, f->transfers.sorted_capacity, total > room ? total : room);
+    memset(f->transfers.starts, 0, ((size_t)n + 1) * sizeof *f->transfers.starts);
     for (uint32_t c = 0; c < f->chunks; c++)
-        for (uint32_t k = 0; k < f->transfers.counts[c]; k++)
-            f->starts[get_run(f, c, k / RUN)[k % RUN].to]++;
+        for (uint32_t k = 0; k < f->transfers.list.counts[c]; k++)
+            f->transfers.starts[get_run(f, c, k / RUN)[k % RUN].to]++;
     uint32_t sum = 0;
     for (uint32_t i = 0; i <= n; i++) {
-        sum += f->starts[i];
-        f->starts[i] = sum; /* its end; filling backwards turns it into the start */
+        sum += f->transfers.starts[i];
+        f->transfers.starts[i] = sum; /* its end; filling backwards turns it into the start */
     }
     for (uint32_t c = 0; c < f->chunks; c++)
-        for (uint32_t k = 0; k < f->transfers.counts[c]; k++) {
+        for (uint32_t k = 0; k < f->transfers.list.counts[c]; k++) {
             const JoxTransfer *t = &get_run(f, c, k / RUN)[k % RUN];
-            f->sorted[--f->starts[t->to]] = *t;
+            f->transfers.sorted[--f->transfers.starts[t->to]] = *t;
         }
-    JOX_ASSERT(f->starts[0] == 0 && f->starts[n] == total);
-    JOX_CHECK(jox_transfers_check(f));
+    JOX_ASSERT(f->transfers.starts[0] == 0 && f->transfers.starts[n] == total);
+    JOX_CHECK(check_transfers(f));
     return total;
 }
 
@@ -126,10 +90,10 @@ static void sum_received_chunk(void *context, uint32_t begin, uint32_t end, uint
     const SumTask *task = context;
     JoxForces *f = task->forces;
     for (uint32_t i = begin; i < end; i++) {
-        uint32_t first = f->starts[i], count = f->starts[i + 1] - first;
+        uint32_t first = f->transfers.starts[i], count = f->transfers.starts[i + 1] - first;
         if (!count)
             continue;
-        JoxTransfer *t = f->sorted + first;
+        JoxTransfer *t = f->transfers.sorted + first;
         sort_by_giver(t, count);
         JOX_ASSERT(t[0].to == i && t[count - 1].to == i);
         float x = 0.0f, y = 0.0f;
@@ -149,32 +113,8 @@ void jox_transfers_sum(JoxForces *f, float *x, float *y) {
                      &task);
 }
 
-void jox_force_add_impulse(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse,
-                           JoxV3 point, float lasting) {
-    JOX_RESERVE(f->pending, f->pending_capacity, (size_t)f->pending_count + 1);
-    JOX_ASSERT(object < f->step.objects->count && agent_id < f->step.agents->next_id);
-    uint64_t key = (uint64_t)agent_id << 32 | object;
-    f->pending[f->pending_count] = (JoxPendingImpulse){key, {object, impulse, point, lasting}};
-    f->pending_count++;
-}
-
-static int compare_impulse_keys(const void *a, const void *b, const void *context) {
-    const JoxPendingImpulse *x = a, *y = b;
-    (void)context;
-    return (x->key > y->key) - (x->key < y->key);
-}
-
-const JoxImpulse *jox_force_impulses(JoxForces *f, uint32_t *count) {
-    if (f->pending_sorted != f->pending_count) {
-        JOX_RESERVE(f->pending, f->pending_capacity,
-                    f->pending_count + JOX_SORT_SPARE(f->pending_count));
-        jox_sort(f->pending, f->pending_count, sizeof *f->pending, compare_impulse_keys, NULL,
-                 f->pending + f->pending_count);
-        JOX_RESERVE(f->impulses, f->impulse_capacity, f->pending_count);
-        for (uint32_t i = 0; i < f->pending_count; i++)
-            f->impulses[i] = f->pending[i].impulse;
-        f->pending_sorted = f->pending_count;
-    }
-    *count = f->pending_count;
-    return f->impulses;
+void jox_transfers_free(JoxTransfers *transfers) {
+    jox_chunks_free(&transfers->list);
+    jox_free(transfers->starts);
+    jox_free(transfers->sorted);
 }

@@ -11,7 +11,7 @@
 
 #include "base/assert.h"
 #include "base/number/random.h"
-#include "force/kernels.h"
+#include "force/contact/contacts.h"
 #include "nav/nav.h"
 
 enum { CROWDS = 42, MOST_PEOPLE = 400 };
@@ -163,7 +163,7 @@ static bool find_plain_touch(JoxForces *f, uint32_t i, uint32_t other, bool wall
     JoxV2 at = {a->x[i], a->y[i]};
     if (walls && jox_wall_grid_has_wall_between(f->step.walls, at, jox_sub(at, offset)))
         return false;
-    f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap < 0.0f;
+    f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += gap < 0.0f;
     *out = make_plain_pair(f, i, other, jox_unit(offset), gap, squeeze);
     return true;
 }
@@ -202,17 +202,19 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
     uint32_t edges = 0, count = 0;
     if (f->step.walls)
         jox_wall_grid_at(f->step.walls, jox_v2(a->x[i], a->y[i]), &edges);
-    const JoxFoundPair *found = (const JoxFoundPair *)f->found.items + f->found_first[i];
-    assert_int_equal(f->found_number[i], plain_contacts(f, i, edges > 0, pairs));
-    for (uint32_t k = 0; k < f->found_number[i]; k++)
+    const JoxFoundPair *found =
+        (const JoxFoundPair *)f->contacts->found.pairs.items + f->contacts->found.first_pair[i];
+    assert_int_equal(f->contacts->found.pair_count[i], plain_contacts(f, i, edges > 0, pairs));
+    for (uint32_t k = 0; k < f->contacts->found.pair_count[i]; k++)
         assert_true(same_pair(&found[k], &pairs[k]));
-    const JoxFoundWall *wall = (const JoxFoundWall *)f->found_walls.items + f->wall_first[i];
+    const JoxFoundWall *wall =
+        (const JoxFoundWall *)f->contacts->found.walls.items + f->contacts->found.first_wall[i];
     if (edges)
         count = jox_find_wall_contacts(f, i, walls);
-    assert_int_equal(f->wall_number[i], count);
+    assert_int_equal(f->contacts->found.wall_count[i], count);
     for (uint32_t k = 0; k < count; k++)
         assert_true(wall[k].edge == walls[k].edge && wall[k].gap == walls[k].gap);
-    seen->pairs += f->found_number[i];
+    seen->pairs += f->contacts->found.pair_count[i];
     seen->walls += count;
     seen->alone += c->neighbours.touch_count[i] != JOX_TOUCH_IS_SEEN;
 }
@@ -222,15 +224,15 @@ static void compare_find_crowd(JoIsa isa, uint32_t number, Seen *seen) {
     open_find_crowd(&c, isa, number);
     const uint32_t overlaps = c.forces->totals.pairs;
     for (uint32_t k = 0; k < c.forces->chunks; k++)
-        c.forces->chunk[k].overlaps = 0;
+        c.forces->contacts->found.overlaps[k] = 0;
     for (uint32_t i = 0; i < c.agents.count; i++)
         compare_agent(&c, i, seen);
     uint32_t again = 0;
     for (uint32_t k = 0; k < c.forces->chunks; k++)
-        again += c.forces->chunk[k].overlaps;
+        again += c.forces->contacts->found.overlaps[k];
     assert_int_equal(overlaps, again);
     seen->overlaps += overlaps;
-    seen->cut += c.forces->has_full_list;
+    seen->cut += c.forces->contacts->found.has_full_list;
     close_find_crowd(&c);
 }
 

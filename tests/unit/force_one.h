@@ -5,7 +5,8 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "force/kernels.h"
+#include "force/push/pass_on.h"
+#include "force/stages/kernels.h"
 
 /* (10) Returns the net force, N. */
 static JoxV2 plain_sum_terms(const JoxAgents *a, uint32_t i) {

@@ -12,7 +12,8 @@
 #include <cmocka.h>
 
 #include "base/number/random.h"
-#include "force/kernels.h"
+#include "force/push/pass_on.h"
+#include "force/stages/kernels.h"
 #include "unit/force_one.h"
 
 enum { PEOPLE = 4 * JOX_LANES - 5, CROWDS = 30 }; /* the last packet is not full */

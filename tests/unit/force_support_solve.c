@@ -1,6 +1,7 @@
 /* Supports of bodies: skipped contacts would hardly change, and agents feel the same as if none
    were skipped. */
-#include "force/forces.h"
+#include "force/contact/contacts.h"
+#include "force/support/supports.h"
 #include "unit/force_crowd.h"
 
 enum { WIDE = 3, DEEP = 4, HIGH = 3, BOXES = WIDE * DEEP * HIGH, PEOPLE = 3 * WIDE };
@@ -111,7 +112,8 @@ static void free_pile(Crowd *c, Pile *p) {
 
 static float measure_axis_speed(const JoxForces *f, const JoxSupportWatch *w,
                                 const JoxSupportAxis *axis) {
-    const JoxBodyMotion *one = &f->motions[w->rows[0]], *two = &f->motions[w->rows[1]];
+    const JoxBodyMotion *one = &f->supports->motions[w->rows[0]],
+                        *two = &f->supports->motions[w->rows[1]];
     return jox_dot_four(axis->along, one->velocity - two->velocity) +
            jox_dot_four(axis->lever[0], one->spin) - jox_dot_four(axis->lever[1], two->spin);
 }
@@ -119,8 +121,8 @@ static float measure_axis_speed(const JoxForces *f, const JoxSupportWatch *w,
 /* Finds by how much the normal impulse of a support, and friction, would change if it were solved
    now. */
 static void find_changes(const JoxForces *f, uint32_t k, float *presses, float *rubs) {
-    const JoxSupport *s = &f->support[k];
-    const JoxSupportWatch *w = &f->watch[k];
+    const JoxSupport *s = &f->supports->items[k];
+    const JoxSupportWatch *w = &f->supports->watches[k];
     const JoxSupportAxis *n = &s->normal, *x = &s->across[0], *y = &s->across[1];
     *presses =
         fabsf(jox_maxf(0.0f, n->impulse + (s->target - measure_axis_speed(f, w, n)) * n->mass) -
@@ -141,15 +143,15 @@ static void skipped_supports_change_within_their_bound(void **state) {
         Crowd c;
         press_pile(&c, &pile, trial, 2.0f);
         JoxForces *f = c.forces;
-        assert_true(f->touch_count >= WIDE && f->support_count > 2 * BOXES);
+        assert_true(f->contacts->touches.count >= WIDE && f->supports->count > 2 * BOXES);
         assert_true(f->totals.residual <= 2.0f);
         for (int pass = 0; pass < 3; pass++) {
-            for (uint32_t k = 0; k < f->support_count; k++) {
-                const JoxSupportWatch *w = &f->watch[k];
+            for (uint32_t k = 0; k < f->supports->count; k++) {
+                const JoxSupportWatch *w = &f->supports->watches[k];
                 float since = 0.0f, presses, rubs;
                 for (int side = 0; side < 2; side++)
                     since += w->most_per_unrest[side] *
-                             (f->motions[w->rows[side]].unrest - w->tested_unrest[side]);
+                             (f->supports->motions[w->rows[side]].unrest - w->tested_unrest[side]);
                 find_changes(f, k, &presses, &rubs);
                 assert_true(presses <= w->remaining + since + 1e-4f);
                 assert_true(rubs <=

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/number/random.h"
-#include "force/kernels.h"
+#include "force/stages/kernels.h"
 #include "geom/wall_way.h"
 #include "nav/move/move.h"
 #include "nav/near/perceive.h"

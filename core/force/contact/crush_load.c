@@ -1,5 +1,5 @@
-/* Measures what contacts press agents and walls with; stage.c calls it once the contacts are
-   solved.
+/* Compression and load of agents: what contacts press them with; stage.c calls it once the contacts
+   are solved.
 
    Compression is the sum of |f.n| over all contacts of an agent, with agents, walls and bodies,
    divided by the girth 2 pi r, N/m. Load is the greatest, over all directions d, of the sum of the
@@ -11,7 +11,8 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/forces.h"
+#include "force/contact/contacts.h"
+#include "force/push/pushes.h"
 #include "simd/four.h"
 
 enum { MOST_FORCES = 64 };
@@ -99,40 +100,45 @@ static inline void add_force_if(Pressing *p, JoxV2 force, bool counts) {
 
 /* Lists all forces that press on agent i. */
 static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
-    const JoxPair *pairs = f->pairs.items;
+    const JoxTransfers *pushed = &f->transfers;
+    const JoxV2 reaction = f->pushes->reactions[i];
+    const JoxTouches *touches = &f->contacts->touches;
+    const JoxFoundContacts *found = &f->contacts->found;
+    const JoxPairs *pairs = &f->contacts->pairs;
     const float per_second = 1.0f / (float)f->step.dt;
     out->count = 0;
-    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1] && has_room(out); k++) {
-        const JoxPair *p = &pairs[f->ends[k].pair];
+    for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1] && has_room(out); k++) {
+        const JoxPair *p = &pairs->items[pairs->ends[k].pair];
         const float force = p->impulse * per_second + p->squeeze;
         add_force_if(out, jox_scale(p->normal, p->first == i ? force : -force), force > 0.0f);
     }
-    for (uint32_t k = 0; k < jox_touches_of(f, i) && has_room(out); k++) {
-        const JoxTouch *t = &f->touch[f->touch_first[i] + k];
+    for (uint32_t k = 0; k < jox_touches_of(touches, i) && has_room(out); k++) {
+        const JoxTouch *t = &touches->items[touches->first[i] + k];
         add_force_if(out, jox_scale(t->normal, t->impulse * per_second), t->impulse > 0.0f);
     }
-    for (uint32_t k = 0; k < f->wall_number[i] && has_room(out); k++) {
-        const JoxWallContact *w = &f->wall[f->wall_first[i] + k];
+    for (uint32_t k = 0; k < found->wall_count[i] && has_room(out); k++) {
+        const JoxWallContact *w = &f->contacts->walls.items[found->first_wall[i] + k];
         add_force_if(out, jox_scale(w->normal, w->impulse * per_second), w->impulse > 0.0f);
     }
-    for (uint32_t k = f->pushed ? f->starts[i] : 0;
-         f->pushed && k < f->starts[i + 1] && has_room(out); k++)
-        add_force_if(out, jox_v2(f->sorted[k].x, f->sorted[k].y),
-                     f->sorted[k].from_id != f->step.agents->id[i]);
-    if ((f->braced[i].x != 0.0f || f->braced[i].y != 0.0f) && has_room(out))
-        add_force_if(out, f->braced[i], true);
+    for (uint32_t k = f->pushes->any ? pushed->starts[i] : 0;
+         f->pushes->any && k < pushed->starts[i + 1] && has_room(out); k++)
+        add_force_if(out, jox_v2(pushed->sorted[k].x, pushed->sorted[k].y),
+                     pushed->sorted[k].from_id != f->step.agents->id[i]);
+    if ((reaction.x != 0.0f || reaction.y != 0.0f) && has_room(out))
+        add_force_if(out, reaction, true);
     memset(out->x + out->count, 0, 4 * sizeof *out->x);
     memset(out->y + out->count, 0, 4 * sizeof *out->y);
 }
 
 bool jox_loads_are_none(const JoxForces *f, uint32_t begin, uint32_t end) {
-    uint32_t loads = f->pushed ? f->starts[end] - f->starts[begin] : 0;
-    float braced = 0.0f;
+    const JoxPushes *pushes = f->pushes;
+    uint32_t loads = pushes->any ? f->transfers.starts[end] - f->transfers.starts[begin] : 0;
+    float reactions = 0.0f;
     for (uint32_t i = begin; i < end; i++) {
-        loads |= f->wall_number[i];
-        braced += fabsf(f->braced[i].x) + fabsf(f->braced[i].y);
+        loads |= f->contacts->found.wall_count[i];
+        reactions += fabsf(pushes->reactions[i].x) + fabsf(pushes->reactions[i].y);
     }
-    return loads == 0 && braced == 0.0f;
+    return loads == 0 && reactions == 0.0f;
 }
 
 void jox_load_measure(JoxForces *f, uint32_t i) {
@@ -149,54 +155,4 @@ void jox_load_measure(JoxForces *f, uint32_t i) {
     a->compression[i] = sum / jox_circumference(jox_param(a, JOX_PARAM_radius, i));
     a->load[i] = find_greatest_push(&pressing);
     JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
-}
-
-/* Longest piece of an edge. */
-static const float PIECE = 1.0f; /* m */
-
-static float measure_edge(const JoxWalls *walls, uint32_t edge) {
-    const JoxWallVertex *v = &walls->vertices[edge];
-    return jox_length(jox_sub(walls->vertices[v->next].point, v->point));
-}
-
-void jox_forces_set_walls(JoxForces *f, const JoxWalls *walls, const JoxWallImages *images) {
-    f->walls = walls;
-    f->images = images;
-    uint32_t edges = walls ? walls->count : 0, pieces = 0;
-    JOX_RESERVE(f->piece_first, f->piece_first_capacity, (size_t)edges + 1);
-    for (uint32_t e = 0; e < edges; e++) {
-        f->piece_first[e] = pieces;
-        pieces += (uint32_t)ceilf(jox_maxf(measure_edge(walls, e) / PIECE - 1e-3f, 1e-3f));
-    }
-    f->piece_first[edges] = pieces;
-    JOX_RESERVE(f->pieces, f->piece_capacity, pieces);
-    f->piece_count = pieces;
-    for (uint32_t e = 0; e < edges; e++) {
-        const JoxWallVertex *v = &walls->vertices[e];
-        uint32_t n = f->piece_first[e + 1] - f->piece_first[e];
-        float length = measure_edge(walls, e) / (float)n;
-        for (uint32_t k = 0; k < n; k++)
-            f->pieces[f->piece_first[e] + k] = (JoxWallLoad){
-                .edge = e,
-                .from = jox_add(v->point, jox_scale(v->direction, (float)k * length)),
-                .to = jox_add(v->point, jox_scale(v->direction, (float)(k + 1) * length))};
-    }
-}
-
-void jox_wall_loads_measure(JoxForces *f) {
-    for (uint32_t k = 0; k < f->piece_count; k++)
-        f->pieces[k].load = 0.0f;
-    for (uint32_t k = 0; k < f->wall_count && f->walls; k++) {
-        const JoxWallContact *w = &f->wall[k];
-        uint32_t first = f->piece_first[w->edge], n = f->piece_first[w->edge + 1] - first;
-        float length = measure_edge(f->walls, w->edge) / (float)n;
-        uint32_t piece = length > 0.0f ? (uint32_t)(w->along / length) : 0;
-        JOX_ASSERT(w->edge < f->walls->count && n > 0);
-        f->pieces[first + (piece < n ? piece : n - 1)].load += w->impulse / (float)f->step.dt;
-    }
-}
-
-const JoxWallLoad *jox_force_wall_loads(const JoxForces *f, uint32_t *count) {
-    *count = f->piece_count;
-    return f->pieces;
 }

@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "force/kernels.h"
+#include "base/mem.h"
+#include "force/contact/contacts.h"
 
 #define X(name, isa) [isa] = jox_find_packets_##name,
 static JoxFindKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -12,9 +13,11 @@ static JoxFindKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
+    JoxFoundContacts *found = &f->contacts->found;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
-    jox_chunk_empty(&f->found, chunk);
-    jox_chunk_empty(&f->found_walls, chunk);
+    jox_chunk_empty(&found->pairs, chunk);
+    jox_chunk_empty(&found->walls, chunk);
+    found->overlaps[chunk] = 0;
     KERNELS[f->isa](f, begin, end);
     if (f->has_bodies)
         jox_touches_find(f, begin, end);
@@ -27,24 +30,32 @@ static bool has_full_list(const JoxNeighbours *near, uint32_t count) {
 }
 
 void jox_contacts_find(JoxForces *f) {
+    JoxFoundContacts *found = &f->contacts->found;
     uint32_t n = f->step.agents->count;
-    jox_chunks_begin(&f->found, f->chunks, jox_chunk_agents(f) * JOX_MOST_NEIGHBOURS,
-                     sizeof(JoxFoundPair));
-    jox_chunks_begin(&f->slots, f->chunks, f->found.room, sizeof(JoxPairSlot));
-    jox_chunks_begin(&f->found_walls, f->chunks, jox_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
-                     sizeof(JoxFoundWall));
-    JOX_RESERVE(f->found_first, f->found_first_capacity, n + JOX_LANES);
-    JOX_RESERVE(f->found_number, f->found_number_capacity, n + JOX_LANES);
-    JOX_RESERVE(f->wall_first, f->wall_first_capacity, n + JOX_LANES);
-    JOX_RESERVE(f->wall_number, f->wall_number_capacity, n + JOX_LANES);
-    if (f->has_bodies) {
-        jox_chunks_begin(&f->touches, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
-                         sizeof(JoxTouch));
-        JOX_RESERVE(f->touch_first, f->touch_first_capacity, n);
-        JOX_RESERVE(f->touch_number, f->touch_number_capacity, n);
-    }
-    f->has_full_list = n && has_full_list(f->step.neighbours, n);
+    jox_chunks_reserve(&found->pairs, f->chunks, jox_chunk_agents(f) * JOX_MOST_NEIGHBOURS,
+                       sizeof(JoxFoundPair));
+    jox_chunks_reserve(&found->slots, f->chunks, found->pairs.room, sizeof(JoxPairSlot));
+    jox_chunks_reserve(&found->walls, f->chunks, jox_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
+                       sizeof(JoxFoundWall));
+    JOX_RESERVE(found->first_pair, found->first_pair_capacity, n + JOX_LANES);
+    JOX_RESERVE(found->pair_count, found->pair_count_capacity, n + JOX_LANES);
+    JOX_RESERVE(found->first_wall, found->first_wall_capacity, n + JOX_LANES);
+    JOX_RESERVE(found->wall_count, found->wall_count_capacity, n + JOX_LANES);
+    JOX_RESERVE(found->overlaps, found->overlap_capacity, f->chunks);
+    if (f->has_bodies)
+        jox_touches_reserve(f);
+    found->has_full_list = n && has_full_list(f->step.neighbours, n);
     jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, find_chunk, f);
     for (uint32_t c = 0; c < f->chunks; c++)
-        f->totals.pairs += f->chunk[c].overlaps;
+        f->totals.pairs += found->overlaps[c];
+}
+
+void jox_found_contacts_free(JoxFoundContacts *found) {
+    void *owned[] = {found->first_pair, found->first_wall, found->pair_count, found->wall_count,
+                     found->overlaps};
+    jox_chunks_free(&found->pairs);
+    jox_chunks_free(&found->slots);
+    jox_chunks_free(&found->walls);
+    for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
+        jox_free(owned[i]);
 }

@@ -5,7 +5,6 @@
 
 #include "base/assert.h"
 #include "force/contact/find_lanes.h"
-#include "force/forces.h"
 
 static bool is_in_touch_list(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     const uint32_t *index = near->touch_index + (size_t)i * JOX_MOST_NEIGHBOURS;
@@ -74,6 +73,7 @@ static bool find_edge_contact(const JoxWalls *walls, uint32_t edge, JoxV2 p, Jox
 
 uint32_t jox_find_wall_contacts(const JoxForces *f, uint32_t i,
                                 JoxFoundWall out[JOX_CONTACT_MOST_WALLS]) {
+    const JoxWallLoads *wall_loads = &f->contacts->wall_loads;
     const JoxAgents *a = f->step.agents;
     JoxV2 at = {a->x[i], a->y[i]};
     uint32_t count, found = 0;
@@ -85,8 +85,8 @@ uint32_t jox_find_wall_contacts(const JoxForces *f, uint32_t i,
         JoxFoundWall contact;
         if (!find_edge_contact(f->step.walls->walls, edges[k], at, &contact))
             continue;
-        if (f->images) /* a contact with an image counts for its wall */
-            contact.edge = jox_wall_images_origin(f->images, edges[k], &contact.along);
+        if (wall_loads->images) /* a contact with an image counts for its wall */
+            contact.edge = jox_wall_images_origin(wall_loads->images, edges[k], &contact.along);
         contact.gap -= radius;
         if (contact.gap > most)
             continue;

@@ -6,7 +6,7 @@
 
 #include "agents/param_lanes.h"
 #include "base/assert.h"
-#include "force/kernels.h"
+#include "force/contact/contacts.h"
 #include "simd/vectors.h"
 
 /* The agents of a packet, and the contacts found so far of each, by ascending id of the other
@@ -138,7 +138,7 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
         if ((p->walls >> lane & 1) && jox_wall_grid_has_wall_between(
                                           f->step.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
             continue;
-        f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap[lane] < 0.0f;
+        f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += gap[lane] < 0.0f;
         const JoxFoundPair pair = {.other = other[lane],
                                    .other_id = a->id[other[lane]],
                                    .normal = {nx[lane], ny[lane]},

@@ -28,7 +28,7 @@ static void add_seen_contacts(JoxFindPacket *p, uint32_t lanes) {
 /* Returns the lanes whose neighbour list covers touch range. */
 static uint32_t find_seen_lanes(const JoxFindPacket *p) {
     const uint8_t *touch_count = p->f->step.neighbours->touch_count;
-    if (p->f->has_full_list)
+    if (p->f->contacts->found.has_full_list)
         return 0;
     if (!touch_count)
         return p->lanes;
@@ -38,40 +38,41 @@ static uint32_t find_seen_lanes(const JoxFindPacket *p) {
 
 /* Writes that no agent of the packet touches anything. */
 static void write_none(const JoxFindPacket *p) {
-    JoxForces *f = p->f;
+    JoxFoundContacts *lists = &p->f->contacts->found;
     const uint32_t i = p->first, chunk = i / JOX_FORCE_GRAIN;
-    const uint32_t found = chunk * f->found.room + f->found.counts[chunk];
-    const uint32_t walls = chunk * f->found_walls.room + f->found_walls.counts[chunk];
-    ji_store(f->found_first + i, ji_set((int32_t)found));
-    ji_store(f->wall_first + i, ji_set((int32_t)walls));
-    ji_store_bytes(f->found_number + i, ji_set(0));
-    ji_store_bytes(f->wall_number + i, ji_set(0));
+    const uint32_t found = chunk * lists->pairs.room + lists->pairs.counts[chunk];
+    const uint32_t walls = chunk * lists->walls.room + lists->walls.counts[chunk];
+    ji_store(lists->first_pair + i, ji_set((int32_t)found));
+    ji_store(lists->first_wall + i, ji_set((int32_t)walls));
+    ji_store_bytes(lists->pair_count + i, ji_set(0));
+    ji_store_bytes(lists->wall_count + i, ji_set(0));
 }
 
 /* Writes the contacts of each lane; finds those of lanes that are not in `seen` first. */
 static void write_each(JoxFindPacket *p, uint32_t seen) {
     JoxForces *f = p->f;
+    JoxFoundContacts *lists = &f->contacts->found;
     const uint32_t chunk = p->first / JOX_FORCE_GRAIN;
-    JoxFoundPair *found = (JoxFoundPair *)f->found.items + (size_t)chunk * f->found.room;
-    JoxPairSlot *slots = (JoxPairSlot *)f->slots.items + (size_t)chunk * f->slots.room;
-    JoxFoundWall *walls = (JoxFoundWall *)f->found_walls.items;
-    walls += (size_t)chunk * f->found_walls.room;
-    uint32_t *n = &f->found.counts[chunk], *w = &f->found_walls.counts[chunk];
+    JoxFoundPair *found = (JoxFoundPair *)lists->pairs.items + (size_t)chunk * lists->pairs.room;
+    JoxPairSlot *slots = (JoxPairSlot *)lists->slots.items + (size_t)chunk * lists->slots.room;
+    JoxFoundWall *walls = (JoxFoundWall *)lists->walls.items;
+    walls += (size_t)chunk * lists->walls.room;
+    uint32_t *n = &lists->pairs.counts[chunk], *w = &lists->walls.counts[chunk];
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
         if (!(seen >> lane & 1))
             p->count[lane] = jox_find_contacts_alone(f, i, p->walls >> lane & 1, p->found[lane]);
-        JOX_ASSERT(*n + p->count[lane] <= f->found.room);
-        f->found_first[i] = chunk * f->found.room + *n;
-        f->found_number[i] = (uint8_t)p->count[lane];
+        JOX_ASSERT(*n + p->count[lane] <= lists->pairs.room);
+        lists->first_pair[i] = chunk * lists->pairs.room + *n;
+        lists->pair_count[i] = (uint8_t)p->count[lane];
         for (uint32_t k = 0; k < p->count[lane]; k++) {
             slots[*n].other = p->found[lane][k].other;
             found[(*n)++] = p->found[lane][k];
         }
-        f->wall_first[i] = chunk * f->found_walls.room + *w;
-        f->wall_number[i] =
+        lists->first_wall[i] = chunk * lists->walls.room + *w;
+        lists->wall_count[i] =
             p->walled >> lane & 1 ? (uint8_t)jox_find_wall_contacts(f, i, walls + *w) : 0;
-        *w += f->wall_number[i];
+        *w += lists->wall_count[i];
     }
 }
 

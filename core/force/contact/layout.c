@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/kernels.h"
+#include "force/contact/contacts.h"
 
 #define X(name, isa) [isa] = jox_start_packets_##name,
 static JoxStartKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -21,96 +21,103 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
 }
 
 static inline const JoxFoundPair *get_found(const JoxForces *f, uint32_t i) {
-    return (const JoxFoundPair *)f->found.items + f->found_first[i];
+    const JoxFoundContacts *found = &f->contacts->found;
+    return (const JoxFoundPair *)found->pairs.items + found->first_pair[i];
 }
 
 static inline JoxPairSlot *get_slots(const JoxForces *f, uint32_t i) {
-    return (JoxPairSlot *)f->slots.items + f->found_first[i];
+    const JoxFoundContacts *found = &f->contacts->found;
+    return (JoxPairSlot *)found->slots.items + found->first_pair[i];
 }
 
 /* Prefetches the data of an agent that comes AHEAD agents later: consecutive ids are scattered in
    memory. */
 enum { AHEAD = 6 };
 static inline void prefetch_agent(const JoxForces *f, uint32_t i) {
+    const JoxPairs *pairs = &f->contacts->pairs;
     __builtin_prefetch(get_slots(f, i));
-    __builtin_prefetch(&f->colours_of[i], 1);
-    __builtin_prefetch(&f->found_number[i]);
-    __builtin_prefetch(&f->end_starts[i], 1);
+    __builtin_prefetch(&pairs->colours_of[i], 1);
+    __builtin_prefetch(&f->contacts->found.pair_count[i]);
+    __builtin_prefetch(&pairs->end_starts[i], 1);
 }
 
 /* Gives each pair, in ascending order of ids, the first colour that neither of its agents has, and
    its number among the contacts of either agent. Finds where the kept impulses of each agent
    begin. */
 static void colour_pairs(JoxForces *f) {
+    JoxPairs *pairs = &f->contacts->pairs;
     const JoxAgents *a = f->step.agents;
-    const JoxKeptImpulses *were = &f->kept_pairs;
+    const JoxKeptImpulses *were = &f->contacts->kept[JOX_KEPT_PAIRS];
     uint32_t listed = 0, kept = 0;
-    memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
-    memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
+    memset(pairs->colours_of, 0, a->count * sizeof *pairs->colours_of);
+    memset(pairs->end_starts, 0, ((size_t)a->count + 1) * sizeof *pairs->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
-        const uint32_t i = a->by_rank[r], id = a->rank_id[r], number = f->found_number[i];
+        const uint32_t i = a->by_rank[r], id = a->rank_id[r],
+                       number = f->contacts->found.pair_count[i];
         if (r + AHEAD < a->count)
             prefetch_agent(f, a->by_rank[r + AHEAD]);
         if (!number)
             continue;
         while (kept < were->count && were->items[kept].id < id)
             kept++;
-        f->listed[i] = (JoxListed){listed, kept};
+        pairs->orders[i] = (JoxPairOrder){listed, kept};
         JoxPairSlot *slot = get_slots(f, i);
         for (uint32_t k = 0; k < number; k++, slot++) {
-            const uint64_t open = ~(f->colours_of[i] | f->colours_of[slot->other]);
+            const uint64_t open = ~(pairs->colours_of[i] | pairs->colours_of[slot->other]);
             if (open == 0) { /* only in a heap of hundreds of agents */
                 slot->colour = JOX_NO_COLOUR;
                 continue;
             }
             slot->colour = (uint8_t)__builtin_ctzll(open);
-            f->colours_of[i] |= (uint64_t)1 << slot->colour;
-            f->colours_of[slot->other] |= (uint64_t)1 << slot->colour;
-            slot->first_end = (uint8_t)f->end_starts[i]++;
-            slot->second_end = (uint8_t)f->end_starts[slot->other]++;
+            pairs->colours_of[i] |= (uint64_t)1 << slot->colour;
+            pairs->colours_of[slot->other] |= (uint64_t)1 << slot->colour;
+            slot->first_end = (uint8_t)pairs->end_starts[i]++;
+            slot->second_end = (uint8_t)pairs->end_starts[slot->other]++;
             listed++;
         }
     }
     uint32_t ends = 0;
     for (uint32_t i = 0; i <= a->count; i++) { /* turns numbers of contacts into starts */
-        const uint32_t number = i < a->count ? f->end_starts[i] : 0;
-        f->end_starts[i] = ends;
+        const uint32_t number = i < a->count ? pairs->end_starts[i] : 0;
+        pairs->end_starts[i] = ends;
         ends += number;
     }
     JOX_ASSERT(ends == 2 * listed);
-    f->pairs.count = listed;
+    pairs->count = listed;
 }
 
 /* Counts the pairs of each colour that agents [begin, end) found. */
 static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)end, (void)worker;
     JoxForces *f = context;
-    const uint32_t chunk = begin / JOX_FORCE_GRAIN, first = chunk * f->slots.room;
-    const JoxPairSlot *slots = (const JoxPairSlot *)f->slots.items + first;
-    uint32_t *sizes = f->colour_sizes[chunk];
-    memset(sizes, 0, sizeof f->colour_sizes[chunk]);
-    for (uint32_t n = 0; n < f->found.counts[chunk]; n++)
+    JoxFoundContacts *found = &f->contacts->found;
+    JoxPairs *pairs = &f->contacts->pairs;
+    const uint32_t chunk = begin / JOX_FORCE_GRAIN, first = chunk * found->slots.room;
+    const JoxPairSlot *slots = (const JoxPairSlot *)found->slots.items + first;
+    uint32_t *sizes = pairs->colour_sizes[chunk];
+    memset(sizes, 0, sizeof pairs->colour_sizes[chunk]);
+    for (uint32_t n = 0; n < found->pairs.counts[chunk]; n++)
         if (slots[n].colour != JOX_NO_COLOUR)
             sizes[slots[n].colour]++;
 }
 
 /* Turns the counts of pairs, per chunk and colour, into the place of the first one. */
 static void start_colours(JoxForces *f) {
-    JoxPairs *p = &f->pairs;
+    JoxPairs *pairs = &f->contacts->pairs;
     uint32_t sum = 0;
-    p->colours = 0;
+    pairs->colours = 0;
     for (uint32_t colour = 0; colour < JOX_CONTACT_MOST_COLOURS; colour++) {
-        p->starts[colour] = sum;
+        pairs->starts[colour] = sum;
         for (uint32_t chunk = 0; chunk < f->chunks; chunk++) {
-            const uint32_t size = f->colour_sizes[chunk][colour];
-            f->colour_sizes[chunk][colour] = sum;
+            const uint32_t size = pairs->colour_sizes[chunk][colour];
+            pairs->colour_sizes[chunk][colour] = sum;
             sum += size;
         }
-        if (sum > p->starts[colour])
-            p->colours = colour + 1;
+        if (sum > pairs->starts[colour])
+            pairs->colours = colour + 1;
     }
-    JOX_ASSERT(sum == p->count);
-    p->starts[JOX_CONTACT_MOST_COLOURS] = sum;
+    JOX_ASSERT(sum == pairs->count);
+    pairs->starts[JOX_CONTACT_MOST_COLOURS] = sum;
 }
 
 /* Writes the pairs that agents [begin, end) found into the ranges of their colours, with the kept
@@ -118,84 +125,88 @@ static void start_colours(JoxForces *f) {
 static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
+    const JoxKeptImpulses *last = &f->contacts->kept[JOX_KEPT_PAIRS];
+    JoxFoundContacts *lists = &f->contacts->found;
+    JoxPairs *pairs = &f->contacts->pairs;
     const JoxAgents *a = f->step.agents;
-    uint32_t *next = f->colour_sizes[begin / JOX_FORCE_GRAIN];
+    uint32_t *next = pairs->colour_sizes[begin / JOX_FORCE_GRAIN];
     for (uint32_t i = begin; i < end; i++) {
         const JoxFoundPair *found = get_found(f, i);
         const JoxPairSlot *slots = get_slots(f, i);
-        size_t kept = f->found_number[i] ? f->listed[i].kept : 0;
-        for (uint32_t k = 0; k < f->found_number[i]; k++) {
+        size_t kept = lists->pair_count[i] ? pairs->orders[i].first_kept : 0;
+        for (uint32_t k = 0; k < lists->pair_count[i]; k++) {
             if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
             const uint32_t at = next[slots[k].colour]++, j = found[k].other;
-            f->pairs.items[at] =
+            pairs->items[at] =
                 (JoxPair){i,
                           j,
                           found[k].normal,
                           found[k].target,
                           found[k].mass,
                           found[k].squeeze,
-                          jox_kept_impulse(&f->kept_pairs, &kept, a->id[i], found[k].other_id)};
-            f->ends[f->end_starts[i] + slots[k].first_end] = (JoxEnd){at, j};
-            f->ends[f->end_starts[j] + slots[k].second_end] = (JoxEnd){at, i};
+                          jox_kept_impulse(last, &kept, a->id[i], found[k].other_id)};
+            pairs->ends[pairs->end_starts[i] + slots[k].first_end] = (JoxPairEnd){at, j};
+            pairs->ends[pairs->end_starts[j] + slots[k].second_end] = (JoxPairEnd){at, i};
         }
     }
 }
 
 /* Lists the contacts with walls, in ascending order of agent ids. */
 static void lay_walls(JoxForces *f) {
+    const JoxKeptImpulses *last = &f->contacts->kept[JOX_KEPT_WALLS];
+    JoxFoundContacts *lists = &f->contacts->found;
+    JoxWallContacts *walls = &f->contacts->walls;
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
     const float dt = (float)f->step.dt;
     size_t kept = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];
-        JoxFoundWall *found = (JoxFoundWall *)f->found_walls.items + f->wall_first[i];
-        if (f->wall_number[i])
-            f->wall_first[i] = f->wall_group[f->wall_groups++] = f->wall_count;
-        for (uint32_t k = 1; k < f->wall_number[i]; k++) { /* sorts by edge */
+        JoxFoundWall *found = (JoxFoundWall *)lists->walls.items + lists->first_wall[i];
+        if (lists->wall_count[i])
+            lists->first_wall[i] = walls->groups[walls->group_count++] = walls->count;
+        for (uint32_t k = 1; k < lists->wall_count[i]; k++) { /* sorts by edge */
             JoxFoundWall moved = found[k];
             uint32_t at = k;
             for (; at > 0 && found[at - 1].edge > moved.edge; at--)
                 found[at] = found[at - 1];
             found[at] = moved;
         }
-        for (uint32_t k = 0; k < f->wall_number[i]; k++) {
+        for (uint32_t k = 0; k < lists->wall_count[i]; k++) {
             float speed = jox_dot(jox_v2(a->vx[i], a->vy[i]), found[k].normal);
-            f->wall[f->wall_count++] = (JoxWallContact){
+            walls->items[walls->count++] = (JoxWallContact){
                 .agent = i,
                 .edge = found[k].edge,
                 .normal = found[k].normal,
                 .along = found[k].along,
                 .target = jox_contact_target(found[k].gap, speed, jox_at(e, i), dt),
-                .impulse = jox_kept_impulse(&f->kept_walls, &kept, a->id[i], found[k].edge)};
+                .impulse = jox_kept_impulse(last, &kept, a->id[i], found[k].edge)};
         }
     }
-    f->wall_group[f->wall_groups] = f->wall_count;
-}
-
-static uint32_t sum_counts(const uint32_t *counts, uint32_t chunks) {
-    uint32_t sum = 0;
-    for (uint32_t c = 0; c < chunks; c++)
-        sum += counts[c];
-    return sum;
+    walls->groups[walls->group_count] = walls->count;
 }
 
 /* Makes room for all contacts. */
-static void reserve_layout(JoxForces *f, uint32_t pairs, uint32_t walls) {
+static void reserve_layout(JoxForces *f, uint32_t pair_count, uint32_t wall_count) {
+    JoxPairs *pairs = &f->contacts->pairs;
+    JoxWallContacts *walls = &f->contacts->walls;
+    JoxContactSolve *solve = &f->contacts->solve;
     const uint32_t agents = f->step.agents->count;
     /* Room for a dense crowd from the start, so that a steady step never allocates. */
-    const uint32_t room = pairs > 4 * agents ? pairs : 4 * agents;
-    f->colours_of = jox_stage_memory_take(f->memory, agents, sizeof *f->colours_of);
-    JOX_RESERVE(f->colour_sizes, f->colour_size_capacity, f->chunks);
-    JOX_RESERVE(f->listed, f->listed_capacity, agents);
-    JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)agents + 1);
-    JOX_RESERVE(f->pairs.items, f->pairs.capacity, room);
-    JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
-    f->velocities = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->velocities);
-    f->inverse_mass = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *f->inverse_mass);
-    JOX_RESERVE(f->wall, f->wall_capacity, walls);
-    JOX_RESERVE(f->wall_group, f->wall_group_capacity, (size_t)walls + 1);
+    const uint32_t room = pair_count > 4 * agents ? pair_count : 4 * agents;
+    pairs->colours_of = jox_stage_memory_take(f->memory, agents, sizeof *pairs->colours_of);
+    JOX_RESERVE(pairs->colour_sizes, pairs->colour_size_capacity, f->chunks);
+    JOX_RESERVE(pairs->orders, pairs->order_capacity, agents);
+    JOX_RESERVE(pairs->end_starts, pairs->end_start_capacity, (size_t)agents + 1);
+    JOX_RESERVE(pairs->items, pairs->capacity, room);
+    JOX_RESERVE(pairs->ends, pairs->end_capacity, 2 * (size_t)room);
+    solve->velocities =
+        jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *solve->velocities);
+    solve->inverse_mass =
+        jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *solve->inverse_mass);
+    JOX_RESERVE(walls->items, walls->capacity, wall_count);
+    JOX_RESERVE(walls->groups, walls->group_capacity, (size_t)wall_count + 1);
 }
 
 /* Computes the velocities of a chunk of agents without contacts. */
@@ -227,54 +238,70 @@ static void lay_part(void *context, uint32_t begin, uint32_t end, uint32_t worke
 }
 
 void jox_contacts_lay_out(JoxForces *f) {
+    JoxFoundContacts *found = &f->contacts->found;
+    JoxWallContacts *walls = &f->contacts->walls;
+    JoxPairs *pairs = &f->contacts->pairs;
     const uint32_t agents = f->step.agents->count;
-    Layout layout = {f, sum_counts(f->found.counts, f->chunks),
-                     sum_counts(f->found_walls.counts, f->chunks)};
-    const bool touched = f->has_bodies && sum_counts(f->touches.counts, f->chunks);
+    Layout layout = {f, jox_chunks_count(&found->pairs, f->chunks),
+                     jox_chunks_count(&found->walls, f->chunks)};
+    const bool touched = f->has_bodies && jox_chunks_count(&f->contacts->touches.found, f->chunks);
     reserve_layout(f, layout.pairs, layout.walls);
-    f->wall_count = f->wall_groups = 0;
-    f->pairs.count = f->pairs.colours = 0;
+    walls->count = walls->group_count = 0;
+    pairs->count = pairs->colours = 0;
     if (layout.pairs || layout.walls || touched)
         jox_parallel_for(f->chunks > 1 ? f->step.pool : NULL,
                          STARTS + (f->options.literal ? 0 : f->chunks), 1, lay_part, &layout);
-    JOX_ASSERT(f->wall_count == layout.walls);
+    JOX_ASSERT(walls->count == layout.walls);
     if (layout.pairs) {
         jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, count_chunk, f);
         start_colours(f);
         jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, place_chunk, f);
         return;
     }
-    memset(f->end_starts, 0, ((size_t)agents + 1) * sizeof *f->end_starts);
+    memset(pairs->end_starts, 0, ((size_t)agents + 1) * sizeof *pairs->end_starts);
 }
 
 /* Keeps the impulses of the pairs that agents [begin, end) found, in ascending order of ids. */
 static void keep_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
+    JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_PAIRS];
+    JoxFoundContacts *lists = &f->contacts->found;
+    JoxPairs *pairs = &f->contacts->pairs;
     const uint32_t *id = f->step.agents->id;
     for (uint32_t i = begin; i < end; i++) {
         const JoxFoundPair *found = get_found(f, i);
         const JoxPairSlot *slots = get_slots(f, i);
-        uint32_t n = f->found_number[i] ? f->listed[i].pair : 0;
-        for (uint32_t k = 0; k < f->found_number[i]; k++) {
+        uint32_t n = lists->pair_count[i] ? pairs->orders[i].first_pair : 0;
+        for (uint32_t k = 0; k < lists->pair_count[i]; k++) {
             if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
-            const uint32_t at = f->ends[f->end_starts[i] + slots[k].first_end].pair;
-            f->kept_pairs.items[n++] =
-                (JoxKeptImpulse){id[i], found[k].other_id, f->pairs.items[at].impulse};
+            const uint32_t at = pairs->ends[pairs->end_starts[i] + slots[k].first_end].pair;
+            kept->items[n++] = (JoxKeptImpulse){id[i], found[k].other_id, pairs->items[at].impulse};
         }
     }
 }
 
 void jox_contacts_keep(JoxForces *f) {
+    JoxKeptImpulses *of_pairs = &f->contacts->kept[JOX_KEPT_PAIRS];
+    JoxKeptImpulses *of_walls = &f->contacts->kept[JOX_KEPT_WALLS];
+    JoxWallContacts *walls = &f->contacts->walls;
+    JoxPairs *pairs = &f->contacts->pairs;
     const JoxAgents *a = f->step.agents;
-    JOX_RESERVE(f->kept_pairs.items, f->kept_pairs.capacity, f->pairs.count);
-    f->kept_pairs.count = f->pairs.count;
-    if (f->pairs.count)
+    JOX_RESERVE(of_pairs->items, of_pairs->capacity, pairs->count);
+    of_pairs->count = pairs->count;
+    if (pairs->count)
         jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, keep_chunk, f);
-    JOX_RESERVE(f->kept_walls.items, f->kept_walls.capacity, f->wall_count);
-    f->kept_walls.count = f->wall_count;
-    for (uint32_t k = 0; k < f->wall_count; k++)
-        f->kept_walls.items[k] =
-            (JoxKeptImpulse){a->id[f->wall[k].agent], f->wall[k].edge, f->wall[k].impulse};
+    JOX_RESERVE(of_walls->items, of_walls->capacity, walls->count);
+    of_walls->count = walls->count;
+    for (uint32_t k = 0; k < walls->count; k++)
+        of_walls->items[k] = (JoxKeptImpulse){a->id[walls->items[k].agent], walls->items[k].edge,
+                                              walls->items[k].impulse};
+}
+
+void jox_pairs_free(JoxPairs *pairs) {
+    void *owned[] = {pairs->items, pairs->ends, pairs->end_starts, pairs->orders,
+                     pairs->colour_sizes};
+    for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
+        jox_free(owned[i]);
 }

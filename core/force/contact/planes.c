@@ -7,8 +7,8 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "force/contact/contacts.h"
 #include "force/equations.h"
-#include "force/forces.h"
 
 /* m/s: residuals of the contact solve must not make planes contradict each other */
 static const float SLACK = 1e-3f;
@@ -40,12 +40,12 @@ static float find_least_speed(const JoxForceStep *step, uint32_t i, uint32_t j, 
 static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
                                    JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
-    const JoxPair *pairs = f->pairs.items;
+    const JoxPairs *pairs = &f->contacts->pairs;
     const float time = (float)f->step.planning_time;
     uint32_t n = 0;
-    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
-        const JoxPair *p = &pairs[f->ends[k].pair];
-        const uint32_t j = f->ends[k].other;
+    for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1]; k++) {
+        const JoxPair *p = &pairs->items[pairs->ends[k].pair];
+        const uint32_t j = pairs->ends[k].other;
         if (!(p->impulse > 0.0f || p->target >= 0.0f) || n == JOX_MOST_TOUCHED)
             continue;
         float sign = p->first == i ? 1.0f : -1.0f;
@@ -65,10 +65,11 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
 /* Makes the planes of the bodies that press on agent i or overlap it. Returns how many. */
 static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
                                  JoxDecay *decay) {
+    const JoxTouches *touches = &f->contacts->touches;
     const float time = (float)f->step.planning_time;
     uint32_t n = 0;
-    for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
-        const JoxTouch *t = &f->touch[f->touch_first[i] + k];
+    for (uint32_t k = 0; k < jox_touches_of(touches, i); k++) {
+        const JoxTouch *t = &touches->items[touches->first[i] + k];
         if (!(t->impulse > 0.0f || t->gap <= 0.0f))
             continue;
         JoxV2 forced = {f->step.agents->forced_x[i], f->step.agents->forced_y[i]};
@@ -85,11 +86,11 @@ static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane
 static void make_chunk_planes(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    JoxContactPlanes *planes = &f->planes;
+    JoxContactPlanes *planes = &f->contacts->planes;
     JoxDecay decay = f->decay;
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
-        if (jox_have_no_contacts(f, i, last)) {
+        if (jox_have_no_contacts(f->contacts, i, last)) {
             memset(planes->people + i, 0, last - i);
             memset(planes->bodies + i, 0, last - i);
             continue;
@@ -103,21 +104,23 @@ static void make_chunk_planes(void *context, uint32_t begin, uint32_t end, uint3
 }
 
 void jox_contact_planes_make(JoxForces *f) {
+    const JoxTouches *touches = &f->contacts->touches;
+    JoxPairs *pairs = &f->contacts->pairs;
     uint32_t n = f->step.agents->count;
-    JoxContactPlanes *planes = &f->planes;
+    JoxContactPlanes *planes = &f->contacts->planes;
     planes->agents = 0;
-    if (!f->contacts_known || f->options.literal || n == 0)
+    if (!f->contacts->known || f->options.literal || n == 0)
         return;
     JOX_RESERVE(planes->starts, planes->starts_capacity, n);
     JOX_RESERVE(planes->people, planes->people_capacity, n + JOX_LANES);
     JOX_RESERVE(planes->bodies, planes->bodies_capacity, n + JOX_LANES);
-    uint32_t most = f->end_starts[n];
-    memcpy(planes->starts, f->end_starts, n * sizeof *planes->starts);
-    for (uint32_t i = 0, touches = 0; f->touch_count && i < n;
+    uint32_t most = pairs->end_starts[n];
+    memcpy(planes->starts, pairs->end_starts, n * sizeof *planes->starts);
+    for (uint32_t i = 0, room = 0; touches->count && i < n;
          i++) { /* adds room for contacts with bodies */
-        planes->starts[i] += touches;
-        touches += f->touch_number[i];
-        most += f->touch_number[i];
+        planes->starts[i] += room;
+        room += touches->number[i];
+        most += touches->number[i];
     }
     JOX_RESERVE(planes->planes, planes->plane_capacity, most > 8 * n ? most : 8 * n);
     planes->agents = n;
@@ -125,5 +128,5 @@ void jox_contact_planes_make(JoxForces *f) {
 }
 
 const JoxContactPlanes *jox_force_contact_planes(const JoxForces *f) {
-    return &f->planes;
+    return &f->contacts->planes;
 }

@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/kernels.h"
+#include "force/contact/contacts.h"
 
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
 
@@ -29,13 +29,15 @@ static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const Pass *pass = context;
     JoxForces *f = pass->forces;
+    JoxContactSolve *solve = &f->contacts->solve;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
-        const JoxPair *p = &f->pairs.items[k];
+        const JoxPair *p = &f->contacts->pairs.items[k];
         float impulse = p->impulse + p->squeeze * (float)f->step.dt;
         if (!(impulse > 0.0f))
             continue;
-        add_along(&f->velocities[p->first], p->normal, impulse * f->inverse_mass[p->first]);
-        add_along(&f->velocities[p->second], p->normal, -impulse * f->inverse_mass[p->second]);
+        add_along(&solve->velocities[p->first], p->normal, impulse * solve->inverse_mass[p->first]);
+        add_along(&solve->velocities[p->second], p->normal,
+                  -impulse * solve->inverse_mass[p->second]);
     }
 }
 
@@ -45,26 +47,30 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
     (void)worker;
     const Pass *pass = context;
     JoxForces *f = pass->forces;
+    JoxContactSolve *solve = &f->contacts->solve;
     float most = 0.0f;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
-        JoxPair *p = &f->pairs.items[k];
-        JoxV2 *vi = &f->velocities[p->first], *vj = &f->velocities[p->second];
+        JoxPair *p = &f->contacts->pairs.items[k];
+        JoxV2 *vi = &solve->velocities[p->first], *vj = &solve->velocities[p->second];
         float speed = (vi->x - vj->x) * p->normal.x + (vi->y - vj->y) * p->normal.y;
         float before = p->impulse;
         float after = jox_maxf(0.0f, before + (p->target - speed) * p->mass);
         float change = after - before;
         p->impulse = after;
         most = jox_maxf(most, fabsf(change));
-        add_along(vi, p->normal, change * f->inverse_mass[p->first]);
-        add_along(vj, p->normal, -change * f->inverse_mass[p->second]);
+        add_along(vi, p->normal, change * solve->inverse_mass[p->first]);
+        add_along(vj, p->normal, -change * solve->inverse_mass[p->second]);
     }
     pass->residuals[pass->chunk + begin / PAIR_GRAIN] = most;
 }
 
 static void warm_walls(JoxForces *f) {
-    for (uint32_t k = 0; k < f->wall_count; k++) {
-        const JoxWallContact *w = &f->wall[k];
-        add_along(&f->velocities[w->agent], w->normal, w->impulse * f->inverse_mass[w->agent]);
+    JoxWallContacts *walls = &f->contacts->walls;
+    JoxContactSolve *solve = &f->contacts->solve;
+    for (uint32_t k = 0; k < walls->count; k++) {
+        const JoxWallContact *w = &walls->items[k];
+        add_along(&solve->velocities[w->agent], w->normal,
+                  w->impulse * solve->inverse_mass[w->agent]);
     }
 }
 
@@ -73,15 +79,17 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const Pass *pass = context;
     JoxForces *f = pass->forces;
+    JoxWallContacts *walls = &f->contacts->walls;
+    JoxContactSolve *solve = &f->contacts->solve;
     const JoxParameterColumn mass = f->step.agents->param[JOX_PARAM_mass];
     float most = 0.0f;
-    for (uint32_t k = f->wall_group[begin]; k < f->wall_group[end]; k++) {
-        JoxWallContact *w = &f->wall[k];
-        float before = w->impulse, speed = jox_dot(f->velocities[w->agent], w->normal);
+    for (uint32_t k = walls->groups[begin]; k < walls->groups[end]; k++) {
+        JoxWallContact *w = &walls->items[k];
+        float before = w->impulse, speed = jox_dot(solve->velocities[w->agent], w->normal);
         w->impulse = jox_maxf(0.0f, before + (w->target - speed) * jox_at(mass, w->agent));
         float change = w->impulse - before;
         most = jox_maxf(most, fabsf(change));
-        add_along(&f->velocities[w->agent], w->normal, change * f->inverse_mass[w->agent]);
+        add_along(&solve->velocities[w->agent], w->normal, change * solve->inverse_mass[w->agent]);
     }
     pass->residuals[pass->chunk + begin / WALL_GRAIN] = most;
 }
@@ -92,29 +100,32 @@ static uint32_t count_chunks(uint32_t count, uint32_t grain) {
 
 /* Runs one pass over all contacts; returns the greatest change of an impulse, N s. */
 static float run_pass(JoxForces *f) {
-    JoxPairs *p = &f->pairs;
-    Pass pass = {.forces = f, .residuals = f->residuals};
+    JoxContactSolve *solve = &f->contacts->solve;
+    JoxWallContacts *walls = &f->contacts->walls;
+    JoxPairs *p = &f->contacts->pairs;
+    Pass pass = {.forces = f, .residuals = solve->residuals};
     for (uint32_t c = 0; c < p->colours; c++) {
         uint32_t count = p->starts[c + 1] - p->starts[c];
         pass.first = p->starts[c];
         jox_parallel_for(f->step.pool, count, PAIR_GRAIN, solve_colour, &pass);
         pass.chunk += count_chunks(count, PAIR_GRAIN);
     }
-    jox_parallel_for(f->step.pool, f->wall_groups, WALL_GRAIN, solve_walls, &pass);
-    pass.chunk += count_chunks(f->wall_groups, WALL_GRAIN);
+    jox_parallel_for(f->step.pool, walls->group_count, WALL_GRAIN, solve_walls, &pass);
+    pass.chunk += count_chunks(walls->group_count, WALL_GRAIN);
     float most = jox_touches_pass(f);
     for (uint32_t k = 0; k < pass.chunk; k++)
-        most = jox_maxf(most, f->residuals[k]);
+        most = jox_maxf(most, solve->residuals[k]);
     return most;
 }
 
 /* Applies the kept impulses of all contacts, which make the solve converge sooner. */
 static void begin_solve(JoxForces *f) {
-    const JoxPairs *p = &f->pairs;
-    uint32_t chunks = count_chunks(f->wall_groups, WALL_GRAIN);
+    JoxContactSolve *solve = &f->contacts->solve;
+    const JoxPairs *p = &f->contacts->pairs;
+    uint32_t chunks = count_chunks(f->contacts->walls.group_count, WALL_GRAIN);
     for (uint32_t c = 0; c < p->colours; c++)
         chunks += count_chunks(p->starts[c + 1] - p->starts[c], PAIR_GRAIN);
-    JOX_RESERVE(f->residuals, f->residual_capacity, chunks);
+    JOX_RESERVE(solve->residuals, solve->residual_capacity, chunks);
     for (uint32_t c = 0; c < p->colours; c++) {
         Pass pass = {.forces = f, .first = p->starts[c]};
         jox_parallel_for(f->step.pool, p->starts[c + 1] - p->starts[c], PAIR_GRAIN, warm_colour,

@@ -1,22 +1,24 @@
 /* The stage contact, equations 6 and 7: finds the contacts, solves all of them together, and writes
    the agents' contact forces. world/step.c calls it after push. */
 #include "base/assert.h"
-#include "force/forces.h"
+#include "base/mem.h"
+#include "force/contact/contacts.h"
 
 /* Returns the sum of the impulses that agent i received, N s; adds the number of its contacts that
    press or touch to *contacts. */
 static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
-    const JoxPair *pairs = f->pairs.items;
+    const JoxTouches *touches = &f->contacts->touches;
+    const JoxPairs *pairs = &f->contacts->pairs;
     JoxV2 sum = {0.0f, 0.0f};
-    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
-        const JoxPair *p = &pairs[f->ends[k].pair];
+    for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1]; k++) {
+        const JoxPair *p = &pairs->items[pairs->ends[k].pair];
         float size = p->impulse + p->squeeze * (float)f->step.dt;
         float impulse = p->first == i ? size : -size;
         sum = jox_add(sum, (JoxV2){p->normal.x * impulse, p->normal.y * impulse});
         *contacts += size > 0.0f || p->target >= 0.0f;
     }
-    for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
-        const JoxTouch *touch = &f->touch[f->touch_first[i] + k];
+    for (uint32_t k = 0; k < jox_touches_of(touches, i); k++) {
+        const JoxTouch *touch = &touches->items[touches->first[i] + k];
         sum = jox_add(sum, jox_scale(touch->normal, touch->impulse));
         *contacts += touch->impulse > 0.0f || touch->gap <= 0.0f;
     }
@@ -40,7 +42,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
     JoxForces *f = context;
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
-        if (jox_have_no_contacts(f, i, last) && jox_loads_are_none(f, i, last))
+        if (jox_have_no_contacts(f->contacts, i, last) && jox_loads_are_none(f, i, last))
             continue; /* the columns are zero since the stage began */
         for (uint32_t k = i; k < last; k++)
             write_contact_force(f, k);
@@ -49,10 +51,11 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
 
 /* Adds the forces of walls, which have a list of their own. */
 static void finish_walls(JoxForces *f) {
+    JoxWallContacts *walls = &f->contacts->walls;
     JoxAgents *a = f->step.agents;
     float per_second = 1.0f / (float)f->step.dt;
-    for (uint32_t k = 0; k < f->wall_count; k++) {
-        const JoxWallContact *w = &f->wall[k];
+    for (uint32_t k = 0; k < walls->count; k++) {
+        const JoxWallContact *w = &walls->items[k];
         a->contact_x[w->agent] += w->normal.x * w->impulse * per_second;
         a->contact_y[w->agent] += w->normal.y * w->impulse * per_second;
     }
@@ -60,14 +63,15 @@ static void finish_walls(JoxForces *f) {
 
 void jox_force_contact(JoxForces *f) {
     JoxAgents *a = f->step.agents;
+    const JoxContacts *found = f->contacts;
     jox_contacts_find(f);
     jox_contacts_lay_out(f);
     if (f->has_bodies)
         jox_touches_collect(f);
-    f->contacts_known = true;
+    f->contacts->known = true;
     if (f->options.literal)
         jox_literal_contacts(f);
-    else if (f->pairs.count || f->wall_count || f->touch_count)
+    else if (found->pairs.count || found->walls.count || found->touches.count)
         jox_contacts_solve(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, finish_chunk, f);
     finish_walls(f); /* in literal mode walls do not press */
@@ -75,4 +79,24 @@ void jox_force_contact(JoxForces *f) {
     jox_contacts_keep(f);
     jox_touches_finish(f);
     jox_wall_loads_measure(f);
+}
+
+void jox_contacts_free(JoxContacts *c) {
+    void *owned[] = {c->walls.items,
+                     c->walls.groups,
+                     c->solve.residuals,
+                     c->planes.starts,
+                     c->planes.people,
+                     c->planes.bodies,
+                     c->planes.planes,
+                     c->kept[JOX_KEPT_PAIRS].items,
+                     c->kept[JOX_KEPT_WALLS].items,
+                     c->kept[JOX_KEPT_TOUCHES].items};
+    jox_found_contacts_free(&c->found);
+    jox_pairs_free(&c->pairs);
+    jox_touches_free(&c->touches, &c->drives);
+    jox_wall_loads_free(&c->wall_loads);
+    for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
+        jox_free(owned[i]);
+    jox_free(c);
 }

@@ -1,7 +1,7 @@
 /* The kernel that computes the start of the contact solve; a lane is an agent. */
 #include <float.h>
 
-#include "force/kernels.h"
+#include "force/contact/contacts.h"
 #include "force/terms_lanes.h"
 
 static inline JoxMask are_finite(JoxFloats x) {
@@ -12,6 +12,7 @@ static inline JoxMask are_finite(JoxFloats x) {
    mass. A velocity that is not finite starts as 0, so that it does not spread to other agents; the
    step reports its agent at the end. */
 void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
+    JoxContactSolve *solve = &f->contacts->solve;
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
@@ -21,9 +22,9 @@ void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
         const JoxVector begins = jv_add(jv_load(a->vx, a->vy, i), change);
         const JoxMask finite = jm_and(are_finite(begins.x), are_finite(begins.y));
         float x[JOX_WIDTH], y[JOX_WIDTH];
-        jf_store(f->inverse_mass + i, inverse_mass);
+        jf_store(solve->inverse_mass + i, inverse_mass);
         jv_store(x, y, 0, jv_select(finite, begins, (JoxVector){zero, zero}));
         for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-            f->velocities[i + lane] = (JoxV2){x[lane], y[lane]};
+            solve->velocities[i + lane] = (JoxV2){x[lane], y[lane]};
     }
 }

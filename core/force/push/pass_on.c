@@ -5,8 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/equations.h"
-#include "force/kernels.h"
+#include "force/push/pass_on.h"
 
 #define X(name, isa) [isa] = jox_infer_packets_##name,
 static JoxInferKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -74,7 +73,7 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxPassing passing;
-    jox_chunk_empty(&f->transfers, chunk);
+    jox_chunk_empty(&f->transfers.list, chunk);
     for (uint32_t i = begin; f->options.literal && i < end; i++)
         jox_literal_pass_on(f, chunk, i);
     if (f->options.literal)
@@ -116,8 +115,8 @@ static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = context;
     float share = f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter);
     JOX_ASSERT(share > 0.0f && share <= 1.0f);
-    JoxTransfer *sorted = f->sorted;
-    for (uint32_t i = f->starts[begin]; i < f->starts[end]; i++) {
+    JoxTransfer *sorted = f->transfers.sorted;
+    for (uint32_t i = f->transfers.starts[begin]; i < f->transfers.starts[end]; i++) {
         sorted[i].x *= share;
         sorted[i].y *= share;
     }

@@ -3,7 +3,7 @@
    agent, equal to the bit. */
 #include <string.h>
 
-#include "force/kernels.h"
+#include "force/push/pass_on.h"
 #include "force/terms_lanes.h"
 
 static inline JoxMask is_nonzero(JoxVector a) {

@@ -2,8 +2,9 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "force/equations.h"
-#include "force/forces.h"
+#include "base/mem.h"
+#include "force/push/pushes.h"
+#include "force/touch.h"
 
 typedef struct Target {
     bool is_body;
@@ -142,13 +143,13 @@ static JoxV2 compute_push(const JoxForces *f, uint32_t i, JoxV2 aim, const Targe
     return jox_push_share(offset, newtons, n);
 }
 
-/* Queues a push on a body in the list of touches, whose room contacts use later in the step. */
-static void queue_body_push(JoxForces *f, uint32_t chunk, uint32_t i, const Target *target,
-                            JoxV2 force) {
-    JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
-    JOX_ASSERT(chunk < f->chunks && f->touches.counts[chunk] < f->touches.room);
-    list[f->touches.counts[chunk]++] =
-        (JoxTouch){.agent = i, .object = target->index, .normal = force, .point = target->point};
+/* Adds a push on a body to the list of its chunk. */
+static void add_body_push(JoxForces *f, uint32_t chunk, uint32_t i, const Target *target,
+                          JoxV2 force) {
+    JoxChunkList *pushes = &f->pushes->on_bodies;
+    JoxBodyPush *list = (JoxBodyPush *)pushes->items + (size_t)chunk * pushes->room;
+    JOX_ASSERT(chunk < f->chunks && pushes->counts[chunk] < pushes->room);
+    list[pushes->counts[chunk]++] = (JoxBodyPush){i, target->index, force, target->point};
 }
 
 /* Converts a momentum, N s, to fixed point, so that sums do not depend on the order of threads. */
@@ -177,13 +178,13 @@ static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
         JOX_ASSERT(targets[k].is_body || targets[k].index != i);
         sum = jox_add(sum, force);
         if (targets[k].is_body)
-            queue_body_push(f, chunk, i, &targets[k], force);
+            add_body_push(f, chunk, i, &targets[k], force);
         else
             jox_transfers_add(f, chunk, i, targets[k].index, force);
     }
-    struct JoxForceChunk *totals = &f->chunk[chunk];
+    JoxPushTotals *totals = &f->pushes->totals[chunk];
     totals->pushers++;
-    f->braced[i] = jox_scale(sum, -1.0f);
+    f->pushes->reactions[i] = jox_scale(sum, -1.0f);
     if (f->options.react) {
         jox_transfers_add(f, chunk, i, i, jox_scale(sum, -1.0f));
     } else {
@@ -198,38 +199,70 @@ static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     const JoxParameterColumn push = f->step.agents->param[JOX_PARAM_push];
     const uint8_t *on = f->step.push_on;
-    jox_chunk_empty(&f->transfers, chunk);
-    jox_chunk_empty(&f->touches, chunk);
+    jox_chunk_empty(&f->transfers.list, chunk);
+    if (f->has_bodies)
+        jox_chunk_empty(&f->pushes->on_bodies, chunk);
+    f->pushes->totals[chunk] = (JoxPushTotals){0};
     for (uint32_t i = begin; i < end; i++)
         if (jox_at(push, i) > 0.0f && (!on || on[i]))
             push_from_agent(f, chunk, i);
 }
 
+/* Adds the chunk's pushes on bodies to the impulses and the totals. */
+static void apply_body_pushes(JoxForces *f, uint32_t chunk) {
+    const JoxChunkList *list = &f->pushes->on_bodies;
+    const JoxBodyPush *pushes = (const JoxBodyPush *)list->items + (size_t)chunk * list->room;
+    const float dt = (float)f->step.dt;
+    for (uint32_t k = 0; k < list->counts[chunk]; k++) {
+        const JoxBodyPush *push = &pushes[k];
+        const JoxV3 impulse = {push->force.x * dt, push->force.y * dt, 0.0f};
+        const bool moves = f->step.objects->rows[push->row].inverse_mass > 0.0f;
+        f->totals.pushed_x += moves ? (double)impulse.x : 0.0;
+        f->totals.pushed_y += moves ? (double)impulse.y : 0.0;
+        jox_impulses_add(&f->impulses, f->step.agents->id[push->agent], push->row, impulse,
+                         push->point, 1.0f);
+    }
+}
+
 void jox_force_push(JoxForces *f) {
     JoxAgents *a = f->step.agents;
-    float dt = (float)f->step.dt;
+    JoxPushes *pushes = f->pushes;
     jox_transfers_begin(f);
-    jox_chunks_begin(&f->touches, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
-                     sizeof(JoxTouch));
+    if (f->has_bodies)
+        jox_chunks_reserve(&pushes->on_bodies, f->chunks,
+                           jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxBodyPush));
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_chunk, f);
     int64_t ground_x = 0, ground_y = 0;
     for (uint32_t c = 0; c < f->chunks; c++) {
-        f->totals.pushers += f->chunk[c].pushers;
-        ground_x += f->chunk[c].ground_x;
-        ground_y += f->chunk[c].ground_y;
-        const JoxTouch *t = (const JoxTouch *)f->touches.items + (size_t)c * f->touches.room;
-        for (uint32_t k = 0; k < f->touches.counts[c]; k++) {
-            bool moves = f->step.objects->rows[t[k].object].inverse_mass > 0.0f;
-            f->totals.pushed_x += moves ? (double)(t[k].normal.x * dt) : 0.0;
-            f->totals.pushed_y += moves ? (double)(t[k].normal.y * dt) : 0.0;
-            jox_force_add_impulse(f, a->id[t[k].agent], t[k].object,
-                                  (JoxV3){t[k].normal.x * dt, t[k].normal.y * dt, 0.0f}, t[k].point,
-                                  1.0f);
-        }
+        f->totals.pushers += pushes->totals[c].pushers;
+        ground_x += pushes->totals[c].ground_x;
+        ground_y += pushes->totals[c].ground_y;
+        if (f->has_bodies)
+            apply_body_pushes(f, c);
     }
     f->totals.ground_x = (double)ground_x / 1048576.0;
     f->totals.ground_y = (double)ground_y / 1048576.0;
-    f->pushed = jox_transfers_sort(f) > 0;
-    if (f->pushed)
+    pushes->any = jox_transfers_sort(f) > 0;
+    if (pushes->any)
         jox_transfers_sum(f, a->push_x, a->push_y);
+}
+
+void jox_pushes_begin(JoxForces *f) {
+    JoxPushes *pushes = f->pushes;
+    const uint32_t n = f->step.agents->count;
+    pushes->any = false;
+    JOX_RESERVE(pushes->totals, pushes->total_capacity, f->chunks);
+    if (n > pushes->reaction_capacity) {
+        /* freshly allocated zeros take no memory until they are written */
+        jox_free(pushes->reactions);
+        pushes->reaction_capacity = n + n / 4;
+        pushes->reactions = jox_alloc(pushes->reaction_capacity, sizeof *pushes->reactions);
+    }
+}
+
+void jox_pushes_free(JoxPushes *pushes) {
+    jox_chunks_free(&pushes->on_bodies);
+    jox_free(pushes->reactions);
+    jox_free(pushes->totals);
+    jox_free(pushes);
 }

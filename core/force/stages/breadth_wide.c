@@ -5,7 +5,7 @@
 #include "agents/param_lanes.h"
 #include "base/number/bits.h"
 #include "base/number/random.h"
-#include "force/kernels.h"
+#include "force/stages/kernels.h"
 #include "simd/lanes.h"
 
 static const double TURNING = 1.0;   /* s between the random values of an agent */

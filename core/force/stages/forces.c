@@ -4,7 +4,10 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/kernels.h"
+#include "force/contact/contacts.h"
+#include "force/push/pushes.h"
+#include "force/stages/kernels.h"
+#include "force/support/supports.h"
 #include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_breadth_packets_##name,
@@ -35,6 +38,9 @@ float jox_force_passing_reach(const JoxForces *f) {
 
 JoxForces *jox_forces_create(const JoxForceOptions *options) {
     JoxForces *f = jox_alloc(1, sizeof *f);
+    f->pushes = jox_alloc(1, sizeof *f->pushes);
+    f->supports = jox_alloc(1, sizeof *f->supports);
+    f->contacts = jox_alloc(1, sizeof *f->contacts);
     jox_forces_set_options(f, options);
     f->isa = jox_isa_resolve(JO_ISA_WIDEST);
     f->memory = &f->own_memory;
@@ -44,53 +50,11 @@ JoxForces *jox_forces_create(const JoxForceOptions *options) {
 void jox_forces_free(JoxForces *f) {
     if (!f)
         return;
-    void *owned[] = {f->transfers.items,
-                     f->transfers.counts,
-                     f->starts,
-                     f->sorted,
-                     f->found.items,
-                     f->slots.items,
-                     f->slots.counts,
-                     f->found.counts,
-                     f->found_walls.items,
-                     f->found_walls.counts,
-                     f->touches.items,
-                     f->touches.counts,
-                     f->found_first,
-                     f->wall_first,
-                     f->found_number,
-                     f->wall_number,
-                     f->pairs.items,
-                     f->listed,
-                     f->colour_sizes,
-                     f->ends,
-                     f->end_starts,
-                     f->wall,
-                     f->wall_group,
-                     f->touch,
-                     f->touch_first,
-                     f->touch_number,
-                     f->motions,
-                     f->drives,
-                     f->drive_loads,
-                     f->residuals,
-                     f->braced,
-                     f->planes.starts,
-                     f->planes.people,
-                     f->planes.bodies,
-                     f->planes.planes,
-                     f->pieces,
-                     f->piece_first,
-                     f->kept_pairs.items,
-                     f->kept_walls.items,
-                     f->kept_touches.items,
-                     f->support,
-                     f->watch,
-                     f->pending,
-                     f->impulses,
-                     f->chunk};
-    for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
-        jox_free(owned[i]);
+    jox_transfers_free(&f->transfers);
+    jox_impulses_free(&f->impulses);
+    jox_pushes_free(f->pushes);
+    jox_supports_free(f->supports);
+    jox_contacts_free(f->contacts);
     jox_stage_memory_free(&f->own_memory);
     jox_free(f);
 }
@@ -102,7 +66,7 @@ static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
 #define ZERO_STATE(column)
 #define ZERO(X, keep, role, name, label) ZERO_##keep(a->name##_x) ZERO_##keep(a->name##_y)
     JOX_FORCE_TERMS(ZERO, )
-    ZERO_SCRATCH(f->braced)
+    ZERO_SCRATCH(f->pushes->reactions)
     ZERO_SCRATCH(a->compression)
     ZERO_SCRATCH(a->load)
     ZERO_SCRATCH(a->contacts)
@@ -117,7 +81,6 @@ static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const JoxForces *f = context;
     JoxAgents *a = f->step.agents;
-    f->chunk[begin / JOX_FORCE_GRAIN] = (struct JoxForceChunk){0};
     zero_chunk(f, begin, end);
     KERNELS[f->isa](f, begin, end);
     for (uint32_t i = begin; i < end; i += JOX_AGENTS_PADDING)
@@ -147,21 +110,15 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
         f->step.interval_response = f->step.response;
     }
     f->totals = (JoxForceTotals){0};
-    f->pending_count = f->pending_sorted = 0;
-    f->drive_count = 0;
-    f->touch_count = f->wall_count = f->pairs.count = 0;
-    f->pushed = f->contacts_known = false;
+    f->impulses.count = f->impulses.sorted_count = 0;
+    f->contacts->known = false;
+    f->contacts->drives.count = f->contacts->touches.count = 0;
+    f->contacts->walls.count = f->contacts->pairs.count = 0;
     JoxAgents *a = step->agents;
     uint32_t n = a->count;
     f->chunks = (n + JOX_FORCE_GRAIN - 1) / JOX_FORCE_GRAIN;
-    JOX_RESERVE(f->chunk, f->chunk_capacity, f->chunks);
-    JOX_RESERVE(f->starts, f->start_capacity, (size_t)n + 1);
-    if (n >
-        f->braced_capacity) { /* freshly allocated zeros take no memory until they are written */
-        jox_free(f->braced);
-        f->braced_capacity = n + n / 4;
-        f->braced = jox_alloc(f->braced_capacity, sizeof *f->braced);
-    }
+    JOX_RESERVE(f->transfers.starts, f->transfers.start_capacity, (size_t)n + 1);
+    jox_pushes_begin(f);
     jox_stage_memory_begin(f->memory, measure_memory(n));
     f->builds = jox_stage_memory_take(f->memory, (size_t)n + 3, sizeof *f->builds);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
@@ -181,19 +138,21 @@ static void list_kept_impulses(JoxSections *s, const char *name, JoxKeptImpulses
 
 void jox_forces_sections(JoxForces *f, JoxSections *s) {
     jox_sections_module(s, "force");
-    list_kept_impulses(s, "pairs", &f->kept_pairs);
-    list_kept_impulses(s, "walls", &f->kept_walls);
-    list_kept_impulses(s, "touches", &f->kept_touches);
+    JoxKeptImpulses *kept = f->contacts->kept;
+    list_kept_impulses(s, "pairs", &kept[JOX_KEPT_PAIRS]);
+    list_kept_impulses(s, "walls", &kept[JOX_KEPT_WALLS]);
+    list_kept_impulses(s, "touches", &kept[JOX_KEPT_TOUCHES]);
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {
     return f->totals;
 }
 
-const JoxKeptImpulse *jox_force_kept(const JoxForces *f, JoxKeptKind kind, size_t *count) {
-    const JoxKeptImpulses *kept = kind == JOX_KEPT_PAIRS   ? &f->kept_pairs
-                                  : kind == JOX_KEPT_WALLS ? &f->kept_walls
-                                                           : &f->kept_touches;
-    *count = kept->count;
-    return kept->items;
+const JoxKeptImpulse *jox_force_kept_impulses(const JoxForces *f, JoxKeptKind kind, size_t *count) {
+    *count = f->contacts->kept[kind].count;
+    return f->contacts->kept[kind].items;
+}
+
+const JoxImpulse *jox_force_impulses(JoxForces *f, uint32_t *count) {
+    return jox_impulses_sort(&f->impulses, count);
 }

@@ -1,6 +1,7 @@
 /* The stage sum, equations 10 to 12: net force, half-plane and speed limit, by the kernel of the
    run's instruction set or as printed. */
-#include "force/kernels.h"
+#include "force/contact/contacts.h"
+#include "force/stages/kernels.h"
 
 #define X(name, isa) [isa] = jox_sum_packets_##name,
 static JoxSumKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};

@@ -3,8 +3,7 @@
    the forced velocity to the planned one. Lanes behind the last agent hold meaningless numbers.
    tests/unit/force_one.h has the same for one agent, equal to the bit. */
 #include "base/assert.h"
-#include "force/equations.h"
-#include "force/kernels.h"
+#include "force/stages/kernels.h"
 #include "force/terms_lanes.h"
 
 static inline JoxMask has_force(JoxVector a) {

@@ -10,7 +10,7 @@
    greater. */
 #include <math.h>
 
-#include "force/forces.h"
+#include "force/support/supports.h"
 
 enum {
     SWEEPS = 2, /* over the supports, per pass over all contacts */
@@ -42,10 +42,10 @@ static inline void apply_impulse(JoxBodyMotion *first, JoxBodyMotion *second,
     second->unrest += axis->sway[1] * size;
 }
 
-void jox_supports_warm(JoxForces *f) {
-    for (uint32_t k = 0; k < f->support_count; k++) {
-        const JoxSupport *s = &f->support[k];
-        apply_impulse(&f->motions[s->rows[0]], &f->motions[s->rows[1]], &s->normal,
+void jox_supports_warm(JoxSupports *supports) {
+    for (uint32_t k = 0; k < supports->count; k++) {
+        const JoxSupport *s = &supports->items[k];
+        apply_impulse(&supports->motions[s->rows[0]], &supports->motions[s->rows[1]], &s->normal,
                       s->normal.impulse);
     }
 }
@@ -120,12 +120,14 @@ static inline bool is_settled(const JoxBodyMotion *first, const JoxBodyMotion *s
 /* Runs one sweep over all contacts in their order; returns the greatest change of a normal impulse,
    N s. `whole`: solves all of them. */
 static float sweep_supports(JoxForces *f, bool whole) {
+    JoxSupports *supports = f->supports;
     const float little = LITTLE * f->options.tolerance * (float)f->step.dt;
     float most = 0.0f;
-    for (uint32_t k = 0; k < f->support_count; k++) {
-        JoxSupportWatch *w = &f->watch[k];
-        JoxBodyMotion *first = &f->motions[w->rows[0]], *second = &f->motions[w->rows[1]];
-        JoxSupport *s = &f->support[k];
+    for (uint32_t k = 0; k < supports->count; k++) {
+        JoxSupportWatch *w = &supports->watches[k];
+        JoxBodyMotion *first = &supports->motions[w->rows[0]],
+                      *second = &supports->motions[w->rows[1]];
+        JoxSupport *s = &supports->items[k];
         float change;
         if (whole || !is_settled(first, second, s, w, little, &change))
             change = solve_support(first, second, s, w);

@@ -7,8 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/equations.h"
-#include "force/forces.h"
+#include "force/support/supports.h"
 
 enum {
     LINKS = 4 /* bodies in a row, from the touched one on; the next one acts as a wall */
@@ -34,16 +33,17 @@ static JoxV3 find_arm(const JoxObject *body, JoxV3 point) {
 JoxV3 jox_body_velocity(const JoxForces *f, uint32_t row, JoxV3 point) {
     if (row == JOX_NO_OBJECT)
         return (JoxV3){0.0f, 0.0f, 0.0f};
-    const JoxBodyMotion *m = &f->motions[row];
+    const JoxBodyMotion *m = &f->supports->motions[row];
     JoxV3 turning = jox_cross3(to_three(m->spin), find_arm(&f->step.objects->rows[row], point));
     return add_scaled(to_three(m->velocity), turning, 1.0f);
 }
 
 void jox_body_apply_impulse(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
-    if (row == JOX_NO_OBJECT || !f->motions[row].solved)
+    JoxSupports *supports = f->supports;
+    if (row == JOX_NO_OBJECT || !supports->motions[row].solved)
         return;
     const JoxObject *body = &f->step.objects->rows[row];
-    JoxBodyMotion *m = &f->motions[row];
+    JoxBodyMotion *m = &supports->motions[row];
     JoxV3 turn = jox_cross3(find_arm(body, point), impulse);
     JoxV3 turned = jox_turn3(body->inverse_inertia, turn);
     m->velocity += to_four(impulse) * body->inverse_mass;
@@ -53,31 +53,35 @@ void jox_body_apply_impulse(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impul
 
 /* Loads the motions of all bodies, and behind them the static world at rest. Marks the touched
    bodies; those that can be pushed are solved for. */
-static void reset_motions(JoxForces *f) {
+static void reset_motions(JoxForces *f, const JoxTouch *touches, uint32_t count) {
+    JoxSupports *supports = f->supports;
     const JoxObjects *objects = f->step.objects;
-    JOX_RESERVE(f->motions, f->motion_capacity, objects->count + 1);
-    f->motions[objects->count] = (JoxBodyMotion){0};
+    JOX_RESERVE(supports->motions, supports->motion_capacity, objects->count + 1);
+    supports->motions[objects->count] = (JoxBodyMotion){0};
     for (uint32_t row = 0; row < objects->count; row++)
-        f->motions[row] = (JoxBodyMotion){.velocity = to_four(objects->rows[row].velocity),
-                                          .spin = to_four(objects->rows[row].spin)};
-    for (uint32_t k = 0; k < f->touch_count; k++) {
-        const uint32_t row = f->touch[k].object;
-        f->motions[row].touched = true;
-        f->motions[row].solved = objects->rows[row].moves;
+        supports->motions[row] = (JoxBodyMotion){.velocity = to_four(objects->rows[row].velocity),
+                                                 .spin = to_four(objects->rows[row].spin)};
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t row = touches[k].object;
+        supports->motions[row].touched = true;
+        supports->motions[row].solved = objects->rows[row].moves;
     }
 }
 
 /* Returns whether a body is solved for already, at `link` or nearer to a touched body. */
 static bool is_in_reach_of_link(const JoxForces *f, uint32_t row, uint32_t link) {
-    return row != JOX_NO_OBJECT && f->motions[row].solved && f->motions[row].link <= link;
+    const JoxSupports *supports = f->supports;
+    return row != JOX_NO_OBJECT && supports->motions[row].solved &&
+           supports->motions[row].link <= link;
 }
 
 /* Marks a movable body that is not solved for yet as one link farther than `link`. */
 static void link_next(JoxForces *f, uint32_t row, uint32_t link) {
-    if (row == JOX_NO_OBJECT || f->motions[row].solved || !f->step.objects->rows[row].moves)
+    JoxSupports *supports = f->supports;
+    if (row == JOX_NO_OBJECT || supports->motions[row].solved || !f->step.objects->rows[row].moves)
         return;
-    f->motions[row].solved = true;
-    f->motions[row].link = (uint8_t)(link + 1);
+    supports->motions[row].solved = true;
+    supports->motions[row].link = (uint8_t)(link + 1);
 }
 
 /* Marks the bodies that stand behind touched ones, up to LINKS deep, as solved for. */
@@ -111,7 +115,7 @@ static JoxSupportAxis make_axis(const JoxForces *f, const uint32_t rows[2], JoxV
         const JoxObject *body = &f->step.objects->rows[rows[side]];
         JoxV3 lever = jox_cross3(find_arm(body, point), along);
         axis.lever[side] = to_four(lever);
-        if (!f->motions[rows[side]].solved)
+        if (!f->supports->motions[rows[side]].solved)
             continue;
         JoxV3 turning = jox_turn3(body->inverse_inertia, lever);
         axis.turning[side] = to_four(turning);
@@ -137,10 +141,11 @@ static JoxSupportWatch make_watch(const JoxSupport *s) {
 
 /* Adds a contact that Bullet found, with the force that it had there as the first impulse. */
 static void add_support(JoxForces *f, const JoxObjectContact *c) {
+    JoxSupports *supports = f->supports;
     const float dt = (float)f->step.dt;
     const uint32_t second = c->second == JOX_NO_OBJECT ? f->step.objects->count : c->second;
     JoxV3 across[2];
-    JoxSupport *s = &f->support[f->support_count++];
+    JoxSupport *s = &supports->items[supports->count++];
     *s = (JoxSupport){.rows = {c->first, second},
                       .friction = c->friction,
                       .target = jox_contact_target(c->gap - JOX_BODY_SLACK, 0.0f, 0.0f, dt)};
@@ -149,30 +154,31 @@ static void add_support(JoxForces *f, const JoxObjectContact *c) {
     make_orthogonal(c->normal, across);
     for (int k = 0; k < 2; k++)
         s->across[k] = make_axis(f, s->rows, c->point, across[k]);
-    f->watch[f->support_count - 1] = make_watch(s);
+    supports->watches[supports->count - 1] = make_watch(s);
     JOX_ASSERT(isfinite(s->normal.mass) && s->normal.mass > 0.0f && isfinite(s->target));
 }
 
-void jox_supports_begin(JoxForces *f) {
+void jox_supports_begin(JoxForces *f, const JoxTouch *touches, uint32_t count) {
+    JoxSupports *supports = f->supports;
     const JoxObjects *objects = f->step.objects;
     const JoxObjectContacts contacts = jox_objects_contacts(objects);
-    reset_motions(f);
+    reset_motions(f, touches, count);
     link_bodies(f, contacts);
     for (uint32_t row = 0; row < objects->count; row++)
-        if (f->motions[row].solved && objects->rows[row].inverse_mass > 0.0f)
-            f->motions[row].velocity[2] -= objects->gravity * (float)f->step.dt;
-    f->support_count = 0;
-    JOX_RESERVE(f->support, f->support_capacity, contacts.count);
-    JOX_RESERVE(f->watch, f->watch_capacity, contacts.count);
+        if (supports->motions[row].solved && objects->rows[row].inverse_mass > 0.0f)
+            supports->motions[row].velocity[2] -= objects->gravity * (float)f->step.dt;
+    supports->count = 0;
+    JOX_RESERVE(supports->items, supports->capacity, contacts.count);
+    JOX_RESERVE(supports->watches, supports->watch_capacity, contacts.count);
     for (uint32_t k = 0; k < contacts.count; k++) {
         const JoxObjectContact *c = &contacts.items[k];
-        bool first = f->motions[c->first].solved;
-        if (first || (c->second != JOX_NO_OBJECT && f->motions[c->second].solved))
+        bool first = supports->motions[c->first].solved;
+        if (first || (c->second != JOX_NO_OBJECT && supports->motions[c->second].solved))
             add_support(f, c);
     }
-    jox_supports_warm(f);
+    jox_supports_warm(supports);
     uint32_t pushes; /* sorted by the pusher's id: the order in memory changes no bit */
-    const JoxImpulse *push = jox_force_impulses(f, &pushes);
+    const JoxImpulse *push = jox_impulses_sort(&f->impulses, &pushes);
     for (uint32_t k = 0; k < pushes; k++)
         jox_body_apply_impulse(f, push[k].object, push[k].point, push[k].impulse);
 }
@@ -182,7 +188,7 @@ void jox_supports_begin(JoxForces *f) {
    a free body. */
 static float find_held_share(const JoxForces *f, uint32_t row) {
     const JoxObject *body = &f->step.objects->rows[row];
-    const JoxBodyMotion *m = &f->motions[row];
+    const JoxBodyMotion *m = &f->supports->motions[row];
     JoxV3 turned = jox_turn3(body->inverse_inertia, m->given_turn);
     float free =
         jox_dot3(m->given, m->given) * body->inverse_mass + jox_dot3(m->given_turn, turned);
@@ -191,16 +197,24 @@ static float find_held_share(const JoxForces *f, uint32_t row) {
     return free > 0.0f ? 1.0f - jox_clampf(done / free, 0.0f, 1.0f) : 0.0f;
 }
 
-void jox_supports_finish(JoxForces *f) {
-    for (uint32_t k = 0; k < f->touch_count; k++) {
-        const JoxTouch *t = &f->touch[k];
+void jox_supports_finish(JoxForces *f, const JoxTouch *touches, uint32_t count) {
+    JoxSupports *supports = f->supports;
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxTouch *t = &touches[k];
         const JoxV3 impulse = {-t->normal.x * t->impulse, -t->normal.y * t->impulse, 0.0f};
-        JoxBodyMotion *m = &f->motions[t->object];
+        JoxBodyMotion *m = &supports->motions[t->object];
         JoxV3 arm = find_arm(&f->step.objects->rows[t->object], t->point);
         m->given = add_scaled(m->given, impulse, 1.0f);
         m->given_turn = add_scaled(m->given_turn, jox_cross3(arm, impulse), 1.0f);
     }
     for (uint32_t row = 0; row < f->step.objects->count; row++)
-        if (f->motions[row].touched)
-            f->motions[row].held = find_held_share(f, row);
+        if (supports->motions[row].touched)
+            supports->motions[row].held = find_held_share(f, row);
+}
+
+void jox_supports_free(JoxSupports *supports) {
+    jox_free(supports->motions);
+    jox_free(supports->items);
+    jox_free(supports->watches);
+    jox_free(supports);
 }

@@ -4,7 +4,6 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "force/contact.h"
 #include "world/world.h"
 
 static void read_transitions(const JoWorld *w, JoxHappened *h) {
@@ -45,7 +44,7 @@ static void read_touches(const JoWorld *w, JoxHappened *h) {
     size_t count[3], at[3] = {0, 0, 0}, before = 0;
     const float dt = (float)jox_world_substep(w);
     for (int k = 0; k < 3; k++) /* in the order of JoTouched */
-        list[k] = jox_force_kept(
+        list[k] = jox_force_kept_impulses(
             w->scratch.forces, (JoxKeptKind[]){JOX_KEPT_PAIRS, JOX_KEPT_TOUCHES, JOX_KEPT_WALLS}[k],
             &count[k]);
     const size_t most = count[0] + count[1] + count[2];

@@ -1,0 +1,89 @@
+/* Solves contacts of agents with bodies, equation 7, together with the supports of the bodies
+   (support/) and the limits of driven ones (bodies_driven.c). */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "force/contact/contacts.h"
+#include "force/support/supports.h"
+
+void jox_touches_begin(JoxForces *f) {
+    const JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_TOUCHES];
+    JoxTouches *touches = &f->contacts->touches;
+    const JoxAgents *a = f->step.agents;
+    size_t at = 0;
+    if (!touches->count)
+        return;
+    jox_supports_begin(f, touches->items, touches->count);
+    for (uint32_t k = 0; k < touches->count; k++) {
+        JoxTouch *t = &touches->items[k];
+        const JoxObject *body = &f->step.objects->rows[t->object];
+        float give = jox_body_inverse_mass(body, t->point, t->normal);
+        float restitution =
+            jox_minf(jox_param(a, JOX_PARAM_restitution, t->agent), body->restitution);
+        float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
+                      jox_touch_speed_before(f, t);
+        t->mass = 1.0f / (1.0f / jox_param(a, JOX_PARAM_mass, t->agent) + give);
+        t->target =
+            jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution, (float)f->step.dt);
+        t->impulse = jox_kept_impulse(kept, &at, a->id[t->agent], t->object);
+        JOX_ASSERT(t->mass > 0.0f);
+    }
+    jox_drives_begin(f);
+    for (uint32_t k = 0; k < touches->count; k++)
+        jox_touch_apply_impulse(f, &touches->items[k], touches->items[k].impulse);
+}
+
+/* Runs in ascending agent id, on one thread: touches are few. */
+float jox_touches_pass(JoxForces *f) {
+    const JoxV2 *velocities = f->contacts->solve.velocities;
+    JoxTouches *touches = &f->contacts->touches;
+    if (!touches->count)
+        return 0.0f;
+    float most = jox_supports_pass(f);
+    for (uint32_t k = 0; k < touches->count; k++) {
+        JoxTouch *t = &touches->items[k];
+        float speed = jox_dot(velocities[t->agent], t->normal) - jox_touch_speed_after(f, t);
+        t->before = t->impulse;
+        t->impulse = jox_maxf(0.0f, t->before + (t->target - speed) * t->mass);
+        jox_touch_apply_impulse(f, t, t->impulse - t->before);
+    }
+    jox_drives_limit(f);
+    for (uint32_t k = 0; k < touches->count; k++)
+        most = jox_maxf(most, fabsf(touches->items[k].impulse - touches->items[k].before));
+    return most;
+}
+
+void jox_touches_finish(JoxForces *f) {
+    JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_TOUCHES];
+    JoxTouches *touches = &f->contacts->touches;
+    const JoxAgents *a = f->step.agents;
+    JoxForceTotals *totals = &f->totals;
+    uint32_t inside = JOX_NO_INDEX; /* agent counted last: touches are sorted by agent */
+    JOX_RESERVE(kept->items, kept->capacity, touches->count);
+    kept->count = touches->count;
+    if (touches->count && !f->options.literal) {
+        jox_supports_finish(f, touches->items, touches->count);
+        jox_drives_finish(f);
+    }
+    for (uint32_t k = 0; k < touches->count; k++) {
+        const JoxTouch *t = &touches->items[k];
+        kept->items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
+        const JoxObject *body = &f->step.objects->rows[t->object];
+        const bool moves = body->inverse_mass > 0.0f;
+        if (body->kinematic && t->gap + a->breadth[t->agent] < 0.0f && t->agent != inside) {
+            inside = t->agent;
+            totals->inside++;
+        }
+        if (!(t->impulse > 0.0f) || !(moves || body->kinematic)) /* other bodies feel nothing */
+            continue;
+        JOX_ASSERT(jox_is_unit(t->normal) && t->agent < a->count);
+        JoxV2 impulse = jox_scale(t->normal, t->impulse);
+        totals->touched_x += moves ? (double)impulse.x : 0.0;
+        totals->touched_y += moves ? (double)impulse.y : 0.0;
+        totals->touched += moves ? (double)t->impulse : 0.0;
+        jox_impulses_add(&f->impulses, a->id[t->agent], t->object,
+                         (JoxV3){-impulse.x, -impulse.y, 0.0f}, t->point,
+                         f->options.literal ? 0.0f : f->supports->motions[t->object].held);
+    }
+}

@@ -1,0 +1,59 @@
+/* Contacts of a step: of agents with agents ("pairs"), walls and bodies ("touches"), and the
+   impulses that keep them from moving into each other. stage.c runs the files of this room in
+   order: find, lay out, solve, measure. */
+#ifndef JOX_FORCE_CONTACT_CONTACTS_H
+#define JOX_FORCE_CONTACT_CONTACTS_H
+
+#include "agents/contact_planes.h"
+#include "force/contact/bodies.h"
+#include "force/contact/found.h"
+#include "force/contact/layout.h"
+#include "force/contact/wall_load.h"
+
+/* What the solve changes. */
+typedef struct JoxContactSolve {
+    JoxV2 *velocities;   /* per agent, m/s, in stage memory */
+    float *inverse_mass; /* per agent, 1/kg, in stage memory */
+    float *residuals;    /* per chunk of a pass: greatest change of an impulse, N s */
+    size_t residual_capacity;
+} JoxContactSolve;
+
+/* Each part belongs to the files named. stages/forces.c creates and frees the whole. */
+struct JoxContacts {
+    bool known;              /* they were searched for in this step */
+    JoxFoundContacts found;  /* find.c, find_alone.c */
+    JoxPairs pairs;          /* layout.c */
+    JoxWallContacts walls;   /* layout.c */
+    JoxTouches touches;      /* bodies_find.c, bodies_solve.c */
+    JoxDrives drives;        /* bodies_driven.c */
+    JoxContactSolve solve;   /* solve.c, which starts with what start_wide.c computes */
+    JoxWallLoads wall_loads; /* wall_load.c */
+    JoxContactPlanes planes; /* planes.c */
+    JoxKeptImpulses kept[3]; /* state, by JoxKeptKind: the impulses from which the next step's solve
+                                starts */
+};
+
+/* solve.c: solves all impulses. */
+void jox_contacts_solve(JoxForces *forces);
+/* literal.c: equations 6 and 7 as printed: solves all pairs and touches, each by itself. */
+void jox_literal_contacts(JoxForces *forces);
+/* crush_load.c: measures compression and load of one agent from the impulses. */
+void jox_load_measure(JoxForces *forces, uint32_t agent);
+/* crush_load.c: returns whether neither walls nor pushes press on any of agents [begin, end). */
+bool jox_loads_are_none(const JoxForces *forces, uint32_t begin, uint32_t end);
+/* planes.c: makes the half-planes of contacts. */
+void jox_contact_planes_make(JoxForces *forces);
+/* check.c asserts that no agent occurs twice in a colour, that no contact pulls, and that the
+   forces of contacts between agents cancel out. */
+void jox_contacts_check(const JoxForces *forces);
+void jox_contacts_free(JoxContacts *contacts);
+
+/* Returns whether agents [begin, end), at most JOX_LANES, have no contact with agents or bodies. */
+static inline bool jox_have_no_contacts(const JoxContacts *c, uint32_t begin, uint32_t end) {
+    uint32_t touches = c->pairs.end_starts[end] - c->pairs.end_starts[begin];
+    for (uint32_t i = begin; c->touches.count && i < end; i++)
+        touches |= c->touches.number[i];
+    return touches == 0;
+}
+
+#endif

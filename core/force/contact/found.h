@@ -1,0 +1,73 @@
+/* Contacts with agents and walls as they are found, chunk by chunk, in the order in memory. find.c
+   leads; layout.c then puts them into the order of the solve. */
+#ifndef JOX_FORCE_CONTACT_FOUND_H
+#define JOX_FORCE_CONTACT_FOUND_H
+
+#include "force/forces.h"
+#include "simd/isa.h"
+
+enum {
+    JOX_NO_COLOUR = 255,       /* a contact that is left out */
+    JOX_CONTACT_MOST_WALLS = 6 /* most edges that one agent touches at a time */
+};
+
+/* N/m: stiffness of turned shoulders, until the bodies themselves meet */
+#define JOX_SQUEEZE 2000.0f
+
+/* A contact that an agent was found to have; the normal points to the agent. One of the two agents
+   finds a contact between them. */
+typedef struct JoxFoundPair {
+    uint32_t other, other_id;
+    JoxV2 normal;
+    float squeeze, target, mass; /* as in JoxPair */
+} JoxFoundPair;
+/* The part of a found pair that its layout needs, in few bytes: the other agent, its colour, and
+   its number among the contacts of either agent. */
+typedef struct JoxPairSlot {
+    uint32_t other;
+    uint8_t colour, first_end, second_end;
+} JoxPairSlot;
+typedef struct JoxFoundWall {
+    uint32_t edge;
+    JoxV2 normal;
+    float gap, along; /* m; along: from the start of the edge */
+} JoxFoundWall;
+
+/* Zero-initialise; it owns its arrays. */
+typedef struct JoxFoundContacts {
+    JoxChunkList pairs, slots, walls;  /* slots: parallel to `pairs` */
+    uint32_t *first_pair, *first_wall; /* per agent: first one in all chunks' items; first_wall:
+                                          after the layout an index into the contacts with walls */
+    uint8_t *pair_count, *wall_count;  /* per agent */
+    uint32_t *overlaps;                /* per chunk: overlapping pairs of agents */
+    bool has_full_list; /* some touch list is full: contacts are found agent by agent */
+    size_t first_pair_capacity, pair_count_capacity, first_wall_capacity, wall_count_capacity;
+    size_t overlap_capacity;
+} JoxFoundContacts;
+
+/* Finds the contacts of all agents: with agents and walls, and by jox_touches_find with bodies. */
+void jox_contacts_find(JoxForces *forces);
+void jox_found_contacts_free(JoxFoundContacts *found);
+
+/* find_wide.c: finds the contacts of agents [begin, end) of one chunk with agents and walls.
+   `begin` is a multiple of JOX_LANES. One function for each instruction set. */
+typedef void JoxFindKernel(JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxFindKernel jox_find_packets_##name;
+JOX_ISAS(X)
+#undef X
+
+/* find_alone.c: finds the contacts with other agents that one agent has to find, by ascending id;
+   returns how many. The agent of lesser id finds a contact, or the other one where the list of the
+   first is full. `walls`: some are near. */
+uint32_t jox_find_contacts_alone(JoxForces *forces, uint32_t agent, bool walls, JoxFoundPair *out);
+/* find_alone.c: finds the nearest edges that an agent touches; returns how many. */
+uint32_t jox_find_wall_contacts(const JoxForces *forces, uint32_t agent,
+                                JoxFoundWall out[JOX_CONTACT_MOST_WALLS]);
+/* Inserts a contact into a list of `count`, sorted by id. */
+static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const JoxFoundPair *pair) {
+    for (; count > 0 && list[count - 1].other_id > pair->other_id; count--)
+        list[count] = list[count - 1];
+    list[count] = *pair;
+}
+
+#endif

@@ -1,0 +1,92 @@
+/* Contacts with agents and walls as they are solved, in an order that depends on ids alone, and the
+   impulses that are kept from step to step (layout.c). */
+#ifndef JOX_FORCE_CONTACT_LAYOUT_H
+#define JOX_FORCE_CONTACT_LAYOUT_H
+
+#include "force/forces.h"
+#include "simd/isa.h"
+
+enum {
+    JOX_CONTACT_MOST_COLOURS = 64 /* most contacts of an agent with other agents */
+};
+
+/* A contact between two agents; the normal points to the first, which found it. Half a cache line,
+   as every use reads all of it. */
+typedef struct JoxPair {
+    uint32_t first, second;
+    JoxV2 normal;
+    float target;  /* least normal velocity of the first relative to the second, m/s */
+    float mass;    /* reduced mass, kg */
+    float squeeze; /* N: force of turned shoulders, which overlap within the radii; added to the
+                      impulse */
+    float impulse; /* accumulated, not negative, N s */
+} JoxPair;
+
+/* One agent's end of a contact with another agent. */
+typedef struct JoxPairEnd {
+    uint32_t pair; /* index of the pair */
+    uint32_t other;
+} JoxPairEnd;
+
+/* For an agent with contacts: the number of its first contact in ascending order of ids, and the
+   index of its first kept impulse (or that of the next agent that has some). */
+typedef struct JoxPairOrder {
+    uint32_t first_pair, first_kept;
+} JoxPairOrder;
+
+/* Contacts between agents, sorted by colour. No agent occurs twice in a colour, so that its
+   contacts may be solved in any order, on any number of threads. Zero-initialise; it owns its
+   arrays, except `colours_of`. */
+typedef struct JoxPairs {
+    uint32_t count, colours;
+    uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* first item of each colour */
+    JoxPair *items;
+    JoxPairEnd *ends; /* agent i: end_starts[i] to end_starts[i + 1], ordered by ids alone */
+    uint32_t *end_starts;
+    uint64_t *colours_of; /* per agent: bits of the colours of its pairs; in stage memory */
+    JoxPairOrder *orders; /* per agent */
+    uint32_t (*colour_sizes)[JOX_CONTACT_MOST_COLOURS]; /* per chunk: numbers of pairs, then place
+                                                           of the next one */
+    size_t capacity, end_capacity, end_start_capacity, order_capacity, colour_size_capacity;
+} JoxPairs;
+
+/* A contact of an agent with an edge of a wall. */
+typedef struct JoxWallContact {
+    uint32_t agent, edge;
+    JoxV2 normal;
+    float along, target, impulse; /* m from the start of the edge, m/s, N s */
+} JoxWallContact;
+
+/* Zero-initialise; it owns its arrays. */
+typedef struct JoxWallContacts {
+    JoxWallContact *items; /* sorted by agent id, then edge */
+    uint32_t *groups;      /* first contact of each agent at a wall, and the end */
+    uint32_t count, group_count;
+    size_t capacity, group_capacity;
+} JoxWallContacts;
+
+typedef struct JoxKeptImpulses {
+    JoxKeptImpulse *items;
+    size_t count, capacity;
+} JoxKeptImpulses;
+
+/* Lays out the contacts found, each with the impulse of the last step, and computes the velocities
+   that the solve starts from. */
+void jox_contacts_lay_out(JoxForces *forces);
+/* Keeps the impulses of agents and walls for the next step; jox_touches_finish keeps those of
+   bodies. */
+void jox_contacts_keep(JoxForces *forces);
+void jox_pairs_free(JoxPairs *pairs);
+
+/* Returns the kept impulse of a contact, N s; 0 for a new one. Called in ascending order of ids;
+ *at is the place in the list, 0 at first. */
+float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other);
+
+/* start_wide.c: computes `velocities` and `inverse_mass` of agents [begin, end), the start of the
+   solve. Both have room for whole blocks of JOX_LANES. One function for each instruction set. */
+typedef void JoxStartKernel(JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxStartKernel jox_start_packets_##name;
+JOX_ISAS(X)
+#undef X
+
+#endif
