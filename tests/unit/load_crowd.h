@@ -1,6 +1,6 @@
-/* Moving crowds of 150, of which the mean load must not depend on the step: people who press
-   towards a door, a stream in a periodic corridor, and people who mill about in a closed room.
-   Wishes follow from time, place and a number of the person, never from the count of steps. */
+/* Moving crowds of 150 people, whose mean load must not depend on the time step: people pressing
+   towards a door, a stream in a periodic corridor, people milling about in a closed room. Preferred
+   velocities depend on time, position and the person's number, not on the number of steps. */
 #ifndef TESTS_UNIT_LOAD_CROWD_H
 #define TESTS_UNIT_LOAD_CROWD_H
 
@@ -15,31 +15,31 @@
 
 enum { CROWD_PEOPLE = 150, CROWD_SCENES = 3 };
 static const char *const crowd_scenes[CROWD_SCENES] = {"door", "stream", "milling"};
-static const double CROWD_FROM = 5.0, CROWD_UNTIL = 20.0; /* s: what means are taken over */
-static const double ROOM = 6.547;                         /* m: 3.5 people per m2 */
+static const double CROWD_FROM = 5.0, CROWD_UNTIL = 20.0; /* s: period that means are taken over */
+static const double ROOM = 6.547;                         /* m, side: gives 3.5 people per m2 */
 
 typedef struct MovingCrowd {
     JoWorld *world;
     JoAgent people[CROWD_PEOPLE];
     int scene;
     uint64_t seed;
-    uint32_t drawn; /* of those who came in anew */
+    uint32_t drawn; /* people who have come back, numbers their draws */
 } MovingCrowd;
 
 /* Means over people and time. */
 typedef struct CrowdMeans {
-    double load;        /* N; NAN where the engine has no such column */
+    double load;        /* N; NAN if the engine has no such column */
     double compression; /* N/m */
-    double overlap;     /* m: how deep the deepest contact with a person is */
+    double overlap;     /* m, depth of a person's deepest overlap with another */
     double speed;       /* m/s */
 } CrowdMeans;
 
-/* Uniform in [0, 1): the same for the same numbers. */
+/* Returns a number in [0, 1), the same for the same person and number. */
 static inline double crowd_draw(const MovingCrowd *c, uint32_t person, uint64_t number) {
     return jox_random_unit(c->seed, person, number, JOX_DRAW_AIM, 0);
 }
 
-/* A column of numbers by its name, or NULL. */
+/* Returns the column of floats of this name, or NULL. */
 static inline const float *agent_column(const JoWorld *w, const char *name) {
 #define STATE(type, column) AGENT_COLUMN_##type(column)
 #define SCRATCH(type, column) AGENT_COLUMN_##type(column)
@@ -77,7 +77,7 @@ static inline JoAgent crowd_add(MovingCrowd *c, double x, double y) {
     return one;
 }
 
-/* The scene's walls and people, on a grid that is shaken by the seed. */
+/* Makes a scene's world: its walls, and people on a grid that the seed perturbs. */
 static inline MovingCrowd crowd_open(int scene, uint64_t seed, double dt) {
     static const double door[][6] = {{0, 0.5, 0, 4, -12, 4}, {0, -0.5, 0, -4, -12, -4}};
     static const double sides[][4] = {{-1, 0, 16, 0}, {-1, 2.5, 16, 2.5}};
@@ -113,7 +113,8 @@ static inline void crowd_close(MovingCrowd *c) {
     jo_world_free(c->world);
 }
 
-/* What a person wants now. Who has left by the door comes back behind the crowd. */
+/* Sets a person's preferred velocity. A person who has passed the door comes back behind the
+   crowd. */
 static inline void crowd_wish(MovingCrowd *c, int i) {
     JoAgentState s = jo_agent_state(c->world, c->people[i]);
     uint32_t person = (uint32_t)i;
@@ -131,7 +132,7 @@ static inline void crowd_wish(MovingCrowd *c, int i) {
         x = s.x < 0.0 ? -s.x + 0.2 : 1.0;
         y = s.x < 0.0 ? aim - s.y : 0.0;
     } else if (c->scene == 2) {
-        /* A new goal each 3 s, at times of one's own. */
+        /* A new goal every 3 s, at times that differ between people. */
         double when = jo_world_time(c->world) + 3.0 * crowd_draw(c, person, 6);
         uint64_t number = (uint64_t)floor(when / 3.0 + 1e-6);
         x = 0.3 + (ROOM - 0.6) * crowd_draw(c, person, 16 + 2 * number) - s.x;

@@ -1,5 +1,5 @@
-/* The mean load of a moving crowd of 150 does not depend on the step: .05 s against .0125 s, over
-   people, time and seeds. */
+/* The mean load of a moving crowd of 150 people, over people, time and seeds, does not depend on
+   the time step: 0.05 s against 0.0125 s. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,10 +9,10 @@
 #include "unit/effort.h"
 #include "unit/load_crowd.h"
 
-static const int seeds[CROWD_SCENES] = {10, 10, 30}; /* who mill about touch seldom */
-static const double CHANGES = 0.10;                  /* at most, of that at .05 s */
+static const int seeds[CROWD_SCENES] = {10, 10, 30}; /* people who mill about seldom touch */
+static const double CHANGES = 0.10;                  /* relative change allowed from 0.05 s */
 
-static void compare(int scene) {
+static void compare_steps(int scene) {
     const int count = seeds[scene] / EFFORT_EACH;
     static const double steps[] = {0.05, 0.0125};
     double load[2] = {0}, load2[2] = {0}, compression[2] = {0};
@@ -23,7 +23,7 @@ static void compare(int scene) {
             load2[k] += one.load * one.load / count;
             compression[k] += one.compression / count;
         }
-    double error = 0.0; /* of the ratio, by the spread over seeds */
+    double error = 0.0; /* standard error of the ratio, from the spread over seeds */
     for (int k = 0; k < 2; k++)
         error = hypot(error, sqrt(fmax(0.0, load2[k] / (load[k] * load[k]) - 1.0) / (count - 1)));
     double change = load[1] / load[0] - 1.0, other = compression[1] / compression[0] - 1.0;
@@ -36,24 +36,24 @@ static void compare(int scene) {
     assert_true(fabs(change) <= most && fabs(other) <= most);
 }
 
-static void people_who_press_to_a_door(void **state) {
+static void door_load_does_not_depend_on_step(void **state) {
     (void)state;
-    compare(0);
+    compare_steps(0);
 }
-static void a_stream_in_a_periodic_corridor(void **state) {
+static void stream_load_does_not_depend_on_step(void **state) {
     (void)state;
-    compare(1);
+    compare_steps(1);
 }
-static void people_who_mill_about(void **state) {
+static void milling_load_does_not_depend_on_step(void **state) {
     (void)state;
-    compare(2);
+    compare_steps(2);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(people_who_press_to_a_door),
-        cmocka_unit_test(a_stream_in_a_periodic_corridor),
-        cmocka_unit_test(people_who_mill_about),
+        cmocka_unit_test(door_load_does_not_depend_on_step),
+        cmocka_unit_test(stream_load_does_not_depend_on_step),
+        cmocka_unit_test(milling_load_does_not_depend_on_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,9 @@
 /* Loads of people at rest, between forces and against walls: rows, columns, slanted walls, wedges,
-   pyramids. Contact is frictionless, the girth is 2 pi 0.2 m = 1.2566 m. */
-#include "unit/load_statics.h"
+   pyramids. Contacts have no friction; the circumference of a person is 2 pi 0.2 m = 1.2566 m. */
+#include "unit/load_at_rest.h"
 
-/* n in a row along the direction `angle`, centred, between two forces. */
-static Setup row_of(uint32_t n, double newtons, double angle) {
+/* Makes a row of n people along `angle` (rad), centred at the origin, between two forces. */
+static Setup make_row(uint32_t n, double newtons, double angle) {
     Setup s = {.disc_count = n, .loose_x = 0.01, .loose_y = 0.01};
     double c = cos(angle), sine = sin(angle);
     for (uint32_t i = 0; i < n; i++) {
@@ -17,41 +17,42 @@ static Setup row_of(uint32_t n, double newtons, double angle) {
     return s;
 }
 
-/* 600 N / 1.2566 m = 477.5 N/m on either end, twice that between; 600 N from any one side. */
-static void row_figures(uint32_t n, Figures *hand) {
+/* Each bears 600 N; compression is 600 N / 1.2566 m = 477.5 N/m at the ends and twice that in
+   between. */
+static void compute_row_figures(uint32_t n, Figures *hand) {
     for (uint32_t i = 0; i < n; i++)
         hand[i] = (Figures){600.0, i == 0 || i + 1 == n ? 477.46 : 954.93};
 }
 
-static void hold_row(uint32_t n) {
-    Setup s = row_of(n, 600.0, 0.0);
+static void check_people_row(uint32_t n) {
+    Setup s = make_row(n, 600.0, 0.0);
     Figures hand[MOST_DISCS];
-    row_figures(n, hand);
-    hold_setup(&s, hand);
+    compute_row_figures(n, hand);
+    check_setup(&s, hand);
 }
 
-static void two_between_forces(void **state) {
+static void row_of_two_between_forces(void **state) {
     (void)state;
-    hold_row(2);
+    check_people_row(2);
 }
 
-static void five_between_forces(void **state) {
+static void row_of_five_between_forces(void **state) {
     (void)state;
-    hold_row(5);
+    check_people_row(5);
 }
 
-static void twelve_between_forces(void **state) {
+static void row_of_twelve_between_forces(void **state) {
     (void)state;
-    hold_row(12);
+    check_people_row(12);
 }
 
-/* A row of round people buckles, so that a channel holds it, with a millimetre to either side: at
-   most 2 mm aside over 400 mm, each contact takes 3 N of 600 to a wall. */
+/* A row of discs buckles, so a channel with a clearance of 1 mm holds it: offsets of at most 2 mm
+   over 400 mm transfer 3 N of 600 N to the walls. */
 static void a_turned_row_in_a_channel(void **state) {
     (void)state;
     double angle = 37.0 * PI / 180.0, c = cos(angle), sine = sin(angle), half = RADIUS + 0.001;
     for (uint32_t n = 2; n <= 5; n += 3) {
-        Setup s = row_of(n, 600.0, angle);
+        Setup s = make_row(n, 600.0, angle);
         s.wall_count = 2;
         for (int side = 0; side < 2; side++) {
             double out = side ? half : -half;
@@ -60,13 +61,13 @@ static void a_turned_row_in_a_channel(void **state) {
                                    .corners = 2};
         }
         Figures hand[MOST_DISCS];
-        row_figures(n, hand);
-        hold_setup(&s, hand);
+        compute_row_figures(n, hand);
+        check_setup(&s, hand);
     }
 }
 
-/* n behind each other, pressed against a wall at x = 0 by 1,000 N on the last. */
-static Setup column_of(uint32_t n, bool solid) {
+/* Makes a column of n people, pressed against a wall at x = 0 by 1,000 N on the last. */
+static Setup make_column(uint32_t n, bool solid) {
     Setup s = {.disc_count = n, .wall_count = 1, .loose_x = 0.01};
     for (uint32_t i = 0; i < n; i++)
         s.discs[i] = (Disc){.x = -RADIUS - 2.0 * RADIUS * i};
@@ -81,8 +82,8 @@ static void one_against_a_wall(void **state) {
     (void)state;
     const Figures hand[] = {{1000.0, 795.77}};
     for (int solid = 0; solid < 2; solid++) {
-        Setup s = column_of(1, solid);
-        hold_setup(&s, hand);
+        Setup s = make_column(1, solid);
+        check_setup(&s, hand);
     }
 }
 
@@ -90,20 +91,19 @@ static void three_against_a_wall(void **state) {
     (void)state;
     const Figures hand[] = {{1000.0, 1591.55}, {1000.0, 1591.55}, {1000.0, 795.77}};
     for (int solid = 0; solid < 2; solid++) {
-        Setup s = column_of(3, solid);
-        hold_setup(&s, hand);
+        Setup s = make_column(3, solid);
+        check_setup(&s, hand);
     }
 }
 
-/* Walls of a valley whose bottom is the origin, falling from the left and rising to the right at
-   these angles. */
-static Wall valley(double left, double right) {
+/* Makes the walls of a valley with its bottom at the origin; the angles are those of its sides. */
+static Wall make_valley(double left, double right) {
     return (Wall){.xy = {-3 * cos(left), 3 * sin(left), 0, 0, 3 * cos(right), 3 * sin(right)},
                   .corners = 3};
 }
 
-/* The centre of a disc that touches both sides of a valley: its distance from each is a radius. */
-static Disc in_valley(double left, double right, double radius) {
+/* Places a disc in a valley so that it touches both sides. */
+static Disc place_in_valley(double left, double right, double radius) {
     /* sin(left) x + cos(left) y = r; -sin(right) x + cos(right) y = r. */
     double det = sin(left) * cos(right) + cos(left) * sin(right);
     return (Disc){.x = radius * (cos(right) - cos(left)) / det,
@@ -112,43 +112,43 @@ static Disc in_valley(double left, double right, double radius) {
 }
 
 /* 1,000 N down between walls that rise at 30 and 60 degrees. Across: N sin 30 = M sin 60; up:
-   N cos 30 + M cos 60 = 1,000 N. So N = 866.0 N and M = 500 N, at right angles: no direction gets
-   more than their sum, 1,000 N; (866.0 N + 500 N) / 1.2566 m = 1087.0 N/m. */
+   N cos 30 + M cos 60 = 1,000 N. So N = 866.0 N and M = 500 N, at right angles: the load is that of
+   their sum, 1,000 N; (866.0 N + 500 N) / 1.2566 m = 1087.0 N/m. */
 static void between_slanted_walls(void **state) {
     (void)state;
     const Figures hand[] = {{1000.0, 1087.05}};
     Setup s = {.disc_count = 1, .wall_count = 1, .loose_x = 0.02, .loose_y = 0.02};
-    s.discs[0] = in_valley(PI / 6, PI / 3, RADIUS);
+    s.discs[0] = place_in_valley(PI / 6, PI / 3, RADIUS);
     s.discs[0].force_y = -1000.0;
-    s.walls[0] = valley(PI / 6, PI / 3);
-    hold_setup(&s, hand);
+    s.walls[0] = make_valley(PI / 6, PI / 3);
+    check_setup(&s, hand);
 }
 
-/* Two walls at 50 and 35 degrees hold two people, of which the upper leans on the lower and on
-   the right wall. Equilibrium is solved from the contacts. */
+/* Walls at 50 and 35 degrees hold two people; the upper one leans on the lower one and on the right
+   wall. Equilibrium is solved from the contacts. */
 static void two_between_slanted_walls(void **state) {
     (void)state;
     double left = 50.0 * PI / 180.0, right = 35.0 * PI / 180.0;
     Setup s = {.disc_count = 2, .wall_count = 1, .loose_x = 0.01, .loose_y = 0.01};
-    s.discs[0] = in_valley(left, right, RADIUS);
+    s.discs[0] = place_in_valley(left, right, RADIUS);
     s.discs[1] = (Disc){.x = s.discs[0].x + 0.4 * cos(right),
                         .y = s.discs[0].y + 0.4 * sin(right),
                         .force_y = -700.0};
     s.discs[0].force_y = -400.0;
-    s.walls[0] = valley(left, right);
-    hold_setup(&s, NULL);
+    s.walls[0] = make_valley(left, right);
+    check_setup(&s, NULL);
 }
 
-/* A trough with a flat bottom at y = 0 and sides at +-half. */
-static Wall trough(double half) {
+/* Makes a trough with a flat bottom at y = 0 and sides at x = +-half. */
+static Wall make_trough(double half) {
     return (Wall){.xy = {-half, 3, -half, 0, half, 0, half, 3}, .corners = 4};
 }
 
-/* One pressed by 600 N between two who stand 0.2 m apart, each in a corner of a trough. From above
-   the contacts lean by a = asin(0.3 m / 0.4 m): cos a = 0.6614, tan a = 1.1339. Each takes 300 N /
-   cos a = 453.6 N, to which the floor gives 300 N and the side 300 N tan a = 340.2 N. The one
-   above: 907.1 N / 1.2566 m = 721.9 N/m, at most 600 N along one direction. Those below: (453.6 +
-   300 + 340.2) N / 1.2566 m = 870.4 N/m, at most 453.6 N. */
+/* A person is pressed by 600 N between two people with a gap of 0.2 m, each in a corner of a
+   trough. The upper contacts lean by a = asin(0.3 m / 0.4 m): cos a = 0.6614, tan a = 1.1339. Each
+   takes 300 N / cos a = 453.6 N, which the floor balances with 300 N and the side with 300 N tan a
+   = 340.2 N. The upper person: 907.1 N / 1.2566 m = 721.9 N/m, load 600 N. The lower ones: (453.6 +
+   300 + 340.2) N / 1.2566 m = 870.4 N/m, load 453.6 N. */
 static void a_wedge_of_three(void **state) {
     (void)state;
     const Figures hand[] = {{453.56, 870.41}, {453.56, 870.41}, {600.0, 721.87}};
@@ -156,18 +156,19 @@ static void a_wedge_of_three(void **state) {
     s.discs[0] = (Disc){.x = -0.3, .y = RADIUS};
     s.discs[1] = (Disc){.x = 0.3, .y = RADIUS};
     s.discs[2] = (Disc){.x = 0.0, .y = RADIUS + sqrt(0.16 - 0.09), .force_y = -600.0};
-    s.walls[0] = trough(0.5);
-    hold_setup(&s, hand);
+    s.walls[0] = make_trough(0.5);
+    check_setup(&s, hand);
 }
 
-/* The same with unequal people: 0.25 m and 0.15 m wide, 100 kg and 40 kg, and a slanting force. */
+/* The same with unequal people, of radius 0.25 m and 0.15 m, 100 kg and 40 kg, and a slanted
+   force. */
 static void a_wedge_of_unequal_people(void **state) {
     (void)state;
     Setup s = {.disc_count = 3, .wall_count = 1, .loose_y = 0.01};
     s.discs[0] = (Disc){.x = -0.25, .y = 0.25, .radius = 0.25, .mass = 100.0};
     s.discs[1] = (Disc){.x = 0.35, .y = 0.15, .radius = 0.15, .mass = 40.0};
-    /* 0.45 m from the first, 0.35 m from the second: distance of these c, along it from the first
-       (0.45^2 - 0.35^2 + c^2) / 2 c, and upwards to the left of it. */
+    /* The third is 0.45 m from the first and 0.35 m from the second, which are c apart: along the
+       line between them (0.45^2 - 0.35^2 + c^2) / 2 c from the first, and above it. */
     double dx = 0.6, dy = -0.1, c = hypot(dx, dy);
     double along = (0.45 * 0.45 - 0.35 * 0.35 + c * c) / (2.0 * c);
     double up = sqrt(0.45 * 0.45 - along * along);
@@ -175,12 +176,12 @@ static void a_wedge_of_unequal_people(void **state) {
                         .y = 0.25 + (along * dy + up * dx) / c,
                         .force_x = 60.0,
                         .force_y = -500.0};
-    s.walls[0] = trough(0.5);
-    hold_setup(&s, NULL);
+    s.walls[0] = make_trough(0.5);
+    check_setup(&s, NULL);
 }
 
-/* Each weighs 500 N. The one above gives 250 N tan a and 250 N to either side as in the wedge, with
-   tan a = 1.1339; below, the floor bears 750 N. */
+/* Each weighs 500 N. The upper person exerts 250 N tan a outwards and 250 N down on each lower one,
+   as in the wedge, with tan a = 1.1339; the floor bears 750 N below each. */
 static void a_pyramid_of_two_and_one(void **state) {
     (void)state;
     Setup s = {.disc_count = 3, .wall_count = 1, .loose_y = 0.01};
@@ -189,19 +190,19 @@ static void a_pyramid_of_two_and_one(void **state) {
     s.discs[2] = (Disc){.x = 0.0, .y = RADIUS + sqrt(0.16 - 0.09)};
     for (int i = 0; i < 3; i++)
         s.discs[i].force_y = -500.0;
-    s.walls[0] = trough(0.5);
+    s.walls[0] = make_trough(0.5);
     /* Contact 250 N / cos a = 377.96 N, side 283.47 N, floor 750 N. Along d at the angle t from
        the vertical, floor and side give 750 cos t + 283.47 sin t, at most hypot = 801.8 N. */
     const Figures hand[] = {{801.78, 1123.18}, {801.78, 1123.18}, {500.0, 601.55}};
-    hold_setup(&s, hand);
+    check_setup(&s, hand);
 }
 
-/* Three stand in notches of the floor (on a flat one the middle one could roll aside), two on
-   these, one above; each weighs W = 300 N. Contacts lean by a = asin(0.23 m / 0.4 m). The top one
-   gives W / 2 cos a to either side. Across and down, a second one has L - R = W / 2 cos a, L + R =
-   1.5 W / cos a: outwards L = W / cos a, inwards R = W / 2 cos a. So each of the three below bears
-   2 W down, the outer ones W tan a outwards as well, and each side of their notch (2 W +- W tan a)
-   / sqrt 2. */
+/* Three people stand in notches of the floor (on a flat floor the middle one could roll aside), two
+   on them, one on top; each weighs W = 300 N. Contacts lean by a = asin(0.23 m / 0.4 m). The top
+   person exerts W / 2 cos a on either side. Horizontally and vertically, one of the second row has
+   L - R = W / 2 cos a, L + R = 1.5 W / cos a: outwards L = W / cos a, inwards R = W / 2 cos a. So
+   each of the three below bears 2 W down, the outer ones W tan a outwards as well, and each side of
+   their notch (2 W +- W tan a) / sqrt 2. */
 static void a_pyramid_of_three_two_and_one(void **state) {
     (void)state;
     const double pitch = 0.46, step = sqrt(0.16 - 0.25 * 0.46 * 0.46), low = RADIUS * sqrt(2.0);
@@ -225,17 +226,17 @@ static void a_pyramid_of_three_two_and_one(void **state) {
     double lean = asin(0.575), out = 300.0 * tan(lean), girth = 2.0 * PI * RADIUS;
     Contact contacts[MOST_CONTACTS];
     Figures hand[MOST_DISCS];
-    assert_int_equal(balance(&s, contacts), 12);
-    hand_figures(&s, hand);
+    assert_int_equal(solve_balance(&s, contacts), 12);
+    solve_figures(&s, hand);
     double below = 2.0 * 600.0 / sqrt(2.0) + 300.0 / cos(lean);
     assert_true(out < 600.0 && fabs(hand[0].compression - below / girth) < 0.1);
     assert_true(fabs(hand[1].compression - below / girth) < 0.1); /* its own: 2 R = W / cos a */
     assert_true(fabs(hand[3].compression - 2.0 * 300.0 / cos(lean) / girth) < 0.1);
-    hold(&s, hand);
+    check_figures(&s, hand);
 }
 
-/* One at the bottom of a valley of 45 degrees, two on it and the walls, one on these: a square on
-   its corner, which no two contacts hold twice. */
+/* In a valley of 45 degrees one person lies at the bottom, two on them and the walls, one on top: a
+   square standing on its corner, whose contacts equilibrium determines. */
 static void a_pile_in_a_valley(void **state) {
     (void)state;
     Setup s = {.disc_count = 4, .wall_count = 1, .loose_y = 0.01};
@@ -246,13 +247,13 @@ static void a_pile_in_a_valley(void **state) {
     s.discs[3] = (Disc){.x = 0.0, .y = 3.0 * low};
     for (int i = 0; i < 4; i++)
         s.discs[i].force_y = -400.0;
-    s.walls[0] = valley(PI / 4, PI / 4);
-    hold_setup(&s, NULL);
+    s.walls[0] = make_valley(PI / 4, PI / 4);
+    check_setup(&s, NULL);
 }
 
-/* 24 press upon one large one, more than anybody perceives: 100 N each, 2,400 N / 2 pi 1.5 m. Along
-   d half of them count, with their cosines: 100 N / sin(7.5 degrees). */
-static void many_upon_one(void **state) {
+/* 24 people press on a large one, more than an agent perceives, with 100 N each: compression 2,400
+   N / 2 pi 1.5 m; load 100 N / sin(7.5 degrees), the sum of the components of half of them. */
+static void many_press_on_one(void **state) {
     (void)state;
     Setup s = {.disc_count = 25, .loose_x = 0.005, .loose_y = 0.005, .central = true};
     Figures hand[MOST_DISCS] = {{100.0 / sin(PI / 24), 2400.0 / (2.0 * PI * 1.5)}};
@@ -262,14 +263,14 @@ static void many_upon_one(void **state) {
         s.discs[i + 1] = (Disc){1.65 * c, 1.65 * sine, -100.0 * c, -100.0 * sine, 0.15, MASS};
         hand[i + 1] = (Figures){100.0, 100.0 / (2.0 * PI * 0.15)};
     }
-    hold_setup(&s, hand);
+    check_setup(&s, hand);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_between_forces),
-        cmocka_unit_test(five_between_forces),
-        cmocka_unit_test(twelve_between_forces),
+        cmocka_unit_test(row_of_two_between_forces),
+        cmocka_unit_test(row_of_five_between_forces),
+        cmocka_unit_test(row_of_twelve_between_forces),
         cmocka_unit_test(a_turned_row_in_a_channel),
         cmocka_unit_test(one_against_a_wall),
         cmocka_unit_test(three_against_a_wall),
@@ -280,7 +281,7 @@ int main(void) {
         cmocka_unit_test(a_pyramid_of_two_and_one),
         cmocka_unit_test(a_pyramid_of_three_two_and_one),
         cmocka_unit_test(a_pile_in_a_valley),
-        cmocka_unit_test(many_upon_one),
+        cmocka_unit_test(many_press_on_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

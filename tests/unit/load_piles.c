@@ -1,23 +1,24 @@
-/* Random piles in valleys: people of all sizes, each resting on two things (a wall, another
-   person), each with a force of its own. Two contacts for each: equilibrium determines them all. */
+/* Loads in random piles in valleys: people of all sizes under forces of their own, each resting on
+   two others or on another and a wall. With two contacts a person, equilibrium determines all
+   forces. */
 #include "base/number/random.h"
-#include "unit/load_statics.h"
+#include "unit/load_at_rest.h"
 
 enum { PILES = 60, MOST_TRIES = 400 };
-static const double CLEAR = 0.006; /* m: between those who do not touch */
-static const double LEAST = 0.06;  /* of the greatest contact: the least one */
+static const double CLEAR = 0.006; /* m, least gap between people who do not touch */
+static const double LEAST = 0.06;  /* least contact force, relative to the pile's greatest */
 
 static double draw(uint64_t pile, uint32_t what, double low, double high) {
     return low + (high - low) * jox_random_unit(pile, what, 0, JOX_DRAW_AIM, 2);
 }
 
-/* A wall of the valley as the line n . p = 0, n upwards. */
+/* A wall of the valley: the line n . p = 0, with the normal n upwards. */
 typedef struct Line {
     double x, y;
 } Line;
 
-/* Where a disc touches two others, to the left of the way from the first to the second. */
-static bool upon_discs(const Disc *a, const Disc *b, double radius, Disc *out) {
+/* Places a disc so that it touches two others, on the left of the direction from a to b. */
+static bool place_upon_discs(const Disc *a, const Disc *b, double radius, Disc *out) {
     double dx = b->x - a->x, dy = b->y - a->y, d = hypot(dx, dy);
     double from = a->radius + radius, to = b->radius + radius;
     double along = (from * from - to * to + d * d) / (2.0 * d), up = from * from - along * along;
@@ -28,8 +29,8 @@ static bool upon_discs(const Disc *a, const Disc *b, double radius, Disc *out) {
     return true;
 }
 
-/* Where it touches a wall and a disc, farther up the wall. */
-static bool upon_wall(const Line *wall, const Disc *a, double radius, Disc *out) {
+/* Places a disc so that it touches a wall and another disc, farther up the wall. */
+static bool place_upon_wall(const Line *wall, const Disc *a, double radius, Disc *out) {
     double above = a->x * wall->x + a->y * wall->y - radius, reach = a->radius + radius;
     double rest = reach * reach - above * above;
     double up = wall->x < 0.0 ? 1.0 : -1.0; /* along (y, -x) of the normal */
@@ -40,7 +41,8 @@ static bool upon_wall(const Line *wall, const Disc *a, double radius, Disc *out)
     return true;
 }
 
-static bool stands_free(const Setup *s, const Line walls[2], const Disc *d) {
+/* Whether a disc touches two things, and no other thing is near. */
+static bool has_two_contacts(const Setup *s, const Line walls[2], const Disc *d) {
     uint32_t touches = 0;
     for (int w = 0; w < 2; w++) {
         double gap = d->x * walls[w].x + d->y * walls[w].y - d->radius;
@@ -58,7 +60,7 @@ static bool stands_free(const Setup *s, const Line walls[2], const Disc *d) {
     return touches == 2;
 }
 
-/* Whether every contact of the pile presses, none faintly. */
+/* Whether every contact of the pile presses, and none of them weakly. */
 static bool is_firm(const Setup *s) {
     Contact contacts[MOST_CONTACTS];
     double rest, least = INFINITY, most = 0.0;
@@ -72,7 +74,7 @@ static bool is_firm(const Setup *s) {
     return least > LEAST * most;
 }
 
-/* Tries one place for one more person. */
+/* Tries to add a person at a random place. */
 static void add_disc(Setup *s, const Line walls[2], uint64_t pile, uint32_t attempt) {
     uint32_t own = 100 + 10 * attempt;
     double newtons = draw(pile, own, 150.0, 600.0), lean = draw(pile, own + 1, -0.3, 0.3);
@@ -82,9 +84,9 @@ static void add_disc(Setup *s, const Line walls[2], uint64_t pile, uint32_t atte
     const Disc *one = &s->discs[(uint32_t)draw(pile, own + 4, 0.0, s->disc_count)];
     const Disc *two = &s->discs[(uint32_t)draw(pile, own + 5, 0.0, s->disc_count)];
     const Line *wall = &walls[draw(pile, own + 6, 0.0, 1.0) < 0.5];
-    bool there = draw(pile, own + 7, 0.0, 1.0) < 0.5 ? upon_wall(wall, one, d.radius, &d)
-                                                     : upon_discs(one, two, d.radius, &d);
-    if (!there || !stands_free(s, walls, &d) || hypot(d.x, d.y) > 2.5)
+    bool there = draw(pile, own + 7, 0.0, 1.0) < 0.5 ? place_upon_wall(wall, one, d.radius, &d)
+                                                     : place_upon_discs(one, two, d.radius, &d);
+    if (!there || !has_two_contacts(s, walls, &d) || hypot(d.x, d.y) > 2.5)
         return;
     s->discs[s->disc_count++] = d;
     if (!is_firm(s))
@@ -108,25 +110,25 @@ static Setup make_pile(uint64_t pile) {
     return s;
 }
 
-static void random_piles(void **state) {
+static void piles_bear_loads_of_equilibrium(void **state) {
     (void)state;
     int off = 0, people = 0;
     for (uint64_t pile = 0; pile < PILES; pile++) {
         Setup s = make_pile(pile);
         Figures hand[MOST_DISCS];
-        hand_figures(&s, hand);
+        solve_figures(&s, hand);
         int runs = count_off(&s, hand);
         if (runs)
             print_error("  that was pile %u of %u people\n", (unsigned)pile, s.disc_count);
         off += runs > 0;
         people += (int)s.disc_count;
     }
-    assert_true(people > 4 * PILES); /* they are piles */
+    assert_true(people > 4 * PILES); /* the piles are large */
     if (off)
         fail_msg("%d of %d piles are off", off, PILES);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_piles)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(piles_bear_loads_of_equilibrium)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

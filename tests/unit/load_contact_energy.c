@@ -1,6 +1,6 @@
-/* Contact makes no energy and no momentum: 10,000 random encounters of people, boxes and balls, and
-   a few by hand. With the number of an encounter as its argument the program prints the energy of
-   every step of that one; with a second one, of its bodies alone. */
+/* Contacts add no energy and no momentum: 10,000 random encounters of people, boxes and balls, and
+   a few made by hand. With the number of an encounter as its argument the program prints the energy
+   at every step of that encounter; with a second argument, of its bodies without its people. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,19 +17,21 @@
 #include "world/world.h"
 
 enum { ENCOUNTERS = 10000, KINDS = 4, MOST_PEOPLE = 40, EACH = KINDS * EFFORT_EACH };
-static const double GROWS = 1e-4;  /* of the energy at the start, or of 1 J where that is less */
-static const double TIPS = 1e-3;   /* the same in a step where Bullet lifts a tipping body off */
-static const double DRIFTS = 1e-5; /* of the sizes of all momenta at the start */
-static const double SINKS = 1e-3;  /* m: how far Bullet lets what rocks sink into the ground */
-static const double FILTER = 0.13; /* s, over which what is passed on arrives */
+static const double GROWS = 1e-4; /* growth allowed, relative to the energy at the start or 1 J */
+static const double TIPS = 1e-3;  /* growth allowed in a step if Bullet may lift a tipping body */
+static const double DRIFTS =
+    1e-5; /* drift allowed, relative to the sum of all |momenta| at the start */
+static const double SINKS =
+    1e-3; /* m, depth that Bullet lets rocking bodies sink into the ground */
+static const double FILTER = 0.13; /* s, time constant by which transferred forces arrive */
 static const double SECONDS = 1.2, TURN = 6.28318530717958648;
 static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125};
 
-/* Who coasts wants the velocity that they have: their feet do nothing. That is so at steps of .05
-   s; at finer ones people go on with the plan of up to .05 s ago, which is muscle work, and what
-   contacts and bodies do is held against the step before. Who sees others passes forces
-   on to them (equations 8 and 9), but steps aside for nobody: that is work of muscles, and no
-   overlap; see those_at_rest_stay_so for it. */
+/* Coasting people prefer the velocity that they have, so that their muscles do no work. That holds
+   at time steps of 0.05 s; at finer ones people keep a plan that is up to 0.05 s old, which is
+   muscle work, so there only the changes that contacts and bodies make are counted. Seeing people
+   transfer forces to others (equations 8 and 9), but avoid nobody, which would be muscle work;
+   avoidance is tested in people_at_rest_stay_at_rest. */
 typedef enum Kind { COASTING, BLIND, BLIND_IN_ROOM, SEEING } Kind;
 static const char *const kind_names[KINDS] = {
     "coasting, perception 0, no damping", "at rest by wish, perception 0", "the same between walls",
@@ -39,15 +41,15 @@ typedef struct Encounter {
     JoWorld *world;
     JoAgent people[MOST_PEOPLE];
     uint32_t count;
-    bool coasting, rough; /* rough: Bullet alone may take energy and give some of it back */
-    bool later;           /* what people pass on arrives after they have braked */
+    bool coasting, rough; /* rough: Bullet may store energy and return some of it */
+    bool later;           /* transferred forces arrive after the giver has slowed down */
 } Encounter;
 
 typedef struct Growth {
     bool things;      /* there are bodies */
     double energy;    /* J at the start, at least 1 */
-    double step, all; /* the greatest growth in a step; over the start, of that */
-    double momentum;  /* greatest drift, of all momenta at the start */
+    double step, all; /* greatest growth in a step, and above the start, relative to `energy` */
+    double momentum;  /* greatest drift, relative to all momenta at the start */
 } Growth;
 
 static double draw(uint64_t number, uint32_t what) {
@@ -57,7 +59,7 @@ static double between(uint64_t number, uint32_t what, double low, double high) {
     return low + (high - low) * draw(number, what);
 }
 
-/* ---- figures of a world ---- */
+/* ---- energy and momentum of a world ---- */
 
 static double body_energy(const JoxPose *p) {
     double v2 = (double)p->velocity.x * p->velocity.x + (double)p->velocity.y * p->velocity.y +
@@ -78,12 +80,12 @@ static double body_energy(const JoxPose *p) {
 
 typedef struct Figures {
     double kinetic;            /* J, of motion and spin */
-    double momentum[2], sizes; /* N s; the sum of the sizes */
-    double height, weight;     /* J: of the bodies' centres, by their weights; N: all of these */
+    double momentum[2], sizes; /* N s; sum of the magnitudes of momenta */
+    double height, weight;     /* J, potential energy of the bodies; N, sum of their weights */
 } Figures;
 
-/* Of a world: at the end of a step, or `by_forces`, with people as the forces of the step, contacts
-   among them, left them before their feet did anything. */
+/* Returns the figures of a world at the end of a step; `by_forces`: with the velocities that the
+   step's forces and contacts gave people, before their muscles changed them. */
 static Figures figures_of(const JoWorld *w, bool by_forces) {
     const JoxAgents *a = &w->state.agents;
     Figures f = {0};
@@ -117,11 +119,11 @@ static void add_change(Figures *sum, const Figures *from, Figures to) {
         sum->momentum[k] += to.momentum[k] - from->momentum[k];
 }
 
-/* Steps the world for `seconds`, with what each step adds. What people pass on arrives as
-   1 - exp(-t / FILTER), and the energy that this gives as the square of that: of what they lost, no
-   more than 2 exp(-t / FILTER) may still come. What rocks and tips trades height for
-   motion, and Bullet parts bodies that sank into each other, into walls or the ground at some
-   speed: where it may do so, all of the energy is held against the start, not against the step
+/* Steps the world for `seconds` and returns the greatest growth of its energy. Transferred forces
+   arrive as 1 - exp(-t / FILTER) and their energy as the square of that: of the energy that givers
+   have lost, at most 2 exp(-t / FILTER) may still arrive. Rocking and tipping bodies exchange
+   height for motion, and Bullet separates bodies that sank into each other, into walls or the
+   ground; if that can happen, the energy is compared with the start only, not with the step
    before. */
 static Growth watch(Encounter *e, double seconds, bool print) {
     const Figures first = figures_of(e->world, false);
@@ -178,7 +180,7 @@ static JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double vy) {
     if (e->coasting) {
         jo_agent_set_parameter(e->world, one, "damping", 0.0, NULL);
         jo_agent_set_parameter(e->world, one, "absorb", 0.0, NULL);
-        /* They have a wish, to go on: with turned shoulders they would part by elbows. */
+        /* Without turned shoulders, by which agents that want to go on give way. */
         jo_agent_set_parameter(e->world, one, "turn", 0.0, NULL);
     }
     e->people[e->count++] = one;
@@ -191,7 +193,7 @@ static void avoid_nobody(Encounter *e, JoAgent who) {
     a->tags[i] = a->ignore[i] = 1;
 }
 
-/* Near the middle and mostly on their way to it; a few lie deep within others. */
+/* Adds people near the centre, most of whom move towards it; some overlap others deeply. */
 static void add_people(Encounter *e, uint64_t number, Kind kind) {
     uint32_t count = 2 + (uint32_t)(3.0 * draw(number, 1));
     double within = draw(number, 2) < 0.5 ? 0.35 : 0.9;
@@ -199,7 +201,7 @@ static void add_people(Encounter *e, uint64_t number, Kind kind) {
         uint32_t own = 100 + 20 * i;
         double angle = TURN * draw(number, own), far = within * sqrt(draw(number, own + 1));
         double speed = between(number, own + 2, 0.0, 2.5) * (draw(number, own + 3) < 0.8);
-        speed *= draw(number, 22) > 0.15; /* else all lie still in each other */
+        speed *= draw(number, 22) > 0.15; /* else all rest, overlapping each other */
         double way = angle + TURN / 2 + between(number, own + 4, -1.0, 1.0);
         JoAgentDef def = jo_default_agent_def();
         def.x = far * cos(angle);
@@ -222,7 +224,7 @@ static void add_people(Encounter *e, uint64_t number, Kind kind) {
     jox_nav_invalidate_order(e->world->scratch.nav);
 }
 
-/* Boxes, cylinders and balls, one to either side, so that none lies in another. */
+/* Adds up to two bodies, one on either side, so that they do not overlap. */
 static void add_things(Encounter *e, uint64_t number, Kind kind) {
     uint32_t count = (uint32_t)(3.0 * draw(number, 10));
     for (uint32_t i = 0; i < count; i++) {
@@ -261,10 +263,11 @@ static Encounter open_encounter(uint64_t number, bool people) {
     Kind kind = (Kind)(number % KINDS);
     Encounter e = {.coasting = kind == COASTING, .later = kind == SEEING};
     JoWorldDef def = jo_default_world_def();
-    /* Within a step of .1 s, which is done in two, the wish of who coasts would be that before. */
+    /* A step of 0.1 s is done in two: in the second, coasting people would prefer an old velocity.
+     */
     def.dt = STEPS[(uint32_t)between(number, 20, kind == COASTING ? 1.0 : 0.0, 4.0)];
     def.seed = number;
-    def.gravity = draw(number, 21) < 0.5 ? 0.0 : 9.81; /* without it, energy is motion alone */
+    def.gravity = draw(number, 21) < 0.5 ? 0.0 : 9.81; /* without gravity all energy is kinetic */
     e.world = jo_world_create(&def, NULL);
     const double line[] = {-2.0, -1.2, 2.0, -1.2};
     const double block[] = {-2.0, 1.2, 2.0, 1.2, 2.0, 2.0, -2.0, 2.0};
@@ -272,7 +275,7 @@ static Encounter open_encounter(uint64_t number, bool people) {
         jo_world_add_line(e.world, line, 2, NULL);
         jo_world_add_solid(e.world, block, 4, NULL);
     }
-    if (jox_bodies_available() && kind != SEEING) /* who sees a body steps aside */
+    if (jox_bodies_available() && kind != SEEING) /* seeing people avoid bodies */
         add_things(&e, number, kind);
     uint32_t things = jo_world_body_count(e.world);
     e.rough = things > 1 || (things > 0 && (def.gravity != 0.0 || kind >= BLIND_IN_ROOM));
@@ -288,7 +291,7 @@ static Growth run_encounter(uint64_t number, bool people, bool print) {
     return g;
 }
 
-/* Of the encounters of one kind: how many grow, and the worst. */
+/* Runs the encounters of one kind; prints how many gain energy or momentum, and the worst. */
 static bool try_kind(Kind kind, bool people) {
     uint32_t count = 0, grow = 0, above = 0, drift = 0;
     uint64_t worst = 0, highest = 0, farthest = 0;
@@ -315,23 +318,24 @@ static bool try_kind(Kind kind, bool people) {
     return !grow && !above && !(kind == COASTING && drift);
 }
 
-static void the_coasting_keep_momentum_and_gain_no_energy(void **state) {
+static void coasting_people_keep_momentum_and_gain_no_energy(void **state) {
     (void)state;
     assert_true(try_kind(COASTING, true));
 }
-static void the_blind_gain_no_energy(void **state) {
+static void blind_people_gain_no_energy(void **state) {
     (void)state;
     assert_true(try_kind(BLIND, true));
 }
-static void the_blind_between_walls_gain_no_energy(void **state) {
+static void blind_people_between_walls_gain_no_energy(void **state) {
     (void)state;
     assert_true(try_kind(BLIND_IN_ROOM, true));
 }
-static void the_seeing_gain_no_energy(void **state) {
+static void seeing_people_gain_no_energy(void **state) {
     (void)state;
     assert_true(try_kind(SEEING, true));
 }
-/* What Bullet does on its own is within the bound: what grows comes from people. */
+/* Bodies without people stay within the bounds, too: growth in the other tests comes from
+   people. */
 static void bodies_alone_gain_no_energy(void **state) {
     (void)state;
     bool good = true;
@@ -342,10 +346,10 @@ static void bodies_alone_gain_no_energy(void **state) {
 
 /* ---- by hand ---- */
 
-/* A box of 20 kg at 1 m/s has 10 J; who is hit by it cannot be faster than 2 x 20 / 90 of that. It
-   is not seen, or seen too late: it begins within the person. Who sees it come again after that and
-   keeps ahead of it does work of muscles: there only what is added in touch counts. */
-static void a_box_that_nobody_saw_coming(void **state) {
+/* A box of 20 kg at 1 m/s has 10 J; a person of 70 kg that it hits gets at most 2 x 20 / 90 m/s.
+   The person does not see the box, or sees it too late: it starts overlapping them. A person who
+   then walks ahead of it does muscle work, so growth counts only while they touch. */
+static void unseen_box_adds_no_energy(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -360,7 +364,7 @@ static void a_box_that_nobody_saw_coming(void **state) {
         box.size[2] = 1.0;
         box.mass = 20.0;
         box.friction = 0.0;
-        box.x = k < 4 ? -0.8 : -0.35; /* or 10 cm into the person from the start */
+        box.x = k < 4 ? -0.8 : -0.35; /* or overlapping the person by 10 cm */
         box.vx = 1.0;
         jo_world_add_body(e.world, &box, NULL);
         JoAgentDef person = jo_default_agent_def();
@@ -384,7 +388,7 @@ static void a_box_that_nobody_saw_coming(void **state) {
     }
 }
 
-/* Two who see nothing run into each other: they do not pass, and are soon side by side. */
+/* Two people who perceive nothing run into each other: they do not pass through, and soon part. */
 static void contact_needs_no_perception(void **state) {
     (void)state;
     for (int k = 0; k < 4; k++) {
@@ -412,9 +416,9 @@ static void contact_needs_no_perception(void **state) {
     }
 }
 
-/* People who see each other and bodies, all at rest, some in each other: nobody has anything to
-   step aside for, and contact and overlap move nobody. */
-static void those_at_rest_stay_so(void **state) {
+/* People who see each other and a body, all at rest, some overlapping: there is nothing to avoid,
+   and contact and overlap move nobody. */
+static void people_at_rest_stay_at_rest(void **state) {
     (void)state;
     for (uint64_t number = 0; number < 200; number++) {
         Encounter e = {0};
@@ -449,8 +453,8 @@ static void those_at_rest_stay_so(void **state) {
     }
 }
 
-/* 36 who want nothing, thrown about in a closed room: they only come to rest. */
-static void a_crowd_without_wishes_only_slows(void **state) {
+/* 36 people who prefer to stand start at 1.5 m/s in a closed room: they only slow down. */
+static void crowd_that_prefers_rest_only_slows(void **state) {
     (void)state;
     for (int k = 0; k < 8; k++) {
         Encounter e = {0};
@@ -485,14 +489,14 @@ int main(int argc, char **argv) {
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contact_needs_no_perception),
-        cmocka_unit_test(a_box_that_nobody_saw_coming),
-        cmocka_unit_test(a_crowd_without_wishes_only_slows),
-        cmocka_unit_test(those_at_rest_stay_so),
+        cmocka_unit_test(unseen_box_adds_no_energy),
+        cmocka_unit_test(crowd_that_prefers_rest_only_slows),
+        cmocka_unit_test(people_at_rest_stay_at_rest),
         cmocka_unit_test(bodies_alone_gain_no_energy),
-        cmocka_unit_test(the_coasting_keep_momentum_and_gain_no_energy),
-        cmocka_unit_test(the_blind_gain_no_energy),
-        cmocka_unit_test(the_blind_between_walls_gain_no_energy),
-        cmocka_unit_test(the_seeing_gain_no_energy),
+        cmocka_unit_test(coasting_people_keep_momentum_and_gain_no_energy),
+        cmocka_unit_test(blind_people_gain_no_energy),
+        cmocka_unit_test(blind_people_between_walls_gain_no_energy),
+        cmocka_unit_test(seeing_people_gain_no_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Nobody touches anybody through a wall: two people on either side of a thin one. */
+/* People do not touch through a wall: two people, one on either side of a thin wall. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,8 +13,8 @@ static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125, 0.00625};
 enum { STEP_COUNT = 5 };
 static const double GIRTH = 6.28318530717958648 * 0.2; /* m */
 
-/* A thin wall along x = 0, from low to high, or none where these are the same; a person to the left
-   of it and one to the right. */
+/* A thin wall along x = 0 from y = low to high (none if they are equal), and a person on either
+ * side. */
 typedef struct Sides {
     JoWorld *world;
     JoAgent left, right;
@@ -37,7 +37,7 @@ static Sides open_sides(double dt, double low, double high, double gap, double p
     return s;
 }
 
-static void press(Sides *s, double seconds, double left, double right) {
+static void press_sides(Sides *s, double seconds, double left, double right) {
     double dt = s->world->model.def.dt;
     for (int step = 0; step < (int)(seconds / dt + 0.5); step++) {
         jo_agent_apply_force(s->world, s->left, left, 0.0);
@@ -47,7 +47,7 @@ static void press(Sides *s, double seconds, double left, double right) {
     assert_null(jo_world_failure(s->world));
 }
 
-static void bears(const Sides *s, JoAgent who, double newtons, const char *what) {
+static void check_load(const Sides *s, JoAgent who, double newtons, const char *what) {
     JoAgentState a = jo_agent_state(s->world, who);
     double off = fmax(fabs(a.load - newtons), fabs(a.compression * GIRTH - newtons));
     if (!(off <= 0.03 * newtons + 1.0))
@@ -57,24 +57,24 @@ static void bears(const Sides *s, JoAgent who, double newtons, const char *what)
                  newtons, newtons / GIRTH);
 }
 
-/* 1 cm from the wall at first; pressed together by 600 N each, each bears the wall's 600 N, 477
-   N/m, and nothing of the other. */
-static void pressed_together(void **state) {
+/* Two people 1 cm from the wall are pressed together by 600 N each: each bears the wall's 600 N,
+   477 N/m, and no force of the other. */
+static void each_bears_the_wall_alone(void **state) {
     (void)state;
     for (int k = 0; k < 2 * STEP_COUNT; k++) {
         Sides s = open_sides(STEPS[k % STEP_COUNT], -2.0, 2.0, 0.01, k < STEP_COUNT ? 3.0 : 0.0);
-        press(&s, 3.0, 600.0, 600.0);
-        bears(&s, s.left, 600.0, "pressed together");
-        bears(&s, s.right, 600.0, "pressed together");
+        press_sides(&s, 3.0, 600.0, 600.0);
+        check_load(&s, s.left, 600.0, "pressed together");
+        check_load(&s, s.right, 600.0, "pressed together");
         assert_true(jo_agent_state(s.world, s.left).x < -0.19);
         assert_true(jo_agent_state(s.world, s.right).x > 0.19);
         jo_world_free(s.world);
     }
 }
 
-/* One who stands beside the wall bears nothing of what presses on the other side of it, and stays.
- */
-static void one_pressed_and_one_standing(void **state) {
+/* A person who stands beside the wall bears no force from a person pressed to its other side, and
+   stays where they are. */
+static void standing_person_feels_nothing_through_wall(void **state) {
     (void)state;
     for (int k = 0; k < 2 * STEP_COUNT; k++)
         for (int near = 0; near < 3; near++) {
@@ -82,7 +82,7 @@ static void one_pressed_and_one_standing(void **state) {
             Sides s = open_sides(STEPS[k % STEP_COUNT], -2.0, 2.0, gap, k < STEP_COUNT ? 3.0 : 0.0);
             const JoxAgents *a = &s.world->state.agents;
             for (int part = 0; part < 30; part++) {
-                press(&s, 0.1, 1000.0, 0.0);
+                press_sides(&s, 0.1, 1000.0, 0.0);
                 uint32_t right = jox_world_find(s.world, s.right);
                 if (a->inferred_x[right] != 0.0f || a->contact_x[right] != 0.0f)
                     fail_msg("at dt %g the one behind the wall gets %g N passed on and %g N by "
@@ -90,15 +90,15 @@ static void one_pressed_and_one_standing(void **state) {
                              s.world->model.def.dt, (double)a->inferred_x[right],
                              (double)a->contact_x[right]);
             }
-            bears(&s, s.left, 1000.0, "one pressed");
-            bears(&s, s.right, 0.0, "one standing");
+            check_load(&s, s.left, 1000.0, "one pressed");
+            check_load(&s, s.right, 0.0, "one standing");
             assert_true(fabs(jo_agent_state(s.world, s.right).x - 0.2 - gap) < 0.005);
             jo_world_free(s.world);
         }
 }
 
-/* Who pushes towards a wall pushes nobody behind it; who runs into it throws nobody there. */
-static void pushes_and_runs_end_at_the_wall(void **state) {
+/* A person who pushes towards a wall, or runs into it, exerts no force on a person behind it. */
+static void pushes_and_runs_end_at_wall(void **state) {
     (void)state;
     for (int k = 0; k < STEP_COUNT; k++)
         for (int run = 0; run < 2; run++) {
@@ -119,21 +119,22 @@ static void pushes_and_runs_end_at_the_wall(void **state) {
                              "passed on",
                              STEPS[k], (double)a->push_x[right], (double)a->inferred_x[right]);
             }
-            bears(&s, s.right, 0.0, "behind the wall");
+            check_load(&s, s.right, 0.0, "behind the wall");
             assert_true(fabs(jo_agent_state(s.world, s.right).x - 0.22) < 0.005);
             jo_world_free(s.world);
         }
 }
 
-/* Without the wall, or beyond its end, the same people touch: the tests above can fail. */
-static void beyond_its_end_they_touch(void **state) {
+/* Without the wall, or beyond its end, the same people touch: this proves that the tests above can
+   fail. */
+static void people_touch_beyond_end_of_wall(void **state) {
     (void)state;
     for (int k = 0; k < STEP_COUNT; k++)
         for (int end = 0; end < 2; end++) {
             Sides s = open_sides(STEPS[k], end ? -3.0 : 0.0, end ? -1.0 : 0.0, 0.01, 3.0);
-            press(&s, 3.0, 600.0, 600.0);
-            bears(&s, s.left, 600.0, "without a wall between");
-            bears(&s, s.right, 600.0, "without a wall between");
+            press_sides(&s, 3.0, 600.0, 600.0);
+            check_load(&s, s.left, 600.0, "without a wall between");
+            check_load(&s, s.right, 600.0, "without a wall between");
             jo_world_free(s.world);
             s = open_sides(STEPS[k], end ? -3.0 : 0.0, end ? -1.0 : 0.0, 0.02, 3.0);
             jo_agent_set_parameter(s.world, s.left, "push", 300.0, NULL);
@@ -144,9 +145,9 @@ static void beyond_its_end_they_touch(void **state) {
         }
 }
 
-/* A box that runs to a wall, or lies at it, and who is pressed to the wall on the other side have
-   nothing to do with each other; without the wall the person is hit, and pushes the box away. */
-static void a_box_behind_the_wall(void **state) {
+/* A box that moves towards a wall, or lies against it, and a person pressed to the other side exert
+   no force on each other; without the wall the box hits the person, who pushes it away. */
+static void box_and_person_do_not_touch_through_wall(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -175,7 +176,7 @@ static void a_box_behind_the_wall(void **state) {
         if (wall && !runs && fabs(moved) > 0.005)
             fail_msg("at dt %g a box is pushed %g m through a wall", STEPS[k % STEP_COUNT], moved);
         if (wall && !runs)
-            bears(&s, s.left, 600.0, "beside the box");
+            check_load(&s, s.left, 600.0, "beside the box");
         assert_true(wall || (runs ? fastest > 0.1 : moved > 0.1));
         jo_world_free(s.world);
     }
@@ -183,11 +184,11 @@ static void a_box_behind_the_wall(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pressed_together),
-        cmocka_unit_test(one_pressed_and_one_standing),
-        cmocka_unit_test(pushes_and_runs_end_at_the_wall),
-        cmocka_unit_test(beyond_its_end_they_touch),
-        cmocka_unit_test(a_box_behind_the_wall),
+        cmocka_unit_test(each_bears_the_wall_alone),
+        cmocka_unit_test(standing_person_feels_nothing_through_wall),
+        cmocka_unit_test(pushes_and_runs_end_at_wall),
+        cmocka_unit_test(people_touch_beyond_end_of_wall),
+        cmocka_unit_test(box_and_person_do_not_touch_through_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
-/* People at rest under external forces, frictionless: which contacts there are follows from the
-   geometry, what each bears from equilibrium, and the engine must read the same at every step. */
-#ifndef TESTS_UNIT_LOAD_STATICS_H
-#define TESTS_UNIT_LOAD_STATICS_H
+/* Checks loads of people at rest under external forces, without friction: contacts follow from the
+   geometry, their forces from equilibrium, and the engine must find the same at every time step. */
+#ifndef TESTS_UNIT_LOAD_AT_REST_H
+#define TESTS_UNIT_LOAD_AT_REST_H
 
 #include <math.h>
 #include <setjmp.h>
@@ -24,15 +24,15 @@ enum {
     DIRECTIONS = 3600
 };
 static const double PI = 3.14159265358979323846, RADIUS = 0.2, MASS = 70.0;
-static const double SECONDS = 5.0, LAST = 1.0; /* s: how long, and what part is averaged */
-static const double SETTLED = 4.0;             /* s: that part where bodies tremble */
-static const double WITHIN = 0.03;             /* of the hand figure */
-static const double LENGTH_WITHIN = 0.01;      /* of a row's length, over the steps */
+static const double SECONDS = 5.0, LAST = 1.0; /* s: length of a run; its last part is averaged */
+static const double SETTLED = 4.0;             /* s: the averaged part if bodies tremble */
+static const double WITHIN = 0.03;             /* relative error allowed against equilibrium */
+static const double LENGTH_WITHIN = 0.01; /* relative change of a row's length over time steps */
 static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125, 0.00625};
 enum { STEP_COUNT = 5 };
 
 typedef struct Disc {
-    double x, y;             /* m, where it ends up */
+    double x, y;             /* m, position at equilibrium */
     double force_x, force_y; /* N, external */
     double radius, mass;     /* 0: 0.2 m, 70 kg */
 } Disc;
@@ -50,33 +50,33 @@ typedef struct Setup {
     uint32_t wall_count;
     JoBodyDef bodies[MOST_BODIES];
     uint32_t body_count;
-    double loose_x, loose_y; /* where people start: positions times 1 + these */
-    bool central;            /* forces keep pointing to the first disc */
-    bool trembles;           /* rigid bodies that stand on friction at each other: what they bear
-                                changes from step to step, so only its mean is held, over longer */
+    double loose_x, loose_y; /* people start at their positions times 1 + these */
+    bool central;            /* forces point to the first disc */
+    bool trembles; /* rigid bodies rest on friction against each other: contact forces vary
+                      from step to step, so only a longer mean is checked */
 } Setup;
 
-/* What an engineer reads of a person. */
+/* Forces on a person. */
 typedef struct Figures {
     double load, compression; /* N, N/m */
 } Figures;
 
 typedef struct Readings {
-    Figures mean[MOST_DISCS], last[MOST_DISCS]; /* over the last seconds; of the last step */
+    Figures mean[MOST_DISCS], last[MOST_DISCS]; /* over the averaged part; of the last step */
     double length;                              /* m, from the first disc to the last */
-    double moved; /* m, the farthest that anybody is from where they belong */
+    double moved; /* m, greatest distance of a disc from its position at equilibrium */
 } Readings;
 
-/* ---- hand figures ---- */
+/* ---- equilibrium ---- */
 
 typedef struct Contact {
     uint32_t disc;
     int64_t other; /* a disc, or -1 */
-    double x, y;   /* unit vector that the force on `disc` has */
+    double x, y;   /* unit vector of the force on `disc` */
     double newtons;
 } Contact;
 
-static inline double radius_of(const Disc *d) {
+static inline double get_radius(const Disc *d) {
     return d->radius > 0.0 ? d->radius : RADIUS;
 }
 
@@ -89,17 +89,17 @@ static inline void add_contact(Contact *out, uint32_t *count, uint32_t disc, int
     out[(*count)++] = (Contact){disc, other, dx / distance, dy / distance, 0.0};
 }
 
-/* From a side's nearest point to a disc, if that is where it touches. */
-static inline void touch_side(Contact *out, uint32_t *count, const Setup *s, uint32_t i, double ax,
-                              double ay, double bx, double by) {
+/* Adds the contact of a disc with a side, at the side's nearest point, if they touch there. */
+static inline void add_side_contact(Contact *out, uint32_t *count, const Setup *s, uint32_t i,
+                                    double ax, double ay, double bx, double by) {
     const Disc *d = &s->discs[i];
     double ux = bx - ax, uy = by - ay;
     double t = ((d->x - ax) * ux + (d->y - ay) * uy) / (ux * ux + uy * uy);
     t = fmin(1.0, fmax(0.0, t));
-    add_contact(out, count, i, -1, d->x - ax - t * ux, d->y - ay - t * uy, radius_of(d));
+    add_contact(out, count, i, -1, d->x - ax - t * ux, d->y - ay - t * uy, get_radius(d));
 }
 
-static inline void body_corner(const JoBodyDef *b, uint32_t k, double out[2]) {
+static inline void compute_corner(const JoBodyDef *b, uint32_t k, double out[2]) {
     double x = (k == 0 || k == 3 ? -0.5 : 0.5) * b->size[0], y = (k < 2 ? -0.5 : 0.5) * b->size[1];
     out[0] = b->x + x * cos(b->turn) - y * sin(b->turn);
     out[1] = b->y + x * sin(b->turn) + y * cos(b->turn);
@@ -111,27 +111,27 @@ static inline uint32_t find_contacts(const Setup *s, Contact out[MOST_CONTACTS])
         const Disc *d = &s->discs[i];
         for (uint32_t k = i + 1; k < s->disc_count; k++)
             add_contact(out, &count, i, k, d->x - s->discs[k].x, d->y - s->discs[k].y,
-                        radius_of(d) + radius_of(&s->discs[k]));
+                        get_radius(d) + get_radius(&s->discs[k]));
         for (uint32_t w = 0; w < s->wall_count; w++) {
             const Wall *wall = &s->walls[w];
             for (uint32_t c = 0; c + !wall->solid < wall->corners; c++) {
                 const double *a = wall->xy + (size_t)2 * c;
                 const double *b = wall->xy + (size_t)2 * ((c + 1) % wall->corners);
-                touch_side(out, &count, s, i, a[0], a[1], b[0], b[1]);
+                add_side_contact(out, &count, s, i, a[0], a[1], b[0], b[1]);
             }
         }
         for (uint32_t b = 0; b < s->body_count; b++)
             for (uint32_t c = 0; c < 4; c++) {
                 double from[2], to[2];
-                body_corner(&s->bodies[b], c, from);
-                body_corner(&s->bodies[b], (c + 1) % 4, to);
-                touch_side(out, &count, s, i, from[0], from[1], to[0], to[1]);
+                compute_corner(&s->bodies[b], c, from);
+                compute_corner(&s->bodies[b], (c + 1) % 4, to);
+                add_side_contact(out, &count, s, i, from[0], from[1], to[0], to[1]);
             }
     }
     return count;
 }
 
-/* Solves the square system a x = b in place, with pivots; false where it is singular. */
+/* Solves the square system a x = b in place, with pivoting; false if it is singular. */
 static inline bool solve_linear(double a[MOST_CONTACTS][MOST_CONTACTS + 1], uint32_t n) {
     for (uint32_t c = 0; c < n; c++) {
         uint32_t best = c;
@@ -156,8 +156,8 @@ static inline bool solve_linear(double a[MOST_CONTACTS][MOST_CONTACTS + 1], uint
     return true;
 }
 
-/* The greatest sum of positive parts along one direction. */
-static inline double greatest_load(const double *x, const double *y, uint32_t n) {
+/* Returns the load of n forces: the greatest sum of positive components along one direction, N. */
+static inline double compute_load(const double *x, const double *y, uint32_t n) {
     double greatest = 0.0;
     for (int k = 0; k < DIRECTIONS; k++) {
         double c = cos(2.0 * PI * k / DIRECTIONS), s = sin(2.0 * PI * k / DIRECTIONS), sum = 0.0;
@@ -168,9 +168,9 @@ static inline double greatest_load(const double *x, const double *y, uint32_t n)
     return greatest;
 }
 
-/* The forces of all contacts, by least squares over the equations of equilibrium, two for each
-   disc; *rest: by how much one of these is missed, N. False where they do not determine the forces.
- */
+/* Solves the forces of all contacts, by least squares over the equations of equilibrium, two for
+   each disc. *rest: greatest residual of an equation, N. False if they do not determine the
+   forces. */
 static inline bool solve_contacts(const Setup *s, Contact *contacts, uint32_t *count,
                                   double *rest) {
     static double rows[2 * MOST_DISCS][MOST_CONTACTS], normal[MOST_CONTACTS][MOST_CONTACTS + 1];
@@ -212,8 +212,8 @@ static inline bool solve_contacts(const Setup *s, Contact *contacts, uint32_t *c
     return true;
 }
 
-/* The same where the discs are at rest: every contact presses. */
-static inline uint32_t balance(const Setup *s, Contact contacts[MOST_CONTACTS]) {
+/* Solves the contacts of a setup in which the discs are at rest and every contact presses. */
+static inline uint32_t solve_balance(const Setup *s, Contact contacts[MOST_CONTACTS]) {
     uint32_t n;
     double rest;
     assert_true(solve_contacts(s, contacts, &n, &rest));
@@ -223,9 +223,9 @@ static inline uint32_t balance(const Setup *s, Contact contacts[MOST_CONTACTS]) 
     return n;
 }
 
-static inline void hand_figures(const Setup *s, Figures out[MOST_DISCS]) {
+static inline void solve_figures(const Setup *s, Figures out[MOST_DISCS]) {
     Contact contacts[MOST_CONTACTS];
-    uint32_t n = balance(s, contacts);
+    uint32_t n = solve_balance(s, contacts);
     for (uint32_t i = 0; i < s->disc_count; i++) {
         double x[MOST_CONTACTS], y[MOST_CONTACTS], sum = 0.0;
         uint32_t own = 0;
@@ -237,14 +237,15 @@ static inline void hand_figures(const Setup *s, Figures out[MOST_DISCS]) {
             y[own++] = k->y * (k->disc == i ? k->newtons : -k->newtons);
             sum += k->newtons;
         }
-        double girth = 2.0 * PI * radius_of(&s->discs[i]);
-        out[i] = (Figures){greatest_load(x, y, own), sum / girth};
+        double girth = 2.0 * PI * get_radius(&s->discs[i]);
+        out[i] = (Figures){compute_load(x, y, own), sum / girth};
     }
 }
 
 /* ---- the engine ---- */
 
-/* What people perceive: contacts must not depend on it. Negative: the default. */
+/* Perception range and number of neighbours, on which contacts must not depend; negative:
+   default. */
 typedef struct Sight {
     double perception, neighbours;
     const char *name;
@@ -269,7 +270,7 @@ static inline JoWorld *open_setup(const Setup *s, double dt, Sight sight, JoAgen
         JoAgentDef agent = jo_default_agent_def();
         agent.x = d->x * (1.0 + s->loose_x);
         agent.y = d->y * (1.0 + s->loose_y);
-        agent.radius = radius_of(d);
+        agent.radius = get_radius(d);
         agent.mass = d->mass > 0.0 ? d->mass : MASS;
         if (sight.perception >= 0.0)
             agent.perception = sight.perception;
@@ -330,25 +331,25 @@ static inline Readings run_setup(const Setup *s, double dt, Sight sight) {
 
 /* ---- comparison ---- */
 
-static inline double deviation(Figures a, Figures wanted) {
+static inline double compute_deviation(Figures a, Figures wanted) {
     return fmax(fabs(a.load / wanted.load - 1.0), fabs(a.compression / wanted.compression - 1.0));
 }
 
-static inline void say_figures(const char *what, const Figures *f, uint32_t n) {
+static inline void print_figures(const char *what, const Figures *f, uint32_t n) {
     print_error("    %-18s", what);
     for (uint32_t i = 0; i < n; i++)
         print_error(" %.0f/%.0f", f[i].load, f[i].compression);
     print_error("\n");
 }
 
-/* Counts what is off at one step, and says it. */
+/* Runs a setup at one time step; prints forces that are off, and returns 1 if there are any. */
 static inline int compare_run(const Setup *s, const Figures *hand, double dt, Sight sight,
                               double *length) {
     Readings r = run_setup(s, dt, sight);
     double mean = 0.0, last = 0.0;
     for (uint32_t i = 0; i < s->disc_count; i++) {
-        mean = fmax(mean, deviation(r.mean[i], hand[i]));
-        last = fmax(last, deviation(r.last[i], hand[i]));
+        mean = fmax(mean, compute_deviation(r.mean[i], hand[i]));
+        last = fmax(last, compute_deviation(r.last[i], hand[i]));
     }
     *length = r.length;
     if (mean <= WITHIN && (s->trembles || last <= WITHIN))
@@ -356,13 +357,13 @@ static inline int compare_run(const Setup *s, const Figures *hand, double dt, Si
     print_error("  dt %g, %s: off by %.1f %% over the last seconds, %.1f %% in the last step; "
                 "moved %.1f mm\n",
                 dt, sight.name, 100.0 * mean, 100.0 * last, 1000.0 * r.moved);
-    say_figures("wanted N and N/m", hand, s->disc_count);
-    say_figures("read", r.mean, s->disc_count);
+    print_figures("wanted N and N/m", hand, s->disc_count);
+    print_figures("read", r.mean, s->disc_count);
     return 1;
 }
 
-/* Every step, what people perceive or not; then the length from the first to the last. Says what is
-   off and returns how many runs are. */
+/* Runs a setup at every time step and with several perceptions, and compares its length over the
+   time steps. Prints what is off, and returns how many runs are. */
 static inline int count_off(const Setup *s, const Figures *hand) {
     static const Sight sights[] = {{-1, -1, "perception 3"},
                                    {-1, 2, "2 neighbours"},
@@ -373,7 +374,7 @@ static inline int count_off(const Setup *s, const Figures *hand) {
     for (int k = 0; k < STEP_COUNT; k++)
         for (int sight = 0; sight < 4; sight++) {
             if (sight > 0 && k % 2 == 0)
-                continue; /* all of them at two of the steps */
+                continue; /* other perceptions at two of the time steps alone */
             double length;
             off += compare_run(s, hand, STEPS[k], sights[sight], &length);
             if (sight == 0) {
@@ -387,22 +388,22 @@ static inline int count_off(const Setup *s, const Figures *hand) {
     return off + 1;
 }
 
-static inline void hold(const Setup *s, const Figures *hand) {
+static inline void check_figures(const Setup *s, const Figures *hand) {
     int off = count_off(s, hand);
     if (off)
         fail_msg("%d figures or lengths are off", off);
 }
 
-/* Against the figures of equilibrium, which are those given where there are any (loads, then
-   N/m). */
-static inline void hold_setup(const Setup *s, const Figures *given) {
+/* Checks a setup against equilibrium, which must give the figures computed by hand (`given`), if
+ * any. */
+static inline void check_setup(const Setup *s, const Figures *given) {
     Figures hand[MOST_DISCS];
-    hand_figures(s, hand);
+    solve_figures(s, hand);
     for (uint32_t i = 0; given && i < s->disc_count; i++)
-        if (!(deviation(hand[i], given[i]) < 1e-3))
+        if (!(compute_deviation(hand[i], given[i]) < 1e-3))
             fail_msg("equilibrium gives disc %u %.1f N and %.1f N/m, not %.1f and %.1f", i,
                      hand[i].load, hand[i].compression, given[i].load, given[i].compression);
-    hold(s, hand);
+    check_figures(s, hand);
 }
 
 #endif
