@@ -1,5 +1,5 @@
-/* Errors of scenes: the kind, the exact place, the way out; all of them at once. And what composes
-   scenes: overrides, included files, anchors and merge keys. */
+/* Errors of scenes: code, exact position and hint of each kind of error; all are reported
+   at once. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,12 +14,12 @@
 
 #include "scene_texts.h"
 
-/* An `@` marks where the error must be reported; it is no part of the scene. */
+/* Texts with one error. An `@`, which is removed, marks its position. */
 static const struct Case {
     const char *text, *code, *hint;
 } CASES[] = {
     {"@seeed: 3\n" GROUP, "unknown-key", "Did you mean 'seed'?"},
-    /* Texts that C would cut, and bytes that are no characters. */
+    /* Texts with zero bytes, and bytes that are no characters. */
     {"title: @\"a\\0b\"\n" GROUP, "bad-text", "Take \\0 or"},
     {"title: @\"a\\x00b\"\n" GROUP, "bad-text", "Take \\0 or"},
     {"title: x\n@\"se\\0ed\": 3\n" GROUP, "bad-text", "Take \\0 or"},
@@ -328,12 +328,12 @@ static const struct Case {
      "0, "
      "9]}]\n" GROUP,
      "too-many-bodies", "fewer copies"},
-    /* of a wall that could not be read, its name is not missed too */
+    /* the name of a wall that could not be read is not reported as missing, too */
     {"walls: [{line: @[[0, 0]], name: gate}]\nevents: [{at: 1, open: gate}]\n" GROUP, "bad-type",
      NULL},
 };
 
-static void every_error_has_its_place_and_its_way_out(void **state) {
+static void every_error_has_position_and_hint(void **state) {
     (void)state;
     int wrong = 0;
     for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
@@ -347,12 +347,12 @@ static void every_error_has_its_place_and_its_way_out(void **state) {
         }
         memmove(at, at + 1, strlen(at));
         JoxDiagnostics d = {0};
-        JoxSceneSpec *scene = load(text, NULL, 0, &d);
+        JoxSceneSpec *scene = read_scene_text(text, NULL, 0, &d);
         if (scene || d.errors != 1 ||
-            !matches(&d.items[0], CASES[c].code, line, column, CASES[c].hint) ||
+            !is_diagnostic(&d.items[0], CASES[c].code, line, column, CASES[c].hint) ||
             strcmp(d.items[0].file, "scenes/test.yaml") != 0) {
             print_message("wanted one %s at %d:%d\n", CASES[c].code, line, column);
-            show(&d, text);
+            print_diagnostics(&d, text);
             wrong++;
         }
         jox_scene_free(scene);
@@ -361,8 +361,8 @@ static void every_error_has_its_place_and_its_way_out(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-/* Errors of the whole scene stand at its first key. */
-static void scenes_that_lack_everything(void **state) {
+/* Errors of a whole scene are reported at its first key. */
+static void empty_scenes_are_errors(void **state) {
     (void)state;
     static const struct {
         const char *text, *code;
@@ -374,12 +374,13 @@ static void scenes_that_lack_everything(void **state) {
                  {"# none\n\njostle: 1\ntitle: Empty\n", "empty-scene", 3, 1}};
     for (size_t w = 0; w < sizeof WHOLE / sizeof *WHOLE; w++) {
         JoxDiagnostics d = {0};
-        assert_null(load(WHOLE[w].text, NULL, 0, &d));
+        assert_null(read_scene_text(WHOLE[w].text, NULL, 0, &d));
         if (d.errors != 1 ||
-            !matches(&d.items[0], WHOLE[w].code, WHOLE[w].line, WHOLE[w].column, NULL))
-            show(&d, WHOLE[w].code);
+            !is_diagnostic(&d.items[0], WHOLE[w].code, WHOLE[w].line, WHOLE[w].column, NULL))
+            print_diagnostics(&d, WHOLE[w].code);
         assert_int_equal(d.errors, 1);
-        assert_true(matches(&d.items[0], WHOLE[w].code, WHOLE[w].line, WHOLE[w].column, NULL));
+        assert_true(
+            is_diagnostic(&d.items[0], WHOLE[w].code, WHOLE[w].line, WHOLE[w].column, NULL));
         jox_diag_free(&d);
     }
 }
@@ -401,16 +402,17 @@ static void errors_are_reported_together(void **state) {
                   {"out-of-range", 6, 35}, {"unknown-place", 7, 41}, {"bad-type", 7, 50},
                   {"unknown-place", 8, 14}};
     JoxDiagnostics d = {0};
-    assert_null(load(text, NULL, 0, &d));
+    assert_null(read_scene_text(text, NULL, 0, &d));
     if (d.errors != 7)
-        show(&d, text);
+        print_diagnostics(&d, text);
     assert_int_equal(d.errors, 7);
     for (int w = 0; w < 7; w++) {
         int found = 0;
         for (size_t i = 0; i < d.count; i++)
-            found += matches(&d.items[i], WANTED[w].code, WANTED[w].line, WANTED[w].column, NULL);
+            found +=
+                is_diagnostic(&d.items[i], WANTED[w].code, WANTED[w].line, WANTED[w].column, NULL);
         if (found != 1)
-            show(&d, WANTED[w].code);
+            print_diagnostics(&d, WANTED[w].code);
         assert_int_equal(found, 1);
     }
     JoxText out = {0};
@@ -423,8 +425,8 @@ static void errors_are_reported_together(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_error_has_its_place_and_its_way_out),
-        cmocka_unit_test(scenes_that_lack_everything),
+        cmocka_unit_test(every_error_has_position_and_hint),
+        cmocka_unit_test(empty_scenes_are_errors),
         cmocka_unit_test(errors_are_reported_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* Whatever bytes a scene's file holds, loading ends soon, with a scene or with errors. */
+/* Reading a scene ends soon, with a scene or with errors, whatever bytes its file holds. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,25 +13,26 @@
 #include "base/mem.h"
 #include "scene/scene.h"
 
-/* The largest file that is read; and what shows, in a tenth of the time, which pieces take more
-   than their share of it: work that grows with the square of PIECES would take minutes. */
+/* LARGE: bytes of the largest file that is read. PIECES_LARGE: enough to show work that grows with
+   the square of the size, which would take minutes, in a tenth of LARGE's time. */
 enum { LARGE = 10 << 20, PIECES_LARGE = 1 << 20, MUTATIONS = 300 };
-static const double SLOWEST = 20; /* s of processor time; sanitised builds are slow */
+static const double SLOWEST = 20; /* s of processor time, for builds with sanitizers */
 
-static double now(void) {
+static double read_cpu_clock(void) {
     struct timespec t;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Whether the text was a scene. */
-static bool load(const char *text, size_t length, const char *code) {
+/* Reads a text, which must end in time and, unless `code` is NULL, report that error. Returns
+   whether the text is a scene. */
+static bool try_scene(const char *text, size_t length, const char *code) {
     const char *sets[] = {"groups.pilgrims.count=50", "groups.pilgrims.spacing=1"};
     JoxSceneOptions options = {.sets = sets, .set_count = strstr(text, "pilgrims:") ? 2 : 0};
     JoxDiagnostics d = {0};
-    double began = now();
+    double began = read_cpu_clock();
     JoxSceneSpec *scene = jox_scene_read_text("scenes/hostile.yaml", text, length, &options, &d);
-    assert_true(now() - began < SLOWEST);
+    assert_true(read_cpu_clock() - began < SLOWEST);
     assert_int_equal(scene != NULL, d.errors == 0);
     bool found = false;
     for (size_t i = 0; i < d.count; i++) {
@@ -56,7 +57,7 @@ static uint32_t roll(uint32_t sides) {
     return (uint32_t)(dice >> 33) % sides;
 }
 
-static void ten_megabytes_of_garbage(void **state) {
+static void garbage_of_ten_megabytes_is_refused(void **state) {
     (void)state;
     char *text = malloc(LARGE + 2);
     assert_non_null(text);
@@ -64,11 +65,11 @@ static void ten_megabytes_of_garbage(void **state) {
     for (int i = 0; i < LARGE; i++)
         text[i] = (char)roll(256);
     text[LARGE] = text[LARGE + 1] = 0;
-    load(text, LARGE, "bad-text");
+    try_scene(text, LARGE, "bad-text");
     for (int i = 0; i < LARGE; i++)
         text[i] = (char)(32 + roll(95));
-    load(text, LARGE, "bad-yaml");
-    load(text, LARGE + 1, "unreadable-file");
+    try_scene(text, LARGE, "bad-yaml");
+    try_scene(text, LARGE + 1, "unreadable-file");
     static const char *const PIECES[] = {
         "[",     "{", "- ",  "? ", "a: ", "a\n",     "\n",       "!a ",      "a: 1\n",
         "- a\n", "'", "[],", "#",  "%",   "a: {}\n", "x: [a]\n", "&a [*a, ", "<<: {}\n"};
@@ -77,18 +78,18 @@ static void ten_megabytes_of_garbage(void **state) {
         for (size_t i = 0; i < PIECES_LARGE; i++)
             text[i] = PIECES[p][i % n];
         text[PIECES_LARGE] = 0;
-        assert_false(load(text, PIECES_LARGE, NULL));
+        assert_false(try_scene(text, PIECES_LARGE, NULL));
     }
     free(text);
 }
 
-static void many_keys_and_many_names(void **state) {
+static void many_keys_and_names_are_refused(void **state) {
     (void)state;
     JoxText text = {0};
     jox_text_add(&text, "jostle: 1\n");
     for (int i = 0; i < 200000; i++)
         jox_text_printf(&text, "k%d: 1\n", i);
-    load(text.data, text.length, "too-large");
+    try_scene(text.data, text.length, "too-large");
     jox_text_free(&text);
     jox_text_add(&text, "jostle: 1\nplaces:\n");
     for (int i = 0; i < 1000; i++)
@@ -97,38 +98,38 @@ static void many_keys_and_many_names(void **state) {
     for (int i = 0; i < 100000; i++)
         jox_text_printf(&text, "plaze_%d, ", i);
     jox_text_add(&text, "]}\ngroups: {g: {behaviour: stander, at: [[0, 0]]}}\n");
-    load(text.data, text.length, "unknown-place");
+    try_scene(text.data, text.length, "unknown-place");
     jox_text_free(&text);
 }
 
-static void bombs_of_aliases(void **state) {
+static void nested_aliases_are_refused(void **state) {
     (void)state;
     JoxText text = {0};
     jox_text_add(&text, "jostle: 1\ntitle:\n - &a0 [x, x]\n");
     for (int i = 1; i < 200; i++)
         jox_text_printf(&text, " - &a%d [*a%d, *a%d]\n", i, i - 1, i - 1);
-    load(text.data, text.length, "too-large");
+    try_scene(text.data, text.length, "too-large");
     jox_text_free(&text);
     jox_text_add(&text, "jostle: 1\ntitle:\n - &a0 {k: {k: 1}}\n");
     for (int i = 1; i < 200; i++) /* maps merged into maps */
         jox_text_printf(&text, " - &a%d {<<: *a%d, k%d: *a%d, k: {<<: *a%d}}\n", i, i - 1, i, i - 1,
                         i - 1);
-    load(text.data, text.length, "too-large");
+    try_scene(text.data, text.length, "too-large");
     jox_text_free(&text);
     jox_text_add(&text, "jostle: 1\ntitle:\n - &a0 [x]\n");
     for (int i = 1; i < 250; i++) /* not large, but deep */
         jox_text_printf(&text, " - &a%d [[[[[[[[*a%d]]]]]]]]\n", i, i - 1);
-    load(text.data, text.length, "bad-type");
+    try_scene(text.data, text.length, "bad-type");
     jox_text_free(&text);
     jox_text_add(&text, "jostle: 1\nplaces: {p: {point: [0, 0], radius: 900}}\ngroups:\n"
                         "  g0: &g {behaviour: stander, count: 100000, fill: circle, in: p}\n");
     for (int i = 1; i < 1000; i++)
         jox_text_printf(&text, "  g%d: *g\n", i);
-    load(text.data, text.length, "too-many");
+    try_scene(text.data, text.length, "too-many");
     jox_text_free(&text);
 }
 
-static void ten_thousand_levels(void **state) {
+static void deep_nesting_is_refused(void **state) {
     (void)state;
     static const char *const OPEN[] = {"[", "{a: ", "- ", "? "};
     for (int o = 0; o < 4; o++) {
@@ -139,12 +140,12 @@ static void ten_thousand_levels(void **state) {
         jox_text_add(&text, "x");
         for (int i = 0; i < 10000 && o < 2; i++)
             jox_text_add(&text, o ? "}" : "]");
-        load(text.data, text.length, o < 3 ? "too-large" : NULL);
+        try_scene(text.data, text.length, o < 3 ? "too-large" : NULL);
         jox_text_free(&text);
     }
 }
 
-static void nothing_and_next_to_nothing(void **state) {
+static void near_empty_files_are_refused(void **state) {
     (void)state;
     static const char *const TEXTS[] = {"",
                                         "\n",
@@ -160,11 +161,11 @@ static void nothing_and_next_to_nothing(void **state) {
                                         "a: *a",
                                         "&a a: *a"};
     for (size_t i = 0; i < sizeof TEXTS / sizeof *TEXTS; i++)
-        assert_false(load(TEXTS[i], strlen(TEXTS[i]), NULL));
-    assert_false(load("jostle: 1\0\0\0", 12, NULL));
+        assert_false(try_scene(TEXTS[i], strlen(TEXTS[i]), NULL));
+    assert_false(try_scene("jostle: 1\0\0\0", 12, NULL));
 }
 
-static void mutate(char *text, size_t *length, size_t room) {
+static void mutate_text(char *text, size_t *length, size_t room) {
     static const char SPICE[] = "[]{}:,-&*!|>'\"#%@` \n\t0123456789eE.+~<x\x00\x80\xff";
     uint32_t at = roll((uint32_t)*length), n = 1 + roll(12);
     char spice = SPICE[roll(sizeof SPICE - 1)];
@@ -189,14 +190,14 @@ static void mutate(char *text, size_t *length, size_t room) {
             *length -= n;
         }
         break;
-    default: /* a piece of the text over another */
+    default: /* copy a piece of the text over another */
         for (uint32_t k = 0, from = roll((uint32_t)*length); k < n; k++)
             if (at + k < *length && from + k < *length)
                 text[at + k] = text[from + k];
     }
 }
 
-static void mutations_of_the_shipped_scenes(void **state) {
+static void mutated_scenes_are_read_or_refused(void **state) {
     (void)state;
     static const char *const SCENES[] = {"circle", "dodgeball", "running-through", "tawaf"};
     dice = 20;
@@ -208,7 +209,7 @@ static void mutations_of_the_shipped_scenes(void **state) {
         assert_non_null(original);
         size_t room = whole + 64;
         char *text = calloc(1, room + 1);
-        assert_true(load(original, whole, NULL));
+        assert_true(try_scene(original, whole, NULL));
         double slowest = 0;
         int scenes = 0;
         for (int m = 0; m < MUTATIONS; m++) {
@@ -216,11 +217,11 @@ static void mutations_of_the_shipped_scenes(void **state) {
             memset(text, 0, room + 1);
             memcpy(text, original, whole);
             for (uint32_t k = 1 + roll(4); k > 0; k--)
-                mutate(text, &length, room);
+                mutate_text(text, &length, room);
             text[length] = 0;
-            double began = now();
-            scenes += load(text, length, NULL);
-            slowest = now() - began > slowest ? now() - began : slowest;
+            double began = read_cpu_clock();
+            scenes += try_scene(text, length, NULL);
+            slowest = read_cpu_clock() - began > slowest ? read_cpu_clock() - began : slowest;
         }
         print_message("%s: %d of %d are scenes still, the slowest took %.3f s\n", SCENES[s], scenes,
                       MUTATIONS, slowest);
@@ -231,11 +232,11 @@ static void mutations_of_the_shipped_scenes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ten_megabytes_of_garbage),
-                                       cmocka_unit_test(many_keys_and_many_names),
-                                       cmocka_unit_test(bombs_of_aliases),
-                                       cmocka_unit_test(ten_thousand_levels),
-                                       cmocka_unit_test(nothing_and_next_to_nothing),
-                                       cmocka_unit_test(mutations_of_the_shipped_scenes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(garbage_of_ten_megabytes_is_refused),
+                                       cmocka_unit_test(many_keys_and_names_are_refused),
+                                       cmocka_unit_test(nested_aliases_are_refused),
+                                       cmocka_unit_test(deep_nesting_is_refused),
+                                       cmocka_unit_test(near_empty_files_are_refused),
+                                       cmocka_unit_test(mutated_scenes_are_read_or_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

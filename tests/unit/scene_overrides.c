@@ -1,4 +1,4 @@
-/* Scenes of several sources: values set from outside, anchors, included files. */
+/* Scenes put together from several sources: values set by options, anchors, included files. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@ static const JoxGroupValue *find_set(const JoxGroup *group, const char *name) {
     return NULL;
 }
 
-static void overrides_change_what_they_name_alone(void **state) {
+static void overrides_change_only_their_path(void **state) {
     (void)state;
     const char *text = "jostle: 1\n"
                        "places: {a: {point: [0, 0], radius: 50}}\n"
@@ -34,9 +34,9 @@ static void overrides_change_what_they_name_alone(void **state) {
         "walls.gate.height=3", "groups.h.behaviour=walker.lua", "seed=12",
         "forces.enabled=false"};
     JoxDiagnostics d = {0};
-    JoxSceneSpec *scene = load(text, good, 7, &d);
+    JoxSceneSpec *scene = read_scene_text(text, good, 7, &d);
     if (!scene)
-        show(&d, text);
+        print_diagnostics(&d, text);
     assert_non_null(scene);
     assert_int_equal(scene->groups[0].count, 7);
     assert_int_equal(scene->groups[1].count, 5);
@@ -44,9 +44,9 @@ static void overrides_change_what_they_name_alone(void **state) {
     assert_true(find_set(&scene->groups[1], "mass")->dist.a == 60);
     assert_non_null(strstr(scene->groups[1].mix[0].behaviour, "walker.lua"));
     assert_true(scene->walls.rings[0].height == 2);
-    assert_true(scene->walls.rings[1].height == 3); /* by the name that it gives itself */
+    assert_true(scene->walls.rings[1].height == 3); /* by its name */
     assert_int_equal(scene->seed, 12);
-    assert_false(scene->forces); /* a table that the scene lacks */
+    assert_false(scene->forces); /* in a table that the scene's file lacks */
     jox_scene_free(scene);
     static const struct {
         const char *set, *code, *hint;
@@ -62,11 +62,11 @@ static void overrides_change_what_they_name_alone(void **state) {
                {"step=0", "out-of-range", NULL},
                {"groups.g.behaviour=gone", "missing-file", NULL}};
     for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
-        assert_null(load(text, &BAD[b].set, 1, &d));
-        if (d.errors != 1 || !matches(&d.items[0], BAD[b].code, 1, 1, BAD[b].hint))
-            show(&d, BAD[b].set);
+        assert_null(read_scene_text(text, &BAD[b].set, 1, &d));
+        if (d.errors != 1 || !is_diagnostic(&d.items[0], BAD[b].code, 1, 1, BAD[b].hint))
+            print_diagnostics(&d, BAD[b].set);
         assert_int_equal(d.errors, 1);
-        assert_true(matches(&d.items[0], BAD[b].code, 1, 1, BAD[b].hint));
+        assert_true(is_diagnostic(&d.items[0], BAD[b].code, 1, 1, BAD[b].hint));
         assert_string_equal(d.items[0].file, "--set");
         jox_diag_free(&d);
     }
@@ -82,13 +82,13 @@ static void anchors_and_merge_keys(void **state) {
         "  c: {<<: [{team: blue}, *b], at: [[6, 0], [7, 0]]}\n"
         "  d: {<<: {set: {radius: 0.3}}, behaviour: stander, at: [[9, 0]], set: *s}\n";
     JoxDiagnostics d = {0};
-    JoxSceneSpec *scene = load(text, NULL, 0, &d);
+    JoxSceneSpec *scene = read_scene_text(text, NULL, 0, &d);
     if (!scene)
-        show(&d, text);
+        print_diagnostics(&d, text);
     assert_non_null(scene);
     const JoxGroup *g = scene->groups;
     assert_int_equal(scene->group_count, 4);
-    assert_int_equal(g[0].set_count, 2); /* untouched by what d merges into the same map */
+    assert_int_equal(g[0].set_count, 2); /* unchanged by d, which merges into the same map */
     assert_true(find_set(&g[0], "mass")->dist.a == 60);
     assert_true(find_set(&g[1], "mass")->dist.a == 90 && find_set(&g[1], "speed")->dist.a == 1);
     assert_true(g[1].positions[0].x == 3);
@@ -111,7 +111,7 @@ static char *write_file(const char *name, const char *text) {
     return path;
 }
 
-static void included_files_give_what_is_lacking(void **state) {
+static void included_files_give_missing_keys(void **state) {
     (void)state;
     char text[4400], *stander = realpath("behaviours/stander.lua", NULL);
     assert_non_null(stander);
@@ -123,8 +123,8 @@ static void included_files_give_what_is_lacking(void **state) {
              stander);
     JoxDiagnostics d = {0};
     assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
-    assert_int_equal(d.errors, 1); /* in the included file, where it stands */
-    assert_true(matches(&d.items[0], "out-of-range", 3, 7, NULL));
+    assert_int_equal(d.errors, 1); /* in the included file */
+    assert_true(is_diagnostic(&d.items[0], "out-of-range", 3, 7, NULL));
     assert_non_null(strstr(d.items[0].file, "/base.yaml"));
     assert_string_equal(d.items[0].source, "step: 7");
     jox_diag_free(&d);
@@ -135,13 +135,13 @@ static void included_files_give_what_is_lacking(void **state) {
     strcat(text, "bodies: {two: {mass: 7}}\n");
     JoxSceneSpec *scene = jox_scene_read(write_file("main.yaml", text), NULL, &d);
     if (!scene)
-        show(&d, text);
+        print_diagnostics(&d, text);
     assert_non_null(scene);
     assert_string_equal(scene->title, "Base");
     assert_int_equal(scene->seed, 2);
     assert_int_equal(scene->place_count, 2);
     assert_int_equal(scene->file_count, 2);
-    assert_int_equal(scene->body_count, 2); /* the one that is named has changed, in its place */
+    assert_int_equal(scene->body_count, 2); /* the named one has changed and keeps its place */
     assert_float_equal(scene->bodies[0].def.mass, 3, 0);
     assert_float_equal(scene->bodies[1].def.mass, 7, 0);
     assert_float_equal(scene->bodies[1].def.position[0], 5, 0);
@@ -150,11 +150,11 @@ static void included_files_give_what_is_lacking(void **state) {
     write_file("base.yaml", "title: Base\ninclude: [main.yaml]\n");
     assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
     assert_int_equal(d.errors, 1);
-    assert_true(matches(&d.items[0], "include-cycle", 2, 11, NULL));
+    assert_true(is_diagnostic(&d.items[0], "include-cycle", 2, 11, NULL));
     jox_diag_free(&d);
     unlink(write_file("base.yaml", ""));
     assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
-    assert_true(matches(&d.items[0], "unreadable-file", 2, 10, NULL));
+    assert_true(is_diagnostic(&d.items[0], "unreadable-file", 2, 10, NULL));
     jox_diag_free(&d);
     unlink(write_file("main.yaml", ""));
     rmdir(folder);
@@ -164,20 +164,20 @@ static void included_files_give_what_is_lacking(void **state) {
     jox_diag_free(&d);
 }
 
-/* What a reload cannot take over is named, with why; what it takes over is not. */
-static void edits_that_wait_are_named(void **state) {
+/* Keys whose edits a reload cannot apply are listed with the reason; other edited keys are not. */
+static void edits_that_need_restart_are_listed(void **state) {
     (void)state;
     JoxDiagnostics d = {0};
     JoxText later = {0};
-    JoxSceneSpec *a =
-        load("jostle: 1\ntitle: one\nseed: 1\nregions: {r: [[0, 0], [1, 0], [0, 1]]}\n" GROUP, NULL,
-             0, &d);
+    JoxSceneSpec *a = read_scene_text(
+        "jostle: 1\ntitle: one\nseed: 1\nregions: {r: [[0, 0], [1, 0], [0, 1]]}\n" GROUP, NULL, 0,
+        &d);
     JoxSceneSpec *b =
-        load("jostle: 1\ntitle: two\n# moved\n\nregions: {r: [[0, 0], [1, 0], [0, 2]]}\n"
-             "seed: 2\n" GROUP,
-             NULL, 0, &d);
+        read_scene_text("jostle: 1\ntitle: two\n# moved\n\nregions: {r: [[0, 0], [1, 0], [0, 2]]}\n"
+                        "seed: 2\n" GROUP,
+                        NULL, 0, &d);
     if (!a)
-        show(&d, "a");
+        print_diagnostics(&d, "a");
     assert_non_null(a);
     assert_non_null(b);
     jox_scene_list_restart_keys(a, a, &later);
@@ -195,10 +195,10 @@ static void edits_that_wait_are_named(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(overrides_change_what_they_name_alone),
+        cmocka_unit_test(overrides_change_only_their_path),
         cmocka_unit_test(anchors_and_merge_keys),
-        cmocka_unit_test(edits_that_wait_are_named),
-        cmocka_unit_test(included_files_give_what_is_lacking),
+        cmocka_unit_test(edits_that_need_restart_are_listed),
+        cmocka_unit_test(included_files_give_missing_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

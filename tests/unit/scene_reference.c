@@ -1,5 +1,5 @@
-/* The reference of the scene format: its examples show every key and load, its pages and schemas
-   say what the table says, and the files of scripts/ are those that the table makes now.
+/* The table of keys and what is printed from it: examples show every key and can be read, pages and
+   schemas agree with the table, and the files of scripts/ are up to date.
    `scene_reference --write` writes them. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 #include "scene/format/keys.h"
 #include "scene/scene.h"
 
-static void show(const JoxDiagnostics *d, const char *what) {
+static void print_problems(const JoxDiagnostics *d, const char *what) {
     JoxText text = {0};
     jox_diag_print(d, &text);
     print_message("%s\n%s", what, text.data ? text.data : "(none)\n");
@@ -30,31 +30,32 @@ static bool is_owner(const char *name, size_t length) {
     return false;
 }
 
-/* Marks in `seen` the keys of the table that a tree uses; what a key holds is told by its `of`. */
-static void walk(const JoxReader *reader, const JoxYaml *node, const char *of, size_t length,
-                 bool *seen) {
-    if (length && (of[length - 1] == '*' || of[length - 1] == ']')) {
+/* Marks in `seen` the keys of the table that a tree uses. The first `length` bytes of `content`
+   (see JoxKey) say what the node holds. */
+static void mark_keys(const JoxReader *reader, const JoxYaml *node, const char *content,
+                      size_t length, bool *seen) {
+    if (length && (content[length - 1] == '*' || content[length - 1] == ']')) {
         size_t inner = length - 1;
-        while (of[length - 1] == ']' && of[inner] != '[')
+        while (content[length - 1] == ']' && content[inner] != '[')
             inner--;
-        assert_int_equal(node->kind, of[length - 1] == '*' ? JOX_YAML_MAP : JOX_YAML_LIST);
+        assert_int_equal(node->kind, content[length - 1] == '*' ? JOX_YAML_MAP : JOX_YAML_LIST);
         for (uint32_t i = 0; i < node->count; i++)
-            walk(reader, node->items[i], of, inner, seen);
-    } else if (is_owner(of, length)) {
+            mark_keys(reader, node->items[i], content, inner, seen);
+    } else if (is_owner(content, length)) {
         char owner[32];
-        snprintf(owner, sizeof owner, "%.*s", (int)length, of);
+        snprintf(owner, sizeof owner, "%.*s", (int)length, content);
         assert_true(jox_owner_check_keys(reader, node, owner));
         for (uint32_t i = 0; i < node->count; i++) {
             const JoxKey *key = jox_key_find(&jox_scene_format, owner, node->keys[i]);
             assert_non_null(key);
             seen[key - jox_scene_format.keys] = true;
             if (key->content)
-                walk(reader, node->items[i], key->content, strlen(key->content), seen);
+                mark_keys(reader, node->items[i], key->content, strlen(key->content), seen);
         }
     }
 }
 
-static bool of_mods(const char *owner) {
+static bool belongs_to_mods(const char *owner) {
     return !strcmp(owner, "mod") || !strcmp(owner, "setting");
 }
 
@@ -71,7 +72,7 @@ static void examples_show_every_key(void **state) {
             JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
             JoxDiagnostics d = {0};
             const char *yaml = jox_scene_examples[e].yaml;
-            char *own = jox_arena_text(arena, yaml); /* what it includes is not its own */
+            char *own = jox_arena_text(arena, yaml); /* without the files that it includes */
             char *include = strstr(own, "include:");
             if (include)
                 memcpy(include, "without:", 8);
@@ -80,11 +81,11 @@ static void examples_show_every_key(void **state) {
             for (uint32_t k = 0; include && k < root->count; k++)
                 if (!strcmp(root->keys[k], "without"))
                     root->keys[k] = "include";
-            const char *of = of_mods(owner) ? "mod" : "scene";
-            walk(&(JoxReader){.arena = arena, .diagnostics = &d, .format = &jox_scene_format}, root,
-                 of, strlen(of), seen);
+            const char *root_owner = belongs_to_mods(owner) ? "mod" : "scene";
+            mark_keys(&(JoxReader){.arena = arena, .diagnostics = &d, .format = &jox_scene_format},
+                      root, root_owner, strlen(root_owner), seen);
             if (d.count)
-                show(&d, yaml);
+                print_problems(&d, yaml);
             assert_int_equal(d.count, 0);
             jox_arena_free(arena);
         }
@@ -102,17 +103,17 @@ static void examples_show_every_key(void **state) {
     assert_int_equal(missing, 0);
 }
 
-static void examples_load_without_a_word(void **state) {
+static void examples_read_without_diagnostics(void **state) {
     (void)state;
     for (size_t e = 0; e < jox_scene_example_count; e++) {
         const JoxExample *example = &jox_scene_examples[e];
-        if (of_mods(example->owner))
+        if (belongs_to_mods(example->owner))
             continue;
         JoxDiagnostics d = {0};
         JoxSceneSpec *scene = jox_scene_read_text("scenes/example.yaml", example->yaml,
                                                   strlen(example->yaml), NULL, &d);
         if (!scene || d.count)
-            show(&d, example->yaml);
+            print_problems(&d, example->yaml);
         assert_non_null(scene);
         assert_int_equal(d.count, 0);
         jox_scene_free(scene);
@@ -120,14 +121,14 @@ static void examples_load_without_a_word(void **state) {
     }
 }
 
-static void the_table_is_whole(void **state) {
+static void rows_are_complete(void **state) {
     (void)state;
     for (size_t k = 0; k < jox_scene_format.key_count; k++) {
         const JoxKey *key = &jox_scene_format.keys[k];
         bool holds = key->type == JOX_TYPE_TABLE || key->type == JOX_TYPE_LIST ||
                      key->type == JOX_TYPE_VALUES || key->type == JOX_TYPE_POINTS;
         const bool drawn =
-            key->content && !strcmp(key->content, "draw"); /* one value may be drawn, too */
+            key->content && !strcmp(key->content, "draw"); /* a single value may be drawn, too */
         if (!is_owner(key->owner, strlen(key->owner)) || (holds && !key->content) ||
             (!holds && key->content && !drawn) || !key->meaning || !*key->meaning ||
             !key->default_text || !key->unit)
@@ -140,7 +141,7 @@ static void the_table_is_whole(void **state) {
             known |= !strcmp(jox_scene_units[u].kind, key->unit);
         assert_true(known);
     }
-    char name[64]; /* choices that are enumerations stand in their order */
+    char name[64]; /* choices of an enumeration are in its order */
     const char *fills = jox_key_find(&jox_scene_format, "group", "fill")->choices;
     assert_true(jox_choice_name(fills, JOX_FILL_HEX, name, sizeof name) && !strcmp(name, "hex"));
     assert_true(jox_choice_name(fills, JOX_FILL_GRID, name, sizeof name) && !strcmp(name, "grid"));
@@ -154,9 +155,9 @@ static void the_table_is_whole(void **state) {
             assert_non_null(jox_key_find(&jox_scene_format, jox_scene_alternatives[a].owner, name));
 }
 
-/* Each row says where its value goes, and what says so fits the type: a key that is documented and
-   read by nobody is not possible. */
-static void every_key_has_a_destination(void **state) {
+/* Each row says how its value is stored, in a way that fits its type: so no key is documented that
+   is not read. */
+static void every_key_is_stored(void **state) {
     (void)state;
     for (size_t k = 0; k < jox_scene_format.key_count; k++) {
         const JoxKey *key = &jox_scene_format.keys[k];
@@ -177,7 +178,7 @@ static void every_key_has_a_destination(void **state) {
             good &= key->type == JOX_TYPE_POINT3;
         if (key->choices && *key->default_text && key->type == JOX_TYPE_TEXT)
             good &= jox_choice_find(key->choices, key->default_text) >= 0;
-        /* The store of a pointer or an enumeration of another width would be a struct's. */
+        /* JOX_STORE_OF takes members of other types, as pointers and enumerations, for structs. */
         if (key->type == JOX_TYPE_NUMBER || key->type == JOX_TYPE_WHOLE)
             good &= key->store != JOX_STORE_STRUCT && key->store != JOX_STORE_TEXT;
         if (!good)
@@ -185,7 +186,7 @@ static void every_key_has_a_destination(void **state) {
     }
 }
 
-/* Kinds of places are keys of a place by the same name. */
+/* Each kind of place is a key of a place, by its name. */
 static void kinds_of_places_are_keys(void **state) {
     (void)state;
     for (int p = 0; p < (int)jox_place_kind_count; p++) {
@@ -195,15 +196,15 @@ static void kinds_of_places_are_keys(void **state) {
     }
 }
 
-/* JSON is YAML: the schema as a tree. */
-static JoxYaml *schema_tree(JoxArena *arena, const char *root) {
+/* Reads a schema as a tree: JSON is YAML. */
+static JoxYaml *read_schema(JoxArena *arena, const char *root) {
     JoxText text = {0};
     JoxDiagnostics d = {0};
     JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
     jox_scene_print_json_schema(root, &text);
     JoxYaml *tree = jox_yaml_read(arena, "schema.json", text.data, text.length, files, &d);
     if (!tree)
-        show(&d, "schema");
+        print_problems(&d, "schema");
     assert_non_null(tree);
     jox_text_free(&text);
     jox_diag_free(&d);
@@ -221,17 +222,17 @@ static void check_references(const JoxYaml *node, const JoxYaml *definitions) {
         check_references(node->items[i], definitions);
 }
 
-static void schemas_know_every_key(void **state) {
+static void schemas_have_every_key(void **state) {
     (void)state;
     static const char *const ROOTS[] = {"scene", "mod"};
     for (int r = 0; r < 2; r++) {
         JoxArena *arena = jox_arena_create();
-        const JoxYaml *root = schema_tree(arena, ROOTS[r]);
+        const JoxYaml *root = read_schema(arena, ROOTS[r]);
         const JoxYaml *definitions = jox_yaml_get(root, "definitions");
         check_references(root, definitions);
         for (size_t k = 0; k < jox_scene_format.key_count; k++) {
             const JoxKey *key = &jox_scene_format.keys[k];
-            if (of_mods(key->owner) != (r == 1))
+            if (belongs_to_mods(key->owner) != (r == 1))
                 continue;
             const JoxYaml *owner =
                 !strcmp(key->owner, ROOTS[r]) ? root : jox_yaml_get(definitions, key->owner);
@@ -243,46 +244,44 @@ static void schemas_know_every_key(void **state) {
     }
 }
 
-/* What the schema says of one key, as text without line breaks. */
-static void expect_property(const char *schema, const char *line) {
+/* Checks that a schema contains a text. */
+static void expect_text(const char *schema, const char *line) {
     if (!strstr(schema, line))
         fail_msg("the schema lacks: %s", line);
 }
 
-static void schemas_say_what_the_table_says(void **state) {
+static void schemas_agree_with_table(void **state) {
     (void)state;
     JoxText text = {0};
     jox_scene_print_json_schema("scene", &text);
-    expect_property(text.data, "\"mode\": {\"description\": \"literal: the equations as they were "
-                               "printed (core/paper.md); `yield` and `damping` then have no "
-                               "effect; default physical\", \"default\": \"physical\", "
-                               "\"enum\": [\"physical\", \"literal\"]}");
-    expect_property(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"enum\": [\"calm\", "
-                               "\"normal\", \"keen\"]}]}"); /* haste, and units of others */
-    expect_property(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"$ref\": "
-                               "\"#/definitions/unit_m_per_s\"}]}");
-    expect_property(text.data,
-                    "\"step\": {\"description\": \"time step, in s; 0.001 to 0.2, default 0.05\", "
-                    "\"default\": 0.05, \"anyOf\": [{\"type\": \"number\", \"minimum\": 0.001, "
-                    "\"maximum\": 0.2}, {\"$ref\": \"#/definitions/unit_s\"}]}");
-    expect_property(text.data, "\"unit_m_per_s\": {\"type\": \"string\", \"pattern\": "
-                               "\"^[-+]?([0-9]+\\\\.?[0-9]*|\\\\.[0-9]+)([eE][-+]?[0-9]+)? "
-                               "*(m/s|km/h)?$\"}");
-    expect_property(text.data, "\"required\": [\"shape\", \"at\"]");
-    expect_property(text.data,
-                    "{\"oneOf\": [{\"required\": [\"solid\"]}, {\"required\": [\"line\"]}, "
-                    "{\"required\": [\"file\"]}]}");
-    expect_property(text.data,
-                    "\"mass\": {\"description\": \"mass, in kg; 1 to 10000, default 70\"");
+    expect_text(text.data, "\"mode\": {\"description\": \"literal: the equations as they were "
+                           "printed (core/paper.md); `yield` and `damping` then have no "
+                           "effect; default physical\", \"default\": \"physical\", "
+                           "\"enum\": [\"physical\", \"literal\"]}");
+    expect_text(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"enum\": [\"calm\", "
+                           "\"normal\", \"keen\"]}]}"); /* haste, and units of others */
+    expect_text(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"$ref\": "
+                           "\"#/definitions/unit_m_per_s\"}]}");
+    expect_text(text.data,
+                "\"step\": {\"description\": \"time step, in s; 0.001 to 0.2, default 0.05\", "
+                "\"default\": 0.05, \"anyOf\": [{\"type\": \"number\", \"minimum\": 0.001, "
+                "\"maximum\": 0.2}, {\"$ref\": \"#/definitions/unit_s\"}]}");
+    expect_text(text.data, "\"unit_m_per_s\": {\"type\": \"string\", \"pattern\": "
+                           "\"^[-+]?([0-9]+\\\\.?[0-9]*|\\\\.[0-9]+)([eE][-+]?[0-9]+)? "
+                           "*(m/s|km/h)?$\"}");
+    expect_text(text.data, "\"required\": [\"shape\", \"at\"]");
+    expect_text(text.data, "{\"oneOf\": [{\"required\": [\"solid\"]}, {\"required\": [\"line\"]}, "
+                           "{\"required\": [\"file\"]}]}");
+    expect_text(text.data, "\"mass\": {\"description\": \"mass, in kg; 1 to 10000, default 70\"");
     jox_text_free(&text);
 }
 
-/* ---- files made of the table ---- */
+/* ---- files printed from the table ---- */
 
 static const char *const MADE[] = {"scripts/scene.schema.json", "scripts/mod.schema.json",
                                    "scripts/scene.md"};
 
-static void make(int n, JoxText *out) {
+static void print_file(int n, JoxText *out) {
     if (n == 2)
         jox_scene_print_markdown(out);
     else
@@ -292,7 +291,7 @@ static void make(int n, JoxText *out) {
 static int write_files(void) {
     for (int n = 0; n < 3; n++) {
         JoxText text = {0};
-        make(n, &text);
+        print_file(n, &text);
         FILE *file = fopen(MADE[n], "wb");
         bool written = file && fwrite(text.data, 1, text.length, file) == text.length;
         if (!file || fclose(file) != 0 || !written) {
@@ -309,7 +308,7 @@ static void files_are_up_to_date(void **state) {
     for (int n = 0; n < 3; n++) {
         JoxText text = {0};
         size_t length = 0;
-        make(n, &text);
+        print_file(n, &text);
         char *file = jox_read_file(MADE[n], 1 << 20, &length);
         if (!file || strcmp(file, text.data) != 0)
             fail_msg("%s is not what the table makes: run unit/scene_reference --write", MADE[n]);
@@ -322,13 +321,13 @@ int main(int argc, char **argv) {
     if (argc > 1 && !strcmp(argv[1], "--write"))
         return write_files();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_table_is_whole),
-        cmocka_unit_test(every_key_has_a_destination),
+        cmocka_unit_test(rows_are_complete),
+        cmocka_unit_test(every_key_is_stored),
         cmocka_unit_test(kinds_of_places_are_keys),
         cmocka_unit_test(examples_show_every_key),
-        cmocka_unit_test(examples_load_without_a_word),
-        cmocka_unit_test(schemas_know_every_key),
-        cmocka_unit_test(schemas_say_what_the_table_says),
+        cmocka_unit_test(examples_read_without_diagnostics),
+        cmocka_unit_test(schemas_have_every_key),
+        cmocka_unit_test(schemas_agree_with_table),
         cmocka_unit_test(files_are_up_to_date),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

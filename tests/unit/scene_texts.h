@@ -1,4 +1,4 @@
-/* Texts of scenes, loaded. */
+/* Reads scenes from texts, with parts that tests share, and compares diagnostics. */
 #ifndef JOSTLE_TESTS_SCENE_TEXTS_H
 #define JOSTLE_TESTS_SCENE_TEXTS_H
 
@@ -26,21 +26,22 @@
     "  - {name: crate, shape: {box: {size: [1, 1, 1]}}, mass: 9, at: [5, 5, 1]}\n"                 \
     "  - {name: rock, shape: {box: {size: [1, 1, 1]}}, mass: 0, at: [8, 5, 1]}\n"
 
-static inline JoxSceneSpec *load(const char *text, const char *const *sets, uint32_t count,
-                                 JoxDiagnostics *diagnostics) {
+static inline JoxSceneSpec *read_scene_text(const char *text, const char *const *sets,
+                                            uint32_t count, JoxDiagnostics *diagnostics) {
     JoxSceneOptions options = {.sets = sets, .set_count = count};
     return jox_scene_read_text("scenes/test.yaml", text, strlen(text), &options, diagnostics);
 }
 
-static inline void show(const JoxDiagnostics *d, const char *what) {
+static inline void print_diagnostics(const JoxDiagnostics *d, const char *what) {
     JoxText text = {0};
     jox_diag_print(d, &text);
     print_message("%s\n%s", what, text.data ? text.data : "(none)\n");
     jox_text_free(&text);
 }
 
-static inline bool matches(const JoxDiagnostic *d, const char *code, int line, int column,
-                           const char *hint) {
+/* Whether a diagnostic has this code and position, and its hint contains `hint` (NULL: any). */
+static inline bool is_diagnostic(const JoxDiagnostic *d, const char *code, int line, int column,
+                                 const char *hint) {
     return !strcmp(d->code, code) && d->line == line && d->column == column &&
            (!hint || (d->hint && strstr(d->hint, hint)));
 }

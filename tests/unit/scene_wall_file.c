@@ -1,4 +1,4 @@
-/* Walls from files: what each geometry becomes, and what is wrong with one, by line and column. */
+/* Reading walls from files: the walls that each geometry becomes, and errors by line and column. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +20,7 @@ static bool read_plan(const char *text, JoxWalls *walls, JoxDiagnostics *diagnos
     return jox_wall_file_read("plan.wkt", text, strlen(text), &options, walls, diagnostics);
 }
 
-static void a_polygon_is_what_can_be_walked(void **state) {
+static void polygon_is_walkable_floor(void **state) {
     (void)state;
     JoxWalls walls = {0};
     JoxDiagnostics diagnostics = {0};
@@ -47,14 +47,14 @@ static void every_geometry_is_read(void **state) {
     } CASES[] = {
         {"LINESTRING (0 0, 3 0)", 1, 2},
         {"linestring(0 0,3 0,3 2)", 1, 4},
-        {"LINESTRING (0 0, 3 0, 3 2, 0 0)", 2, 6}, /* comes back: closed */
+        {"LINESTRING (0 0, 3 0, 3 2, 0 0)", 2, 6}, /* ends where it begins: closed */
         {"MULTILINESTRING ((0 0, 1 0), (5 5, 6 5, 6 6))", 2, 6},
         {"MULTIPOLYGON (((0 0, 2 0, 2 2, 0 0)), ((5 5, 7 5, 7 7, 5 5)))", 4, 12},
         {"GEOMETRYCOLLECTION (POLYGON ((0 0, 2 0, 2 2, 0 0)), LINESTRING (0 1, 1 1))", 3, 8},
         {"GEOMETRYCOLLECTION (GEOMETRYCOLLECTION (LINESTRING (0 1, 1 1)), POLYGON EMPTY)", 1, 2},
         {"POLYGON Z ((0 0 1, 2 0 1, 2 2 1, 0 0 1))", 2, 6},
         {"LINESTRING (0 0 5, 3 0 5)\nLINESTRING (0 1, 3 1)\n", 2, 4},
-        {"LINESTRING (0 0, 0 0, 3e0 0, 3 0)", 1, 2}, /* a point twice is one */
+        {"LINESTRING (0 0, 0 0, 3e0 0, 3 0)", 1, 2}, /* repeated points are one point */
         {"\xef\xbb\xbfLINESTRING (-.5 +1., 3 0)", 1, 2},
     };
     for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
@@ -68,8 +68,8 @@ static void every_geometry_is_read(void **state) {
     }
 }
 
-/* An `@` marks where the error is; it is no part of the text. */
-static void errors_have_their_place(void **state) {
+/* An `@`, which is removed, marks the position of the error; a second one ends the text. */
+static void errors_have_positions(void **state) {
     (void)state;
     static const struct {
         const char *text, *says;
@@ -115,7 +115,7 @@ static void errors_have_their_place(void **state) {
         char text[256];
         const char *at = strchr(CASES[c].text, '@'), *second = strchr(at + 1, '@');
         snprintf(text, sizeof text, "%.*s%s", (int)(at - CASES[c].text), CASES[c].text, at + 1);
-        if (second) /* the text ends there, and so does the place */
+        if (second)
             text[second - CASES[c].text - 1] = 0;
         int line = 1, column = 1;
         for (const char *s = CASES[c].text; s < (second ? second - 1 : at); s++) {
@@ -134,7 +134,7 @@ static void errors_have_their_place(void **state) {
     }
 }
 
-static void depth_and_size_have_ends(void **state) {
+static void deep_and_large_plans_are_refused(void **state) {
     (void)state;
     enum { DEEP = 100000, MANY = 200001 };
     JoxWalls walls = {0};
@@ -157,8 +157,8 @@ static void depth_and_size_have_ends(void **state) {
     jox_walls_free(&walls);
 }
 
-/* Any byte of a good plan may be any other: it is read or refused, with an error. */
-static void broken_plans_do_no_harm(void **state) {
+/* Replaces each byte of a valid plan by others: it is read, or refused with an error. */
+static void mutated_plans_are_read_or_refused(void **state) {
     (void)state;
     static const char GOOD[] =
         "GEOMETRYCOLLECTION (POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 1 2, 2 "
@@ -183,7 +183,7 @@ static void broken_plans_do_no_harm(void **state) {
 
 /* ---- JuPedSim's XML ---- */
 
-/* A wall of a plan by its points and, if `name`, its name. */
+/* Whether there is a wall with these points and this name, or NULL. */
 static bool has_ring(const JoxWalls *walls, bool solid, const char *name, const JoxV2 *points,
                      uint32_t count) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
@@ -206,7 +206,7 @@ static bool has_ring(const JoxWalls *walls, bool solid, const char *name, const 
     return false;
 }
 
-static void rooms_of_jupedsim_become_walls_and_doors(void **state) {
+static void jupedsim_rooms_become_walls_and_doors(void **state) {
     (void)state;
     size_t length;
     char *text = jox_read_file("tests/data/rooms.xml", 1 << 20, &length);
@@ -217,7 +217,8 @@ static void rooms_of_jupedsim_become_walls_and_doors(void **state) {
         fail_msg("%d:%d: %s", diagnostics.items[0].line, diagnostics.items[0].column,
                  diagnostics.items[0].message);
     assert_int_equal(diagnostics.count, 0);
-    /* Pieces that meet are one line, there and back. The wall that both rooms name stands once. */
+    /* Pieces that meet are one line; a thin wall has two sides. The wall between two rooms is there
+     * once. */
     const JoxV2 hall[] = {{8, 3}, {8, 6}, {0, 6}, {0, 0}, {0, 6}, {8, 6}};
     assert_true(has_ring(&walls, false, NULL, hall, 6));
     const JoxV2 beside[] = {{4, 0}, {8, 0}, {8, 2}, {8, 0}};
@@ -229,14 +230,14 @@ static void rooms_of_jupedsim_become_walls_and_doors(void **state) {
     const JoxV2 door[] = {{8, 2}, {8, 3}}, exit[] = {{12, 0}, {12, 3}};
     assert_true(has_ring(&walls, false, "door-3", door, 2));
     assert_true(has_ring(&walls, false, "door-4", exit, 2));
-    assert_int_equal(walls.ring_count, 8); /* and the niche, and the corridor's other side */
+    assert_int_equal(walls.ring_count, 8); /* also the niche, and the corridor's other side */
     for (uint32_t r = 0; r < walls.ring_count; r++)
         assert_float_equal(walls.rings[r].height, walls.rings[r].solid ? 0.8 : 3.0, 1e-6);
     jox_walls_free(&walls);
     jox_free(text);
 }
 
-static void xml_that_is_whole_but_odd(void **state) {
+static void unusual_xml_is_read(void **state) {
     (void)state;
 #define POLYGON(points) "<geometry><subroom>" points "</subroom></geometry>"
 #define V(x, y) "<vertex px='" #x "' py='" #y "'/>"
@@ -248,10 +249,10 @@ static void xml_that_is_whole_but_odd(void **state) {
         {"\xef\xbb\xbf <geometry><polygon>" V(1e1, +.5) V(3, 0) "</polygon></geometry>", 1, 2, 0},
         {POLYGON("<polygon>" V(0, 0) V(3, 0) V(3, 3) V(0, 0) "</polygon>"), 2, 6, 0}, /* closed */
         {POLYGON("<polygon>" V(0, 0) V(3, 0) "</polygon><polygon>" V(3, 0) V(0, 0) "</polygon>"), 1,
-         2, 0}, /* there and back */
+         2, 0}, /* the same side twice */
         {POLYGON("<polygon>" V(0, 0) V(3, 0) "</polygon><polygon>" V(5, 0) V(7, 0) "</polygon>"), 2,
          4, 0},
-        /* A ring of which one side stands already is the rest of it. */
+        /* Of a ring, a side that is there already is left out. */
         {POLYGON("<polygon>" V(3, 0) V(3, 3) "</polygon><polygon>" V(0, 0) V(3, 0) V(3, 3)
                      V(0, 0) "</polygon>"),
          3, 6, 0},
@@ -279,7 +280,7 @@ static void xml_that_is_whole_but_odd(void **state) {
     }
 }
 
-static void broken_xml_does_no_harm(void **state) {
+static void mutated_xml_is_read_or_refused(void **state) {
     (void)state;
     static const char BYTES[] = "<>/\"'& 09-\n\0\xff";
     size_t length;
@@ -325,7 +326,7 @@ static JoxSceneSpec *load_walls(const char *walls, JoxDiagnostics *diagnostics) 
     return scene;
 }
 
-static void a_scene_takes_its_walls_from_a_file(void **state) {
+static void scene_reads_walls_from_file(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
     write_file("plan.wkt", "POLYGON ((45200000 541100000, 45201000 541100000, 45201000 541100800, "
@@ -341,12 +342,12 @@ static void a_scene_takes_its_walls_from_a_file(void **state) {
     for (uint32_t v = 0; v < scene->walls.count; v++)
         most = jox_maxf(most, scene->walls.vertices[v].point.y);
     assert_float_equal(most, 8, 1e-4);
-    assert_int_equal(scene->file_count, 2); /* the plan is an input, with its hash */
+    assert_int_equal(scene->file_count, 2); /* the plan is listed with its hash */
     assert_int_equal(strlen(scene->files[1].sha256), 64);
     jox_scene_free(scene);
 }
 
-static void a_recording_has_walls(void **state) {
+static void scene_reads_walls_from_recording(void **state) {
     (void)state;
     char path[128];
     sqlite3 *db;
@@ -374,7 +375,7 @@ static void a_recording_has_walls(void **state) {
     jox_diag_free(&diagnostics);
 }
 
-static void what_is_wrong_in_the_file_is_shown(void **state) {
+static void errors_in_wall_files_are_shown(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
     write_file("bad.wkt", "LINESTRING (0 0,\n  1 nought)\n");
@@ -396,7 +397,7 @@ static void what_is_wrong_in_the_file_is_shown(void **state) {
     jox_diag_free(&diagnostics);
 }
 
-static void a_door_of_a_geometry_closes(void **state) {
+static void door_of_geometry_closes(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
     write_file("rooms.xml", "<geometry><polygon>" V(0, 0) V(3, 0) "</polygon><transition id='7'>" V(
@@ -432,18 +433,18 @@ static int remove_folder(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_polygon_is_what_can_be_walked),
+        cmocka_unit_test(polygon_is_walkable_floor),
         cmocka_unit_test(every_geometry_is_read),
-        cmocka_unit_test(errors_have_their_place),
-        cmocka_unit_test(depth_and_size_have_ends),
-        cmocka_unit_test(broken_plans_do_no_harm),
-        cmocka_unit_test(rooms_of_jupedsim_become_walls_and_doors),
-        cmocka_unit_test(xml_that_is_whole_but_odd),
-        cmocka_unit_test(broken_xml_does_no_harm),
-        cmocka_unit_test(a_door_of_a_geometry_closes),
-        cmocka_unit_test(a_scene_takes_its_walls_from_a_file),
-        cmocka_unit_test(a_recording_has_walls),
-        cmocka_unit_test(what_is_wrong_in_the_file_is_shown),
+        cmocka_unit_test(errors_have_positions),
+        cmocka_unit_test(deep_and_large_plans_are_refused),
+        cmocka_unit_test(mutated_plans_are_read_or_refused),
+        cmocka_unit_test(jupedsim_rooms_become_walls_and_doors),
+        cmocka_unit_test(unusual_xml_is_read),
+        cmocka_unit_test(mutated_xml_is_read_or_refused),
+        cmocka_unit_test(door_of_geometry_closes),
+        cmocka_unit_test(scene_reads_walls_from_file),
+        cmocka_unit_test(scene_reads_walls_from_recording),
+        cmocka_unit_test(errors_in_wall_files_are_shown),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
