@@ -32,7 +32,7 @@ SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom geom/field geom/ground agents nav/spots nav nav/near nav/walk nav/orca nav/move force force/push force/support force/contact force/stages body machine machine/steering world/input world/happened world/routes world world/verbs world/embed scene/format scene/wall_files scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results run/mods live report render validate luatest sweep sweep/compare)
+FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom geom/field geom/ground agents nav/spots nav nav/near nav/walk nav/orca nav/move force force/push force/support force/contact force/stages body machine machine/steering world/input world/step_events world/routes world world/verbs world/embed scene/format scene/wall_files scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results run/mods live report render validate luatest sweep sweep/compare)
 # Folders that are in libjostle-tools alone, not in libjostle: pages, pictures, reports.
 TOOLS   := view picture live report render validate luatest sweep sweep/compare
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
@@ -212,7 +212,7 @@ $(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
 # Files compiled at -O3, which vectorizes their loops over numbers without changing a bit: kernels and a few others.
 VECTORISED := core/record/fields/density core/record/fields/density_put core/record/fields/density_diffuse \
-           core/world/guard core/world/statistics core/agents/agents core/force/stages/forces core/force/push/pass_on core/force/contact/crush_load \
+           core/world/number_guard core/world/statistics core/agents/agents core/force/stages/forces core/force/push/pass_on core/force/contact/crush_load \
            core/machine/batches core/machine/think core/machine/target core/nav/near/perceive core/nav/move/move \
            $(foreach k,$(SRC_WIDE:%.c=%),$(ISAS:%=$k.%))
 $(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)

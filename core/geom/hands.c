@@ -127,7 +127,7 @@ static bool is_in_triangle(JoxV2 point, JoxV2 a, JoxV2 b, JoxV2 c) {
            left == (jox_det(jox_sub(a, c), jox_sub(point, c)) > 0.0f);
 }
 
-bool jox_hands_hold(const JoxHands *hands, JoxV2 from, JoxV2 at) {
+bool jox_hands_can_hold(const JoxHands *hands, JoxV2 from, JoxV2 at) {
     for (uint32_t e = 0; e < hands->count; e++) {
         const struct JoxHandEdge *edge = &hands->edges[e];
         for (uint32_t k = 0; k < hands->ring_count; k++) {
@@ -148,7 +148,7 @@ enum { STRIDES = 16, HALVINGS = 5 };
 static bool find_along(const JoxHands *h, JoxV2 from, JoxV2 way, float gap, JoxV2 *at) {
     int stride = STRIDES;
     *at = jox_add(from, jox_scale(way, gap));
-    while (!jox_hands_hold(h, from, *at)) {
+    while (!jox_hands_can_hold(h, from, *at)) {
         if (stride-- == 0)
             return false;
         *at = jox_add(from, jox_scale(way, gap * (float)stride / STRIDES));
@@ -157,7 +157,7 @@ static bool find_along(const JoxHands *h, JoxV2 from, JoxV2 way, float gap, JoxV
     for (int k = 0; k < HALVINGS && span > 0.0f; k++) {
         span *= 0.5f;
         const JoxV2 farther = jox_add(from, jox_scale(way, good + span));
-        if (!jox_hands_hold(h, from, farther))
+        if (!jox_hands_can_hold(h, from, farther))
             continue;
         good += span;
         *at = farther;

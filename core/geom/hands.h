@@ -32,7 +32,7 @@ void jox_hands_look(JoxHands *hands, const JoxWalls *walls, const JoxWalls *imag
 bool jox_hands_reach(const JoxHands *hands, JoxV2 from, JoxV2 to);
 /* Returns whether no obstacle lies between a point and any part of the body with its centre at
    `at`, nor inside the body. */
-bool jox_hands_hold(const JoxHands *hands, JoxV2 from, JoxV2 at);
+bool jox_hands_can_hold(const JoxHands *hands, JoxV2 from, JoxV2 at);
 /* Finds a position for the body at most `gap` m from a point: as far as possible along `way`, a
    unit vector; else, if `around`, in the nearest of seven other directions. Returns false if there
    is none. */

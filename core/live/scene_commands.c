@@ -8,7 +8,7 @@
 #include "live/inspect.h"
 #include "live/scene_page.h"
 #include "run/input_actions.h"
-#include "world/verbs/verbs.h"
+#include "world/verbs/verb_table.h"
 
 enum { MOST_STEPS = 100000 };
 
@@ -116,7 +116,7 @@ static bool perform_push(JoxScenePage *s, JoxInputEntry *entry, JoError *error) 
 static bool perform_line(JoxScenePage *s, const char *line, JoError *error) {
     JoxInputEntry entry;
     JoxText wrong = {0};
-    bool good = jox_input_read(line, &entry, &wrong);
+    bool good = jox_input_read_line(line, &entry, &wrong);
     if (!good)
         jox_error(error, JO_INPUT, "%s", wrong.data);
     else if (entry.verb == JOX_INPUT_PUSH)

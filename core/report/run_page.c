@@ -29,9 +29,9 @@ static void add_demand_figures(JoxPageFigures *f, const JoScene *scene) {
     for (uint32_t s = 0; s < scene->spec->source_count; s++) {
         const JoxDemand demand = jox_run_demand(scene, s);
         JoxText name = {0};
-        jox_source_name(scene->world, s, &name);
+        jox_source_append_name(scene->world, s, &name);
         jox_page_add_figure(f, "", demand.due, "people due at %.100s", name.data);
-        jox_page_add_figure(f, "", demand.came, "people who arrived at %.100s", name.data);
+        jox_page_add_figure(f, "", demand.entered, "people who arrived at %.100s", name.data);
         jox_page_add_figure(f, "", demand.waiting, "people waiting for room at %.100s at the end",
                             name.data);
         jox_page_add_figure(f, "", demand.did_not_come,

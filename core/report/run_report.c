@@ -131,9 +131,9 @@ static bool write_source_table(const char *folder, const JoScene *scene, JoxText
     for (uint32_t s = 0; s < count; s++) {
         const JoxDemand demand = jox_run_demand(scene, s);
         JoxText name = {0};
-        jox_source_name(scene->world, s, &name);
+        jox_source_append_name(scene->world, s, &name);
         jox_quote_put(out, jox_quote_csv, name.data);
-        fprintf(out, ",%.0f,%.0f,%.0f,%.0f\n", demand.due, demand.came, demand.waiting,
+        fprintf(out, ",%.0f,%.0f,%.0f,%.0f\n", demand.due, demand.entered, demand.waiting,
                 demand.did_not_come);
         jox_text_free(&name);
     }

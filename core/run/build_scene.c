@@ -28,7 +28,7 @@ static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxP
                          JoxDiagnostics *diagnostics) {
     uint64_t mask = 0;
     for (uint32_t i = 0; i < count; i++) {
-        int bit = jox_world_tag(world, tags[i]);
+        int bit = jox_world_add_tag(world, tags[i]);
         if (bit < 0)
             jox_diag_error(diagnostics, position, "too-many-tags", NULL,
                            "a scene has at most 64 different tags");

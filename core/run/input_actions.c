@@ -11,7 +11,7 @@
 #include "run/reload.h"
 #include "run/run.h"
 #include "run/set_parameter.h"
-#include "world/verbs/verbs.h"
+#include "world/verbs/verb_table.h"
 
 /* ---- actions ---- */
 
@@ -76,7 +76,7 @@ bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
         return false;
     JoxInputEntry entry;
     JoxText wrong = {0};
-    bool good = jox_input_read(line, &entry, &wrong);
+    bool good = jox_input_read_line(line, &entry, &wrong);
     if (good) {
         good = perform(scene, &entry, error);
         jox_input_entry_free(&entry);
@@ -89,7 +89,7 @@ bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
 
 void jox_run_inputs(JoScene *scene) {
     const JoxInputEntry *next;
-    while ((next = jox_input_next(&scene->world->state.input, scene->world->state.tick))) {
+    while ((next = jox_input_take_due(&scene->world->state.input, scene->world->state.tick))) {
         JoxInputEntry entry = *next;
         JoError error = {0};
         if (!perform(scene, &entry, &error))
@@ -101,7 +101,7 @@ void jox_run_inputs(JoScene *scene) {
 /* A name that a line can hold. */
 static bool writable(const char *what, const char *name, JoError *error) {
     JoxText why = {0};
-    const bool good = jox_input_writable(what, name, &why);
+    const bool good = jox_input_check_name(what, name, &why);
     if (!good)
         jox_error(error, JO_INPUT, "%s", why.data);
     jox_text_free(&why);

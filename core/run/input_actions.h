@@ -3,7 +3,7 @@
 #define JOX_RUN_INPUT_ACTIONS_H
 
 #include "jostle.h"
-#include "world/input/input.h"
+#include "world/input/input_entries.h"
 
 /* Performs the entries of the played log that are due in the step that begins. */
 void jox_run_inputs(JoScene *scene);

@@ -5,7 +5,7 @@
 
 #include "base/overlay.h"
 #include "jostle.h"
-#include "world/input/input.h"
+#include "world/input/input_entries.h"
 
 /* Appends an entry to the log that is written, if there is one, as of the step that comes. */
 void jox_run_log(JoScene *scene, JoxInputEntry *entry);

@@ -6,7 +6,7 @@
 #include "jostle_tools.h"
 #include "lua/behaviour_reference.h"
 #include "run/run.h"
-#include "world/verbs/verbs.h"
+#include "world/verbs/verb_table.h"
 
 static void scene_schema(JoxText *out) {
     jox_scene_print_json_schema("scene", out);
@@ -22,10 +22,10 @@ char *jo_reference(const char *what) {
     static const struct {
         const char *name;
         void (*print)(JoxText *out);
-    } PAGES[] = {{"behaviours", jox_lua_reference}, {"lua-ls", jox_lua_definitions},
-                 {"luacheck", jox_lua_luacheck},    {"scenes", jox_scene_print_markdown},
-                 {"scene-schema", scene_schema},    {"mod-schema", mod_schema},
-                 {"inputs", jox_input_reference}};
+    } PAGES[] = {{"behaviours", jox_lua_reference},     {"lua-ls", jox_lua_definitions},
+                 {"luacheck", jox_lua_luacheck},        {"scenes", jox_scene_print_markdown},
+                 {"scene-schema", scene_schema},        {"mod-schema", mod_schema},
+                 {"inputs", jox_input_append_reference}};
     JoxText out = {0};
     for (size_t p = 0; p < sizeof PAGES / sizeof *PAGES; p++)
         if (!strcmp(PAGES[p].name, what))

@@ -6,7 +6,7 @@
 
 #include "jostle.h"
 #include "scene/scene.h"
-#include "world/input/input.h"
+#include "world/input/input_entries.h"
 
 typedef struct JoxReload JoxReload;
 

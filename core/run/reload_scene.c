@@ -50,7 +50,7 @@ static void take_places(Rescene *r) {
     }
     if (moved) {
         jox_routes_renew(world->state.routes);
-        jox_entrances_renew(&world->scratch.entrances);
+        jox_entrances_clear(&world->scratch.entrances);
         note(&r->done, "places");
     }
 }

@@ -161,7 +161,7 @@ static float radius_of(const JoxAgents *a, uint32_t i) {
 /* Whether a closed gate stands where people leave by a point or a line. */
 static bool has_gate_on(const JoScene *scene, uint32_t place) {
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
-    return jox_hindrance_gate_on(&stage, place) != UINT32_MAX;
+    return jox_hindrance_find_gate(&stage, place) != UINT32_MAX;
 }
 
 /* Tells whom something that never moves keeps from a place; false: a way leads there for the first,

@@ -14,7 +14,7 @@ static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGr
     for (uint32_t m = 0; m < group->mix_count; m++) {
         const JoxMachineRun *machines = &scene->world->machines;
         const JoxMachine *machine =
-            machines->set->items[jox_world_machine(scene->world, group->mix[m].behaviour)];
+            machines->set->items[jox_world_find_machine(scene->world, group->mix[m].behaviour)];
         const char *names[256];
         uint32_t known = memory ? machine->memory_count : machine->own_count;
         known = known < 256 ? known : 256;
@@ -116,7 +116,7 @@ static bool check_state(const JoScene *scene, uint32_t number, const JoxState *s
 
 void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = scene->world->machines.set;
-    const double step = jox_world_substep(scene->world);
+    const double step = jox_world_substep_length(scene->world);
     for (uint32_t m = 0; m < set->count; m++)
         for (uint32_t s = 0; s < set->items[m]->state_count; s++)
             if (check_state(scene, m, &set->items[m]->states[s], step, diagnostics))
@@ -151,11 +151,11 @@ static void tell_not_placed(const JoxGroup *group, const JoxPlaced *placed,
     char people[JOX_NOUN], hint[100];
     JoxText why = {0};
     if (placed->in_solid == placed->not_placed)
-        jox_world_say_unplaced(JOX_BIRTH_IN_SOLID, (double)first.x, (double)first.y, &why);
+        jox_world_explain_unplaced(JOX_BIRTH_IN_SOLID, (double)first.x, (double)first.y, &why);
     else if (group->in_count)
         jox_text_add(&why, "no spot of its place is free");
     else
-        jox_world_say_unplaced(JOX_BIRTH_NO_ROOM, (double)first.x, (double)first.y, &why);
+        jox_world_explain_unplaced(JOX_BIRTH_NO_ROOM, (double)first.x, (double)first.y, &why);
     if (placed->not_found)
         jox_text_printf(&why,
                         "; for %u of them the search was ended, as %d spots had been looked at",

@@ -10,7 +10,7 @@ static bool step(JoScene *scene, JoError *error) {
     jox_run_inputs(scene);
     jox_run_reload(scene);
     const bool stepped = jox_world_step(scene->world);
-    JoxText *said = &scene->world->scratch.news;
+    JoxText *said = &scene->world->scratch.messages;
     if (said->length)
         jox_run_tell(scene, said->data);
     jox_text_free(said);

@@ -26,9 +26,9 @@ void jox_run_number_belongings(JoScene *scene, JoxMachine *machine) {
         const JoxBelonging *b = &machine->belongings[n];
         int number = b->number;
         if (!b->is_team)
-            number = jox_world_tag(scene->world, b->name);
+            number = jox_world_add_tag(scene->world, b->name);
         else if (b->number >= JOX_FIRST_SET_TEAM)
-            number = jox_world_set_team(scene->world, b->name);
+            number = jox_world_add_team(scene->world, b->name);
         /* Those of several machines that are put in at once may be too many: the last are nobody's.
          */
         numbers[n] = (uint16_t)(number < 0 ? b->number : number);
@@ -249,8 +249,8 @@ void jox_run_take_names(JoScene *scene) {
             return;
         snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "\n"), text);
         if (team)
-            jox_world_set_team(scene->world, name);
+            jox_world_add_team(scene->world, name);
         else
-            jox_world_tag(scene->world, name);
+            jox_world_add_tag(scene->world, name);
     }
 }

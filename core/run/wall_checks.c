@@ -117,10 +117,10 @@ static uint32_t add_from_sources(JoScene *scene, uint32_t **source_of) {
         if (entrance->cut && entrance->open_count == 0)
             continue;
         uint32_t agent = JOX_NO_INDEX;
-        jox_world_spawn(world, scene->spec->sources[s].like,
-                        entrance->cut ? jox_entrance_pick(entrance, 0.5)
-                                      : world->model.places[jox_source_door(world, s, 0)].centre,
-                        &agent);
+        jox_world_spawn_at(world, scene->spec->sources[s].like,
+                           entrance->cut ? jox_entrance_pick(entrance, 0.5)
+                                         : world->model.places[jox_source_door(world, s, 0)].centre,
+                           &agent);
         if (agent != JOX_NO_INDEX)
             (*source_of)[count++] = s;
     }
@@ -361,7 +361,7 @@ void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics) {
     jox_bodies_objects(scene->world->state.bodies, &scene->world->scratch.objects);
     if (scene->world->model.all_walls.count == 0 && stage.objects->count == 0)
         return;
-    jox_routes_see_bodies(&stage);
+    jox_routes_update_bodies(&stage);
     const uint32_t first = add_from_sources(scene, &source_of);
     list_goals(scene->world, &goals);
     goals.opening = jox_run_opening_gates(scene);

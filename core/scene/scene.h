@@ -13,10 +13,10 @@
 #include "body/body.h"
 #include "geom/place.h"
 #include "geom/walls.h"
-#include "world/events.h"
 #include "world/exits.h"
 #include "world/population.h"
 #include "world/probe.h"
+#include "world/scheduled_events.h"
 #include "world/sources.h"
 
 /* A polygon in which a run measures the mean speed. */

@@ -65,13 +65,13 @@ static bool can_be_exit(const JoxPlace *place) {
 
 /* Who left where a behaviour said so left by the smallest place that they stood in. */
 static void count_leavers(JoWorld *world) {
-    for (uint32_t g = 0; g < world->scratch.gone.count; g++) {
+    for (uint32_t g = 0; g < world->scratch.departures.count; g++) {
         const JoxPlace *of = NULL;
         for (uint32_t p = 0; p < world->model.scene_places; p++) {
             const JoxPlace *place = &world->model.places[p];
             if (can_be_exit(place) &&
                 jox_place_is_reached(world->model.places, p, &world->model.all_walls,
-                                     world->scratch.gone.items[g]) &&
+                                     world->scratch.departures.items[g]) &&
                 (!of || jox_place_floor(place) < jox_place_floor(of)))
                 of = place;
         }
@@ -106,7 +106,7 @@ static void empty_sinks(JoWorld *world) {
         world->state.statistics.removed += jox_agents_compact(a);
 }
 
-void jox_world_exits(JoWorld *world) {
+void jox_world_empty_sinks(JoWorld *world) {
     empty_sinks(world);
     count_leavers(world);
 }

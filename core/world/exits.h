@@ -33,7 +33,7 @@ void jox_exits_free(JoxExits *exits);
    are replaced. Their exits are listed before anybody has left. */
 void jox_world_set_sinks(JoWorld *world, const JoxAgentSink *sinks, uint32_t count);
 /* After a step: takes out who stands in a sink (at every fourth), and counts all who left. */
-void jox_world_exits(JoWorld *world);
+void jox_world_empty_sinks(JoWorld *world);
 /* Lists the figures; no step reads them, so they are no part of the hash. */
 void jox_exits_sections(JoxExits *exits, JoxSections *sections);
 

@@ -14,7 +14,7 @@
 
 static const float FARTHEST_POINT = 1e6f; /* m: no plan is larger */
 
-uint32_t jox_world_machine(const JoWorld *world, const char *path) {
+uint32_t jox_world_find_machine(const JoWorld *world, const char *path) {
     const JoxMachineSet *set = &world->model.machines;
     for (uint32_t m = 0; m < set->count; m++)
         if (strcmp(set->items[m]->path, path) == 0)
@@ -30,10 +30,10 @@ static uint32_t pick_machine(const JoWorld *world, const JoxGroup *group, uint32
     JOX_ASSERT(group->mix_count > 0);
     for (uint32_t m = 0; m + 1 < group->mix_count; m++) {
         if (u < group->mix[m].weight)
-            return jox_world_machine(world, group->mix[m].behaviour);
+            return jox_world_find_machine(world, group->mix[m].behaviour);
         u -= group->mix[m].weight;
     }
-    return jox_world_machine(world, group->mix[group->mix_count - 1].behaviour);
+    return jox_world_find_machine(world, group->mix[group->mix_count - 1].behaviour);
 }
 
 /* Which profile of a group an agent has; NULL where it has none. */
@@ -144,7 +144,7 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
     return population->party_team[number];
 }
 
-JoxBirth jox_world_birth_of(const JoWorld *world, uint32_t group, JoxV2 at) {
+JoxBirth jox_world_birth(const JoWorld *world, uint32_t group, JoxV2 at) {
     const JoxGroup *of = &world->model.groups[group];
     return (JoxBirth){group, of->memory, of->memory_count, {.at = at}};
 }
@@ -157,7 +157,7 @@ static void join_group(JoWorld *world, uint32_t i, uint32_t number) {
         a->group[i] = (uint16_t)number;
     a->team[i] = (uint16_t)next_team(world, number);
     for (uint32_t t = 0; t < group->tag_count; t++) {
-        int tag = jox_world_tag(world, group->tags[t]);
+        int tag = jox_world_add_tag(world, group->tags[t]);
         JOX_ASSERT(tag >= 0); /* whoever loads a scene has counted them */
         a->tags[i] |= (uint64_t)1 << tag;
     }
@@ -167,7 +167,7 @@ static void join_group(JoWorld *world, uint32_t i, uint32_t number) {
     }
 }
 
-JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
+JoxBirthSpot jox_world_spawn(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
     const JoxGroup *group = &world->model.groups[birth->group];
     JoxBirthWish *wish = &birth->wish;
     const uint32_t id = world->state.agents.next_id, places = world->model.place_count;
@@ -178,7 +178,7 @@ JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
              world->model.machines.items[index], wish->at, &set);
     wish->radius = jox_machines_birth_radius(&world->machines, id, index, set.own);
     JoxV2 spot;
-    jox_world_raise_walls(world);
+    jox_world_apply_walls(world);
     const JoxBirthSpot found =
         jox_nav_find_birth(world->scratch.nav, &world->state.agents, wish, &spot);
     if (!jox_birth_succeeds(found)) {
@@ -199,13 +199,13 @@ JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
     return found;
 }
 
-JoxBirthSpot jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at, uint32_t *agent) {
+JoxBirthSpot jox_world_spawn_at(JoWorld *world, uint32_t group, JoxV2 at, uint32_t *agent) {
     JOX_ASSERT(group < world->model.group_count);
-    JoxBirth birth = jox_world_birth_of(world, group, at);
-    return jox_world_bear(world, &birth, agent);
+    JoxBirth birth = jox_world_birth(world, group, at);
+    return jox_world_spawn(world, &birth, agent);
 }
 
-void jox_world_say_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out) {
+void jox_world_explain_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out) {
     if (spot == JOX_BIRTH_IN_SOLID)
         jox_text_printf(out, "(%g, %g) lies in a wall", x, y);
     else if (spot == JOX_BIRTH_NOT_FOUND)
@@ -277,16 +277,16 @@ static bool is_free(const JoxAgents *a, JoxV2 at) {
 /* Whoever would begin in a wall never comes in. */
 static void lose_start(JoWorld *world, const JoxStart *start) {
     const JoxGroup *group = &world->model.groups[start->group];
-    JoxText *news = &world->scratch.news;
+    JoxText *news = &world->scratch.messages;
     world->state.statistics.not_placed++;
     jox_text_printf(news, "%s:%d:%d: t = %.2f s: a person of group '%.60s' is not placed: ",
                     group->position.file, group->position.line, group->position.column,
                     (double)world->state.tick * world->model.def.dt, group->name);
-    jox_world_say_unplaced(JOX_BIRTH_IN_SOLID, (double)start->at.x, (double)start->at.y, news);
+    jox_world_explain_unplaced(JOX_BIRTH_IN_SOLID, (double)start->at.x, (double)start->at.y, news);
     jox_text_add(news, "\n");
 }
 
-void jox_world_starts(JoWorld *world) {
+void jox_world_spawn_due_starts(JoWorld *world) {
     const JoxWorldModel *model = &world->model;
     JoxPopulation *p = &world->state.population;
     const double time = (double)world->state.tick * model->def.dt + 1e-9;
@@ -295,7 +295,7 @@ void jox_world_starts(JoWorld *world) {
         if (p->entered[s] || !is_free(&world->state.agents, start->at))
             continue;
         uint32_t agent;
-        const JoxBirthSpot spot = jox_world_spawn(world, start->group, start->at, &agent);
+        const JoxBirthSpot spot = jox_world_spawn_at(world, start->group, start->at, &agent);
         if (spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_NOT_FOUND)
             continue;
         if (spot == JOX_BIRTH_IN_SOLID)
@@ -347,7 +347,7 @@ static JoxPlaced place_group(JoWorld *world, uint32_t number) {
     JoxAreaIndex *index = group->in_count ? jox_area_index(&area) : NULL;
     JoxPlaced placed = {0};
     for (uint32_t i = 0; i < group->count; i++) {
-        JoxBirth birth = jox_world_birth_of(world, number, group->positions[i]);
+        JoxBirth birth = jox_world_birth(world, number, group->positions[i]);
         JoxBirthWish *wish = &birth.wish;
         if (index && jox_area_extent(&area, &wish->low, &wish->high)) {
             wish->contains = area_contains;
@@ -356,7 +356,7 @@ static JoxPlaced place_group(JoWorld *world, uint32_t number) {
             wish->stays = true;
         }
         uint32_t agent = JOX_NO_INDEX;
-        const JoxBirthSpot spot = jox_world_bear(world, &birth, &agent);
+        const JoxBirthSpot spot = jox_world_spawn(world, &birth, &agent);
         placed.in_solid += spot == JOX_BIRTH_IN_SOLID;
         placed.not_found += spot == JOX_BIRTH_NOT_FOUND;
         if (agent == JOX_NO_INDEX) {

@@ -124,20 +124,20 @@ typedef struct JoxBirth {
     JoxBirthWish wish; /* its radius is drawn */
 } JoxBirth;
 /* One of a group, with the group's memory and no place. */
-JoxBirth jox_world_birth_of(const JoWorld *world, uint32_t group, JoxV2 at);
+JoxBirth jox_world_birth(const JoWorld *world, uint32_t group, JoxV2 at);
 /* Makes the agent at its point, or on the nearest free spot with no wall between
    (jox_nav_find_birth). Where there is none nothing is done, and nothing is counted; else *agent is
    its index. */
-JoxBirthSpot jox_world_bear(JoWorld *world, JoxBirth *birth, uint32_t *agent);
+JoxBirthSpot jox_world_spawn(JoWorld *world, JoxBirth *birth, uint32_t *agent);
 /* The same of a group, at a point, m. */
-JoxBirthSpot jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at, uint32_t *agent);
+JoxBirthSpot jox_world_spawn_at(JoWorld *world, uint32_t group, JoxV2 at, uint32_t *agent);
 /* Says why somebody could not be placed at a point, for messages. */
-void jox_world_say_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out);
+void jox_world_explain_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out);
 /* Before a step: brings in whose start has come. Who would stand in another waits until that one
    has gone on; those behind do not wait for it. */
-void jox_world_starts(JoWorld *world);
+void jox_world_spawn_due_starts(JoWorld *world);
 /* Index of the machine that was loaded from a path; 0 where there is none. */
-uint32_t jox_world_machine(const JoWorld *world, const char *path);
+uint32_t jox_world_find_machine(const JoWorld *world, const char *path);
 /* Lists parties, who has come in and the places of single agents as state. */
 void jox_population_sections(JoWorld *world, JoxSections *sections);
 

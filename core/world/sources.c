@@ -17,7 +17,7 @@ static const double NEARLY = 1e-9; /* s: times of steps are sums of rounded step
 
 /* ---- entrances ---- */
 
-uint32_t jox_source_doors(const JoWorld *world, uint32_t source) {
+uint32_t jox_source_count_doors(const JoWorld *world, uint32_t source) {
     const JoxPlace *place = &world->model.places[world->model.sources[source].place];
     return jox_place_is_set(place) ? place->member_count : 1;
 }
@@ -29,9 +29,8 @@ uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number)
 }
 
 const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t number) {
-    return jox_entrances_get(&world->scratch.entrances, jox_world_met_walls(world),
-                             world->model.places, world->model.scene_places,
-                             jox_source_door(world, source, number));
+    return jox_entrances_get(&world->scratch.entrances, jox_world_walls(world), world->model.places,
+                             world->model.scene_places, jox_source_door(world, source, number));
 }
 
 /* ---- where people come in ---- */
@@ -121,14 +120,14 @@ static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t n
         if (pick_door(world, s, doors, n) != number)
             continue;
         const JoxV2 at = draw_point(world, &world->model.places[door], entrance, s, n);
-        JoxBirth birth = jox_world_birth_of(world, source->like, at);
+        JoxBirth birth = jox_world_birth(world, source->like, at);
         if (source->memory_count > 0) {
             birth.memory = source->memory;
             birth.memory_count = source->memory_count;
         }
         birth.wish = wish_on(entrance, at, world->model.group_count + 1 + door);
         uint32_t agent = JOX_NO_INDEX;
-        const JoxBirthSpot spot = jox_world_bear(world, &birth, &agent);
+        const JoxBirthSpot spot = jox_world_spawn(world, &birth, &agent);
         full = spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_NOT_FOUND;
         if (agent == JOX_NO_INDEX)
             continue;
@@ -236,21 +235,21 @@ static void run_source(JoWorld *world, uint32_t s) {
     const uint32_t missing = count_missing(world, source, time);
     const double all = scheduled + missing;
     const uint32_t due = all > AT_ONCE ? AT_ONCE : (uint32_t)all,
-                   doors = jox_source_doors(world, s);
-    uint32_t came = 0;
+                   doors = jox_source_count_doors(world, s);
+    uint32_t entered = 0;
     for (uint32_t door = 0; due > 0 && door < doors; door++)
-        came += fill_door(world, s, doors, door, due);
-    const double of_schedule = came < scheduled ? came : scheduled;
+        entered += fill_door(world, s, doors, door, due);
+    const double of_schedule = entered < scheduled ? entered : scheduled;
     *made += of_schedule;
-    figures->came += came;
+    figures->entered += entered;
     if (missing > 0 || figures->kept > 0)
-        figures->kept = missing - (uint64_t)(came - of_schedule);
-    JOX_ASSERT(*made <= figures->due || came == 0);
+        figures->kept = missing - (uint64_t)(entered - of_schedule);
+    JOX_ASSERT(*made <= figures->due || entered == 0);
 }
 
-void jox_world_sources(JoWorld *world) {
+void jox_world_run_sources(JoWorld *world) {
     if (world->model.source_count > 0)
-        jox_world_raise_walls(world);
+        jox_world_apply_walls(world);
     for (uint32_t s = 0; s < world->model.source_count; s++)
         run_source(world, s);
 }
@@ -269,7 +268,7 @@ bool jox_source_is_over(const JoWorld *world, uint32_t s) {
 
 /* ---- model and state ---- */
 
-void jox_source_name(const JoWorld *world, uint32_t s, JoxText *out) {
+void jox_source_append_name(const JoWorld *world, uint32_t s, JoxText *out) {
     const JoxWorldModel *m = &world->model;
     uint32_t shared = 0, twins = 0;
     for (uint32_t o = 0; o < m->source_count; o++) {
@@ -303,7 +302,7 @@ void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32
                 continue;
             const double late = state->figures[s].due - state->made[s];
             made[s] -= late < 0.0 ? 0.0 : late < made[s] ? late : made[s];
-            figures[s].came = state->figures[s].came;
+            figures[s].entered = state->figures[s].entered;
         }
         jox_free(state->arrivals);
         jox_free(state->made);
@@ -312,7 +311,7 @@ void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32
     }
     model->sources = sources;
     model->source_count = count;
-    jox_entrances_renew(&world->scratch.entrances);
+    jox_entrances_clear(&world->scratch.entrances);
 }
 
 void jox_sources_sections(JoWorld *world, JoxSections *s) {

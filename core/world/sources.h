@@ -4,7 +4,7 @@
 
 #include "base/format/diag.h"
 #include "base/sections.h"
-#include "world/entrances.h"
+#include "world/entrance_cache.h"
 
 typedef struct JoWorld JoWorld;
 typedef struct JoxGroupValue JoxGroupValue;
@@ -28,8 +28,8 @@ typedef struct JoxAgentSource {
 
 /* Of one source, for those who read a run. */
 typedef struct JoxSourceFigures {
-    double due;    /* people, by rate, curve and times, when people last came in */
-    uint64_t came; /* people who came in, those of a kept number too */
+    double due;       /* people, by rate, curve and times, when people last came in */
+    uint64_t entered; /* people who came in, those of a kept number too */
     uint64_t
         kept; /* people who are missing from a kept number and did not come in when last counted */
 } JoxSourceFigures;
@@ -57,10 +57,10 @@ void jox_world_set_sources(JoWorld *world, const JoxAgentSource *sources, uint32
                            bool anew);
 /* Before a step: makes the agents that sources are due. Where a place is full, they wait until
    there is room; whoever waits when a source ends does not come. */
-void jox_world_sources(JoWorld *world);
+void jox_world_run_sources(JoWorld *world);
 
 /* How many members a source's place has, 1 where it is no set; and one of them. */
-uint32_t jox_source_doors(const JoWorld *world, uint32_t source);
+uint32_t jox_source_count_doors(const JoWorld *world, uint32_t source);
 uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number);
 /* The entrance of one of them, by the walls that stand. */
 const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t number);
@@ -69,7 +69,7 @@ double jox_source_waiting(const JoWorld *world, uint32_t source);
 /* Whether a source has ended: whoever is still due does not come. */
 bool jox_source_is_over(const JoWorld *world, uint32_t source);
 /* Appends the name of a source: that of its place; where others share it, with its group. */
-void jox_source_name(const JoWorld *world, uint32_t source, JoxText *out);
+void jox_source_append_name(const JoWorld *world, uint32_t source, JoxText *out);
 /* Lists counts as state. */
 void jox_sources_sections(JoWorld *world, JoxSections *sections);
 

@@ -83,7 +83,7 @@ void jox_stage_push(const JoxPushStage *s) {
         jox_force_contact(s->forces_of);
     }
     jox_force_sum(s->forces_of);
-    jox_inspect_pushed(s->inspection, s->agents, s->forces_of);
+    jox_inspect_after_push(s->inspection, s->agents, s->forces_of);
     if (!s->substep->last)
         return;
     use_up_external(s->agents->ext_x, s->agents->last_ext_x, s->agents->count);
@@ -103,8 +103,8 @@ void jox_stage_solve(const JoxSolveStage *s) {
     s->statistics->walls_relaxed +=
         jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
                       jox_force_contact_planes(s->forces_of), &planning, s->pool);
-    jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
-                       jox_force_contact_planes(s->forces_of), s->substep->planning_time);
+    jox_inspect_after_solve(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
+                            jox_force_contact_planes(s->forces_of), s->substep->planning_time);
 }
 
 void jox_stage_move(const JoxMoveStage *s) {
@@ -123,13 +123,13 @@ void jox_stage_bodies(const JoxBodyStage *s) {
         return;
     if (s->substep->first)
         jox_bodies_reset_impulse_sums(s->bodies);
-    jox_bodies_carried(s);
-    jox_bodies_dragged(s);
+    jox_stage_carry_bodies(s);
+    jox_stage_drag_bodies(s);
     if (!s->statistics->bonds.touched)
-        jox_bonds_note_touch(s);
-    JoxBodiesReport report = jox_bodies_advance(s);
-    jox_bonds_note_breaks(s, &report);
-    jox_happened_bodies(s->happened, &report, s->discs->discs);
+        jox_stage_note_bond_touch(s);
+    JoxBodiesReport report = jox_stage_step_bodies(s);
+    jox_stage_note_bond_breaks(s, &report);
+    jox_step_events_add_bodies(s->step_events, &report, s->discs->discs);
     s->statistics->bodies_lost += report.gone_count;
     s->statistics->bullet_s += report.bullet_s;
     if (report.gone_count)
@@ -139,7 +139,7 @@ void jox_stage_bodies(const JoxBodyStage *s) {
 void jox_stage_infer(const JoxInferStage *s) {
     if (s->forces)
         jox_force_infer(s->forces_of);
-    jox_inspect_inferred(s->inspection, s->agents, s->forces_of);
+    jox_inspect_after_infer(s->inspection, s->agents, s->forces_of);
 }
 
 void jox_stage_observe(const JoxObserveStage *s) {
@@ -154,9 +154,9 @@ void jox_stage_observe(const JoxObserveStage *s) {
     for (uint32_t i = 0; i < a->count; i++) {
         if (!a->removed[i])
             continue;
-        JOX_RESERVE(s->gone->items, s->gone->capacity, s->gone->count + 1);
-        s->gone->items[s->gone->count++] = (JoxV2){a->x[i], a->y[i]};
+        JOX_RESERVE(s->departures->items, s->departures->capacity, s->departures->count + 1);
+        s->departures->items[s->departures->count++] = (JoxV2){a->x[i], a->y[i]};
     }
-    JOX_ASSERT(s->gone->count <= a->count);
+    JOX_ASSERT(s->departures->count <= a->count);
     s->statistics->removed += jox_agents_compact(a);
 }

@@ -10,11 +10,11 @@
 #include "geom/hands.h"
 #include "machine/run.h"
 #include "nav/nav.h"
-#include "world/drag.h"
-#include "world/happened/happened.h"
-#include "world/inspected.h"
+#include "world/agent_inspection.h"
+#include "world/dragged_bodies.h"
 #include "world/routes/routes.h"
 #include "world/statistics.h"
+#include "world/step_events/step_events.h"
 
 /* A step longer than people plan ahead is done in equal substeps; think and observe run once. */
 typedef struct JoxSubstep {
@@ -132,17 +132,17 @@ typedef struct JoxBodyStage {
     JoxStatistics *statistics;
     JoxBodyGone *lost;      /* becomes the first that is lost in this substep, if any is */
     JoxDriveLoad *overload; /* likewise of driven bodies that met limits at which the world ends */
-    JoxHappened *happened;  /* hits and breaks, for those who ask */
+    JoxStepEvents *step_events; /* hits and breaks, for those who ask */
 } JoxBodyStage;
 void jox_stage_bodies(const JoxBodyStage *stage);
 /* Its steps: bodies that are picked up, carried and thrown; forces on those that are dragged; who
    is before a bonded body or touches it; the step of the bodies with what they do to people; what
    broke. */
-void jox_bodies_carried(const JoxBodyStage *stage);
-void jox_bodies_dragged(const JoxBodyStage *stage);
-void jox_bonds_note_touch(const JoxBodyStage *stage);
-JoxBodiesReport jox_bodies_advance(const JoxBodyStage *stage);
-void jox_bonds_note_breaks(const JoxBodyStage *stage, const JoxBodiesReport *report);
+void jox_stage_carry_bodies(const JoxBodyStage *stage);
+void jox_stage_drag_bodies(const JoxBodyStage *stage);
+void jox_stage_note_bond_touch(const JoxBodyStage *stage);
+JoxBodiesReport jox_stage_step_bodies(const JoxBodyStage *stage);
+void jox_stage_note_bond_breaks(const JoxBodyStage *stage, const JoxBodiesReport *report);
 
 typedef struct JoxInferStage {
     bool forces;
@@ -153,11 +153,11 @@ typedef struct JoxInferStage {
 void jox_stage_infer(const JoxInferStage *stage);
 
 /* Where those stood who left of their own accord in the last step, m. */
-typedef struct JoxGone {
+typedef struct JoxDepartures {
     JoxV2 *items;
     uint32_t count;
     size_t capacity;
-} JoxGone;
+} JoxDepartures;
 
 typedef struct JoxObserveStage {
     const JoxSubstep *substep;
@@ -166,7 +166,7 @@ typedef struct JoxObserveStage {
     const JoxNeighbours *neighbours;
     const JoxV2 *walked;
     JoxAgents *agents; /* prev; those who leave are taken out */
-    JoxGone *gone;
+    JoxDepartures *departures;
     JoxStatistics *statistics;
 } JoxObserveStage;
 void jox_stage_observe(const JoxObserveStage *stage);

@@ -61,7 +61,7 @@ static void think(JoWorld *w, const JoxSubstep *substep) {
                                      .machines = machines,
                                      .statistics = &w->state.statistics});
     if (machines->notes.length) {
-        jox_text_append(&w->scratch.news, machines->notes.data, machines->notes.length);
+        jox_text_append(&w->scratch.messages, machines->notes.data, machines->notes.length);
         machines->notes.length = 0;
     }
 }
@@ -135,11 +135,11 @@ static void bodies(JoWorld *w, const JoxSubstep *substep) {
                                      .statistics = &w->state.statistics,
                                      .lost = &lost,
                                      .overload = &overload,
-                                     .happened = &w->scratch.happened});
+                                     .step_events = &w->scratch.step_events});
     if (lost.row != JOX_NO_BODY)
-        jox_world_lose_body(w, &lost);
+        jox_world_report_lost_body(w, &lost);
     if (overload.row != JOX_NO_BODY)
-        jox_world_overload(w, &overload);
+        jox_world_end_overloaded(w, &overload);
 }
 
 static void infer(JoWorld *w, const JoxSubstep *substep) {
@@ -157,7 +157,7 @@ static void observe(JoWorld *w, const JoxSubstep *substep) {
                                          .neighbours = &w->scratch.neighbours,
                                          .walked = w->scratch.walked,
                                          .agents = &w->state.agents,
-                                         .gone = &w->scratch.gone,
+                                         .departures = &w->scratch.departures,
                                          .statistics = &w->state.statistics});
 }
 
@@ -168,7 +168,7 @@ static uint32_t count_substeps(const JoWorldDef *def) {
                : (uint32_t)ceil(def->dt / PLANNING_TIME - 1e-6);
 }
 
-double jox_world_substep(const JoWorld *w) {
+double jox_world_substep_length(const JoWorld *w) {
     return w->model.def.dt / count_substeps(&w->model.def);
 }
 
@@ -227,28 +227,28 @@ bool jox_world_step(JoWorld *w) {
         [JOX_STAGE_BODIES] = bodies,     [JOX_STAGE_INFER] = infer, [JOX_STAGE_OBSERVE] = observe};
     if (w->failure[0])
         return false;
-    jox_world_events(w);
+    jox_world_run_events(w);
     jox_world_settle_walls(w);
-    jox_world_sources(w);
-    jox_world_starts(w);
+    jox_world_run_sources(w);
+    jox_world_spawn_due_starts(w);
     jox_nav_end_births(w->scratch.nav);
-    JOX_CHECK(jox_world_model_check(w));
-    JOX_CHECK(jox_world_agents_check(w));
+    JOX_CHECK(jox_world_check_model(w));
+    JOX_CHECK(jox_world_check_agents(w));
     const bool timed = w->scratch.timed || jox_pool_threads(w->scratch.pool) > 1;
     double begin = timed ? jox_clock_wall() : 0.0, cpu = timed ? jox_clock_cpu() : 0.0;
     double last = begin;
     if (w->model.reinserts_bodies &&
         w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now goes on alike */
         jox_bodies_reinsert(w->state.bodies);
-    jox_inspect_expire(w);
-    w->scratch.gone.count = 0;
-    jox_happened_begin(&w->scratch.happened);
+    jox_inspect_end_old(w);
+    w->scratch.departures.count = 0;
+    jox_step_events_clear(&w->scratch.step_events);
     bool good = true;
     const uint32_t substeps = divide(w);
     for (uint32_t number = 0; number < substeps && good; number++) {
         const JoxSubstep substep = substep_of(w, number, substeps);
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
-            if (stage == JOX_STAGE_OBSERVE && !jox_world_guard(w)) {
+            if (stage == JOX_STAGE_OBSERVE && !jox_world_guard_numbers(w)) {
                 good = false;
                 break;
             }
@@ -266,9 +266,9 @@ bool jox_world_step(JoWorld *w) {
     w->state.statistics.cpu_s += timed ? jox_clock_cpu() - cpu : 0.0;
     if (!good)
         return false;
-    jox_world_take_lost(w);
-    jox_world_exits(w);
-    JOX_CHECK(jox_world_agents_check(w));
-    JOX_CHECK(jox_world_lists_check(w));
+    jox_world_remove_lost(w);
+    jox_world_empty_sinks(w);
+    JOX_CHECK(jox_world_check_agents(w));
+    JOX_CHECK(jox_world_check_lists(w));
     return true;
 }

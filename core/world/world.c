@@ -40,7 +40,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->machines.walls = &world->model.all_walls;
     world->machines.wall_images = &world->scratch.images_only;
     world->state.routes = jox_routes_create();
-    world->state.walls_set = true;
+    world->state.walls_applied = true;
     return world;
 }
 
@@ -77,13 +77,13 @@ static void free_world(JoWorld *world) {
     jox_neighbours_free(&world->scratch.neighbours);
     jox_objects_free_grid(&world->scratch.objects);
     jox_free(world->scratch.walked);
-    jox_free(world->scratch.gone.items);
-    jox_happened_free(&world->scratch.happened);
+    jox_free(world->scratch.departures.items);
+    jox_step_events_free(&world->scratch.step_events);
     jox_free(world->scratch.discs.discs);
     jox_free(world->scratch.discs.agents);
     jox_hands_free(&world->scratch.hands);
     free_places(world);
-    jox_entrances_renew(&world->scratch.entrances);
+    jox_entrances_clear(&world->scratch.entrances);
     jox_free(world->state.sources.arrivals);
     jox_free(world->state.sources.made);
     jox_free(world->state.sources.figures);
@@ -92,7 +92,7 @@ static void free_world(JoWorld *world) {
     jox_free(world->state.population.entered);
     jox_free(world->model.starts);
     jox_exits_free(&world->state.exits);
-    jox_text_free(&world->scratch.news);
+    jox_text_free(&world->scratch.messages);
     jox_free(world->scratch.lost.ids);
     for (uint32_t i = 0; i < world->model.tag_count; i++)
         jox_free(world->model.tags[i]);
@@ -121,7 +121,7 @@ void jo_world_free(JoWorld *world) {
     jox_heap_free(heap);
 }
 
-int jox_world_set_team(JoWorld *world, const char *name) {
+int jox_world_add_team(JoWorld *world, const char *name) {
     JoxWorldModel *model = &world->model;
     for (uint32_t i = 0; i < model->set_team_count; i++)
         if (strcmp(model->set_teams[i], name) == 0)
@@ -132,7 +132,7 @@ int jox_world_set_team(JoWorld *world, const char *name) {
     return JOX_FIRST_SET_TEAM + (int)model->set_team_count++;
 }
 
-int jox_world_tag(JoWorld *world, const char *name) {
+int jox_world_add_tag(JoWorld *world, const char *name) {
     for (uint32_t i = 0; i < world->model.tag_count; i++)
         if (strcmp(world->model.tags[i], name) == 0)
             return (int)i;
@@ -157,4 +157,26 @@ uint32_t jox_world_add_agent(JoWorld *world, float x, float y) {
     a->y[i] = a->prev_y[i] = a->still_y[i] = y;
     world->state.statistics.spawned++;
     return i;
+}
+
+JoAgent jox_world_agent_handle(const JoWorld *world, uint32_t index) {
+    uint32_t slot = world->state.agents.slot[index];
+    JOX_ASSERT(world->state.agents.slot_index[slot] == index);
+    JOX_ASSERT(world->state.agents.slot_generation[slot] > 0); /* 0 is no agent */
+    return (JoAgent){slot, world->state.agents.slot_generation[slot]};
+}
+
+uint32_t jox_world_find_agent(const JoWorld *world, JoAgent agent) {
+    const JoxAgents *a = &world->state.agents;
+    if (jox_heap_has_failed(world->heap) || agent.generation == 0 || agent.slot >= a->slot_count ||
+        a->slot_generation[agent.slot] != agent.generation)
+        return JOX_NO_INDEX;
+    return a->slot_index[agent.slot];
+}
+
+uint32_t jox_world_find_body(const JoWorld *world, JoBody body) {
+    if (jox_heap_has_failed(world->heap) || body.generation == 0 ||
+        jox_bodies_id(world->state.bodies, body.slot) != body.generation - 1)
+        return JOX_NO_BODY;
+    return body.slot;
 }

@@ -17,17 +17,17 @@
 #include "machine/run.h"
 #include "nav/nav.h"
 #include "task/stage_memory.h"
-#include "world/drag.h"
-#include "world/events.h"
+#include "world/agent_inspection.h"
+#include "world/dragged_bodies.h"
 #include "world/exits.h"
-#include "world/happened/happened.h"
-#include "world/input/input.h"
-#include "world/inspected.h"
+#include "world/input/input_entries.h"
 #include "world/population.h"
 #include "world/routes/routes.h"
+#include "world/scheduled_events.h"
 #include "world/sources.h"
 #include "world/stages.h"
 #include "world/statistics.h"
+#include "world/step_events/step_events.h"
 
 enum { JOX_MOST_TAGS = 64 };
 /* m: height of walls that are given none, for bodies */
@@ -40,7 +40,7 @@ typedef struct JoxWorldModel {
     JoxWalkLaw walking;
     JoxWalls all_walls; /* with their names; whether one that opens is open now is state. Behind the
                            model's own stand those that were added, which are state */
-    uint32_t made_ring, made_vertex; /* where those begin, once there are some */
+    uint32_t added_ring, added_vertex; /* where those begin, once there are some */
     /* Owned; their indices never change. Behind the places of the scene stand those of single
        agents, which are state. */
     JoxPlace *places;
@@ -64,14 +64,14 @@ typedef struct JoxWorldModel {
 } JoxWorldModel;
 
 /* A wall that was added while the world runs. */
-typedef struct JoxMadeWall {
+typedef struct JoxAddedWall {
     char name[128];
     JoxV2 points[4]; /* m */
     uint32_t count;  /* 2: thin; 4: a solid */
     uint32_t open;   /* 0 or 1 */
     uint32_t is_new; /* 0 or 1: added or closed after people were last moved out of new walls */
-} JoxMadeWall;
-enum { JOX_MOST_MADE_WALLS = 4096 };
+} JoxAddedWall;
+enum { JOX_MOST_ADDED_WALLS = 4096 };
 
 /* All that the future of a world depends on, besides the model: jox_world_sections lists it. */
 typedef struct JoxWorldState {
@@ -85,10 +85,10 @@ typedef struct JoxWorldState {
     JoxPopulation population;
     JoxSourceState sources;
     uint32_t walls_version; /* counts the changes of the walls */
-    JoxMadeWall *made;      /* walls that were added to those of the model, in order */
-    uint32_t made_count;
-    size_t made_capacity;
-    bool walls_set;     /* scratch.walls, its images, nav and bodies are as all_walls says */
+    JoxAddedWall *made;     /* walls that were added to those of the model, in order */
+    uint32_t added_count;
+    size_t added_capacity;
+    bool walls_applied; /* scratch.walls, its images, nav and bodies are as all_walls says */
     bool has_new_walls; /* some edges of walls are marked as such, and people may stand there */
     JoxExits exits;     /* figures of the run, which no step reads */
     JoxStatistics statistics; /* likewise */
@@ -111,16 +111,16 @@ typedef struct JoxWorldScratch {
     JoxInspection inspection;
     JoxV2 *walked; /* per agent, m: during the substeps of the step so far; where it is divided */
     uint32_t walked_capacity;
-    JoxSubstep substep; /* what all substeps have in common, of one of this length */
-    JoxGone gone;       /* who left in the last step */
+    JoxSubstep substep;       /* what all substeps have in common, of one of this length */
+    JoxDepartures departures; /* who left in the last step */
     JoxDiscList discs;
     JoxHands hands;
-    JoxHappened happened; /* for programs that ask */
+    JoxStepEvents step_events; /* for programs that ask */
     struct {
         uint32_t *ids;
         uint32_t count, capacity;
-    } lost;       /* people whom the guard takes out at the end of the step */
-    JoxText news; /* what events could not do, and who was lost, a line each; whoever reads it
+    } lost;           /* people whom the guard takes out at the end of the step */
+    JoxText messages; /* what events could not do, and who was lost, a line each; whoever reads it
                      empties it */
 } JoxWorldScratch;
 
@@ -132,7 +132,8 @@ struct JoWorld {
     JoxWorldState state;
     JoxWorldScratch scratch;
     JoxMachineRun machines; /* joins the machines' parts of all three */
-    /* Is told of what programs do to it (world/verbs/act.c); NULL: nobody records it. */
+    /* Is told of what programs do to it (world/verbs/program_actions.c); NULL: nobody records it.
+     */
     void (*record)(void *context, JoxInputEntry *entry);
     void *record_context;
     char failure[1024]; /* why no further step can be done; "" while none failed */
@@ -144,9 +145,9 @@ JoWorld *jox_world_create(const JoWorldDef *def);
  */
 void jox_world_set_timed(JoWorld *world, bool timed);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */
-int jox_world_tag(JoWorld *world, const char *name);
+int jox_world_add_tag(JoWorld *world, const char *name);
 /* Number of a team that states set and no group has, added if new; -1 when all are taken. */
-int jox_world_set_team(JoWorld *world, const char *name);
+int jox_world_add_team(JoWorld *world, const char *name);
 /* The constants of the walking law, before the first step; until then they are its defaults. */
 void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law);
 /* Takes the places over, once, before agents are spawned. The array has room for `capacity` of
@@ -159,25 +160,25 @@ uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
    before a step. */
 void jox_world_settle_walls(JoWorld *world);
 /* Brings the walls that stand into effect, unless they are. */
-void jox_world_raise_walls(JoWorld *world);
+void jox_world_apply_walls(JoWorld *world);
 /* Returns the standing walls and, if edges are joined, their images. */
-const JoxWalls *jox_world_met_walls(const JoWorld *world);
+const JoxWalls *jox_world_walls(const JoWorld *world);
 /* Brings the last ring of all_walls into effect, which was added before the first step: who stands
    there is moved out with it. */
-void jox_world_wall_came(JoWorld *world);
+void jox_world_note_new_wall(JoWorld *world);
 /* Takes walls over, in place of all there are. Those whose names were opened or closed before stay
    so. Who stands in a new wall is moved out before the next step. */
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
 /* Adds a wall to those of the model: a thin one between two points, else a solid. Who stands there
    is moved out before the next step. False with a sentence in `why`. */
-bool jox_world_make_wall(JoWorld *world, const char *name, const JoxV2 *points, uint32_t count,
-                         JoxText *why);
+bool jox_world_add_wall(JoWorld *world, const char *name, const JoxV2 *points, uint32_t count,
+                        JoxText *why);
 /* Takes out those of a name that were added; false where there is none. */
-bool jox_world_unmake_walls(JoWorld *world, const char *name);
+bool jox_world_remove_walls(JoWorld *world, const char *name);
 /* Where they begin, before the first of them. */
-void jox_world_mark_made(JoWorld *world);
+void jox_world_mark_added_walls(JoWorld *world);
 /* Puts the walls that were added behind those of the model, in place of those that were there. */
-void jox_world_lay_made(JoWorld *world);
+void jox_world_append_added_walls(JoWorld *world);
 /* Opens or closes the walls of a name; says how many there are. */
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
 /* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
@@ -207,31 +208,31 @@ bool jox_world_step(JoWorld *world);
 /* Looks for people with a number that is not finite, or beyond 10 km of the origin: false, with the
    first in `failure`, where that ends the world. Else they are put back to where the substep began,
    at rest, and listed to be taken out where the def says so. */
-bool jox_world_guard(JoWorld *world);
+bool jox_world_guard_numbers(JoWorld *world);
 /* The same of a body that the last stage found, and has dealt with. */
-void jox_world_lose_body(JoWorld *world, const JoxBodyGone *gone);
+void jox_world_report_lost_body(JoWorld *world, const JoxBodyGone *gone);
 /* Ends the world: a driven body met a limit at which it does. */
-void jox_world_overload(JoWorld *world, const JoxDriveLoad *load);
+void jox_world_end_overloaded(JoWorld *world, const JoxDriveLoad *load);
 #define JOX_WORLD_FARTHEST                                                                         \
     10000.0f /* m, from the origin: floats still resolve a millimetre there */
 /* Takes out those who are listed. */
-void jox_world_take_lost(JoWorld *world);
+void jox_world_remove_lost(JoWorld *world);
 /* For JOX_CHECK, between steps: ids, ranks, slots and indices of the agents agree with each other
    and with the model; places, groups, sources and sinks name things that there are; what people
    want, inspect and drag is listed once each, and figures add up. */
-void jox_world_agents_check(const JoWorld *world);
+void jox_world_check_agents(const JoWorld *world);
 /* What of this, or of the bounds of people's numbers, does not hold between two steps, as the code
    has it; NULL: all of it holds. */
-const char *jox_world_fault(const JoWorld *world);
-void jox_world_model_check(const JoWorld *world);
-void jox_world_lists_check(const JoWorld *world);
+const char *jox_world_find_fault(const JoWorld *world);
+void jox_world_check_model(const JoWorld *world);
+void jox_world_check_lists(const JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX; and the handle of the one at an index. */
-uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
-JoAgent jox_world_handle(const JoWorld *world, uint32_t index);
+uint32_t jox_world_find_agent(const JoWorld *world, JoAgent agent);
+JoAgent jox_world_agent_handle(const JoWorld *world, uint32_t index);
 /* Row of a live body, or JOX_NO_BODY. */
 uint32_t jox_world_find_body(const JoWorld *world, JoBody body);
 /* s: the length of a step, or of the parts in which it is done. */
-double jox_world_substep(const JoWorld *world);
+double jox_world_substep_length(const JoWorld *world);
 /* What routes are made of, in this world. */
 JoxRouteStage jox_world_route_stage(JoWorld *world);
 /* Lists the state, in one order for all modes. */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "support/fuzz.h"
-#include "world/input/input.h"
+#include "world/input/input_entries.h"
 
 /* Entries of one line alone: the files of others are their own text. */
 static void read_back(const JoxInputEntry *entry) {

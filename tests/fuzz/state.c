@@ -77,8 +77,8 @@ static void step_world(int steps) {
     JOX_GUARD (scene->heap, NULL)
         return;
     while (steps-- > 0 && jox_world_step(scene->world))
-        jox_text_free(&scene->world->scratch.news);
-    jox_text_free(&scene->world->scratch.news);
+        jox_text_free(&scene->world->scratch.messages);
+    jox_text_free(&scene->world->scratch.messages);
 }
 
 static bool save_world(JoxText *out) {

@@ -125,7 +125,7 @@ static void inspection_between_steps_predicts_the_next_step(void **state) {
         const uint32_t i = a->by_rank[(uint32_t)n * 7 % a->count], slot = a->slot[i];
         for (uint32_t k = scene->world->scratch.inspection.count; k-- > 0;)
             scene->world->scratch.inspection.agents[k].asked = UINT32_MAX; /* makes it expire */
-        jox_inspect_expire(scene->world);
+        jox_inspect_end_old(scene->world);
         assert_int_equal(scene->world->scratch.inspection.count, 0);
         const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
         assert_true(seen && seen->seen);

@@ -174,7 +174,7 @@ static JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double vy) {
     JoAgent one = jo_world_add_agent(e->world, &def, &error);
     if (!one.generation)
         fail_msg("%s", error.text);
-    uint32_t i = jox_world_find(e->world, one);
+    uint32_t i = jox_world_find_agent(e->world, one);
     e->world->state.agents.vx[i] = (float)vx;
     e->world->state.agents.vy[i] = (float)vy;
     if (e->coasting) {
@@ -189,7 +189,7 @@ static JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double vy) {
 
 static void avoid_nobody(Encounter *e, JoAgent who) {
     JoxAgents *a = &e->world->state.agents;
-    uint32_t i = jox_world_find(e->world, who);
+    uint32_t i = jox_world_find_agent(e->world, who);
     a->tags[i] = a->ignore[i] = 1;
 }
 
@@ -375,7 +375,7 @@ static void unseen_box_adds_no_energy(void **state) {
             Growth g = watch(&e, def.dt, false);
             JoAgentState s = jo_agent_state(e.world, one);
             fastest = fmax(fastest, hypot(s.vx, s.vy));
-            bool touches = e.world->state.agents.contacts[jox_world_find(e.world, one)] > 0;
+            bool touches = e.world->state.agents.contacts[jox_world_find_agent(e.world, one)] > 0;
             if (g.step > TIPS && (touches || k < 4))
                 fail_msg("at dt %g, perception %g: %.3g of 10 J is added at %.3f s; the person "
                          "goes at %.3f m/s",

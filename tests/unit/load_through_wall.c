@@ -83,7 +83,7 @@ static void standing_person_feels_nothing_through_wall(void **state) {
             const JoxAgents *a = &s.world->state.agents;
             for (int part = 0; part < 30; part++) {
                 press_sides(&s, 0.1, 1000.0, 0.0);
-                uint32_t right = jox_world_find(s.world, s.right);
+                uint32_t right = jox_world_find_agent(s.world, s.right);
                 if (a->inferred_x[right] != 0.0f || a->contact_x[right] != 0.0f)
                     fail_msg("at dt %g the one behind the wall gets %g N passed on and %g N by "
                              "contact",
@@ -105,7 +105,7 @@ static void pushes_and_runs_end_at_wall(void **state) {
             Sides s = open_sides(STEPS[k], -2.0, 2.0, 0.02, 3.0);
             JoxAgents *a = &s.world->state.agents;
             if (run) {
-                uint32_t left = jox_world_find(s.world, s.left);
+                uint32_t left = jox_world_find_agent(s.world, s.left);
                 a->vx[left] = 2.0f;
             } else {
                 jo_agent_set_parameter(s.world, s.left, "push", 300.0, NULL);
@@ -113,7 +113,7 @@ static void pushes_and_runs_end_at_wall(void **state) {
             }
             for (int step = 0; step < (int)(2.0 / STEPS[k]); step++) {
                 jo_world_step(s.world, 1);
-                uint32_t right = jox_world_find(s.world, s.right);
+                uint32_t right = jox_world_find_agent(s.world, s.right);
                 if (a->push_x[right] != 0.0f || a->inferred_x[right] != 0.0f)
                     fail_msg("at dt %g the one behind the wall is pushed by %g N and gets %g N "
                              "passed on",
@@ -140,7 +140,8 @@ static void people_touch_beyond_end_of_wall(void **state) {
             jo_agent_set_parameter(s.world, s.left, "push", 300.0, NULL);
             jo_agent_set_preferred(s.world, s.left, 1.3, 0.0);
             jo_world_step(s.world, 1);
-            assert_true(s.world->state.agents.push_x[jox_world_find(s.world, s.right)] > 299.0f);
+            assert_true(s.world->state.agents.push_x[jox_world_find_agent(s.world, s.right)] >
+                        299.0f);
             jo_world_free(s.world);
         }
 }

@@ -305,8 +305,8 @@ static void haste_bounds_eagerness(void **state) {
         for (int n = 0; n < 20 * 20; n++)
             run_walk_step(&c);
         const JoxAgents *a = &c.world->state.agents;
-        uint32_t lone = jox_world_find(c.world, c.people[0]);
-        uint32_t middle = jox_world_find(c.world, c.people[13]);
+        uint32_t lone = jox_world_find_agent(c.world, c.people[0]);
+        uint32_t middle = jox_world_find_agent(c.world, c.people[13]);
         assert_true(fabsf(a->eager[lone] - cases[k].alone) < 0.02f);
         assert_true(fabsf(a->eager[middle] - cases[k].among) < 0.02f);
         jo_world_free(c.world);

@@ -315,10 +315,10 @@ static void distrust_names_overlap_and_density(void **state) {
     (void)state;
     JoxText text = {0};
     assert_true(jox_trust_holds(0.1, 10.0) && jox_trust_holds(NAN, NAN));
-    jox_trust_say(0.1, 10.0, &text);
+    jox_trust_append_signs(0.1, 10.0, &text);
     assert_int_equal(text.length, 0);
     assert_false(jox_trust_holds(0.101, NAN) || jox_trust_holds(0.0, 10.1));
-    jox_trust_say(0.36, 12.7, &text);
+    jox_trust_append_signs(0.36, 12.7, &text);
     assert_non_null(strstr(text.data, "overlap by 36 % of a diameter"));
     assert_non_null(strstr(text.data, "reached 12.7 per m"));
     jox_text_free(&text);

@@ -225,7 +225,7 @@ static void run_mix(Mix *m, Sums *all) {
     add_bodies(m, scene->world);
     for (int n = 0; n < STEPS; n++) {
         step_scene(scene, 1);
-        const char *fault = jox_world_fault(scene->world);
+        const char *fault = jox_world_find_fault(scene->world);
         if (fault)
             fail_msg("scene %llu, step %d: %s", (unsigned long long)m->number, n, fault);
         check_bodies(m, scene->world);

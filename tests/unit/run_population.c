@@ -264,15 +264,15 @@ static void search_ended_by_its_bound_is_told(void **state) {
     JoWorld *w = scene->world;
     uint32_t agent;
     JoxText told = {0};
-    assert_int_equal(jox_world_spawn(w, 0, jox_v2(0, 0), &agent), JOX_BIRTH_SHIFTED);
+    assert_int_equal(jox_world_spawn_at(w, 0, jox_v2(0, 0), &agent), JOX_BIRTH_SHIFTED);
     w->scratch.nav->spots.looked = JOX_SPOTS_MOST;
-    const JoxBirthSpot spot = jox_world_spawn(w, 0, jox_v2(1, 0), &agent);
+    const JoxBirthSpot spot = jox_world_spawn_at(w, 0, jox_v2(1, 0), &agent);
     assert_int_equal(spot, JOX_BIRTH_NOT_FOUND);
-    jox_world_say_unplaced(spot, 1, 0, &told);
+    jox_world_explain_unplaced(spot, 1, 0, &told);
     assert_non_null(strstr(told.data, "was ended, as 5000000 spots had been looked at"));
     jox_text_free(&told);
     w->scratch.nav->spots.looked = 0;
-    assert_int_equal(jox_world_spawn(w, 0, jox_v2(1, 0), &agent), JOX_BIRTH_SHIFTED);
+    assert_int_equal(jox_world_spawn_at(w, 0, jox_v2(1, 0), &agent), JOX_BIRTH_SHIFTED);
     jo_scene_free(scene);
 }
 

@@ -112,14 +112,14 @@ static void demand_that_is_not_met_is_counted(void **state) {
     step_scene(scene, 21); /* the last begins at 1 s */
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 20);
-    assert_int_equal(demand.came + demand.waiting, 20);
+    assert_int_equal(demand.entered + demand.waiting, 20);
     step_scene(scene, 400); /* to 21 s */
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 200);
-    assert_int_equal(demand.came, scene->world->state.agents.count);
+    assert_int_equal(demand.entered, scene->world->state.agents.count);
     assert_int_equal(demand.waiting, 0); /* it ended at 10 s */
-    assert_int_equal(demand.did_not_come, 200 - demand.came);
-    assert_in_range(demand.came, 15, 60);
+    assert_int_equal(demand.did_not_come, 200 - demand.entered);
+    assert_in_range(demand.entered, 15, 60);
     jo_scene_free(scene);
 
     scene = load_scene_text(SOURCE("", YARD, ", keep: 50"), STANDER);
@@ -135,7 +135,7 @@ static void demand_that_is_not_met_is_counted(void **state) {
     step_scene(scene, 240); /* 12 s */
     demand = jox_run_demand(scene, 0);
     assert_int_equal(demand.due, 27);
-    assert_int_equal(demand.came, 27);
+    assert_int_equal(demand.entered, 27);
     assert_int_equal(demand.waiting, 0);
     jo_scene_free(scene);
 }
@@ -153,7 +153,7 @@ static void people_due_do_not_depend_on_the_step(void **state) {
         JoScene *scene = load_scene_file(test_path("scene.yaml"), &STEPS[n], 1);
         while (jo_world_time(scene->world) < 12.0)
             step_scene(scene, 1);
-        assert_int_equal(jox_run_demand(scene, 0).came, 70 + 20 + 15);
+        assert_int_equal(jox_run_demand(scene, 0).entered, 70 + 20 + 15);
         jo_scene_free(scene);
     }
 }

@@ -36,7 +36,7 @@ static void add_row(JoWorld *world, JoAgent row[10]) {
 }
 
 static const char *news(const JoWorld *world) {
-    return world->scratch.news.data ? world->scratch.news.data : "";
+    return world->scratch.messages.data ? world->scratch.messages.data : "";
 }
 
 static void nobody_passes_a_wall_at_any_speed(void **state) {
@@ -58,7 +58,7 @@ static void nobody_passes_a_wall_at_any_speed(void **state) {
 
 /* Number n of a row gets a number that is wrong, and the world does a step. */
 static void spoil(JoWorld *world, JoAgent agent, float *column, float value) {
-    const uint32_t i = jox_world_find(world, agent);
+    const uint32_t i = jox_world_find_agent(world, agent);
     assert_int_not_equal(i, JOX_NO_INDEX);
     column[i] = value;
     jo_world_step(world, 1);

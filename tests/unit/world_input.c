@@ -13,7 +13,7 @@
 
 #include "base/mem.h"
 #include "base/number/random.h"
-#include "world/verbs/verbs.h"
+#include "world/verbs/verb_table.h"
 
 static const char ALL[] = "# a comment\n"
                           "\n"
@@ -122,7 +122,7 @@ static void each_example_is_right(void **state) {
         jox_text_free(&text);
     }
     JoxText page = {0};
-    jox_input_reference(&page);
+    jox_input_append_reference(&page);
     const char *files = strstr(page.data, "    118 files");
     assert_non_null(files);
     JoxText block = {0};
@@ -226,11 +226,11 @@ static void one_line_by_itself(void **state) {
     JoxText said = {0};
     for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
         said.length = 0;
-        if (jox_input_read(BAD[b], &entry, &said) || said.length < 10)
+        if (jox_input_read_line(BAD[b], &entry, &said) || said.length < 10)
             fail_msg("'%s' was read, or not explained", BAD[b]);
     }
     said.length = 0;
-    assert_true(jox_input_read("  open   gate  # now", &entry, &said));
+    assert_true(jox_input_read_line("  open   gate  # now", &entry, &said));
     assert_string_equal(entry.names[0], "gate");
     assert_int_equal(entry.line, 0);
     jox_input_entry_free(&entry);
@@ -238,7 +238,7 @@ static void one_line_by_itself(void **state) {
     memset(longest, 'a', sizeof longest);
     memcpy(longest, "open ", 5);
     longest[4999] = 0;
-    assert_false(jox_input_read(longest, &entry, &said));
+    assert_false(jox_input_read_line(longest, &entry, &said));
     jox_text_free(&said);
 }
 

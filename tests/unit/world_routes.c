@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "base/number/elementary.h"
-#include "world/routes/obstacles.h"
+#include "world/routes/body_obstacles.h"
 
 /* A box of 2 a by 2 b m about (x, y), turned. */
 static JoxObject box(uint32_t id, float x, float y, float a, float b, double angle) {

@@ -7,7 +7,7 @@ bool jox_trust_holds(double overlap_p99, double density_max) {
     return !(overlap_p99 > JOX_TRUST_OVERLAP) && !(density_max > JOX_TRUST_DENSITY);
 }
 
-void jox_trust_say(double overlap_p99, double density_max, JoxText *out) {
+void jox_trust_append_signs(double overlap_p99, double density_max, JoxText *out) {
     const bool deep = overlap_p99 > JOX_TRUST_OVERLAP, dense = density_max > JOX_TRUST_DENSITY;
     if (!deep && !dense)
         return;

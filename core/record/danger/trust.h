@@ -15,6 +15,6 @@
 /* Returns false if a sign is present. NAN is an unknown value and no sign. */
 bool jox_trust_holds(double overlap_p99, double density_max);
 /* Appends a sentence that names the signs; nothing if there are none. */
-void jox_trust_say(double overlap_p99, double density_max, JoxText *out);
+void jox_trust_append_signs(double overlap_p99, double density_max, JoxText *out);
 
 #endif

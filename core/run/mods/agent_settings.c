@@ -8,7 +8,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/mods/settings.h"
-#include "world/inspected.h"
+#include "world/agent_inspection.h"
 
 /* The agent, and the list being made. */
 typedef struct Search {

@@ -154,7 +154,7 @@ static void say_trust(const JoScene *scene, JoxText *out) {
     if (jox_trust_holds(overlap, density))
         return;
     jox_text_add(out, " ");
-    jox_trust_say(overlap, density, out);
+    jox_trust_append_signs(overlap, density, out);
 }
 
 /* Appends the flow probes whose line was crossed only against the direction that it counts: their

@@ -8,10 +8,10 @@ enum { MOST_TOLD = 5 }; /* sources named in the closing lines */
 
 JoxDemand jox_run_demand(const JoScene *scene, uint32_t source) {
     const double late = jox_source_waiting(scene->world, source),
-                 came = (double)scene->world->state.sources.figures[source].came;
+                 entered = (double)scene->world->state.sources.figures[source].entered;
     const bool over = jox_source_is_over(scene->world, source);
-    return (JoxDemand){.due = came + late,
-                       .came = came,
+    return (JoxDemand){.due = entered + late,
+                       .entered = entered,
                        .waiting = over ? 0.0 : late,
                        .did_not_come = over ? late : 0.0};
 }
@@ -23,10 +23,10 @@ void jox_run_add_demand(const JoScene *scene, JoxJson *json) {
     for (uint32_t s = 0; s < scene->spec->source_count; s++) {
         const JoxDemand demand = jox_run_demand(scene, s);
         JoxText name = {0};
-        jox_source_name(scene->world, s, &name);
+        jox_source_append_name(scene->world, s, &name);
         jox_json_object(json, name.data);
         jox_json_number(json, "due", demand.due);
-        jox_json_number(json, "came", demand.came);
+        jox_json_number(json, "came", demand.entered);
         jox_json_number(json, "waiting", demand.waiting);
         jox_json_number(json, "did_not_come", demand.did_not_come);
         jox_json_end(json);
@@ -37,7 +37,7 @@ void jox_run_add_demand(const JoScene *scene, JoxJson *json) {
 
 /* Returns whether an entrance of the source has floor that is free of walls. */
 static bool has_free_entrance(const JoScene *scene, uint32_t source) {
-    for (uint32_t d = 0; d < jox_source_doors(scene->world, source); d++)
+    for (uint32_t d = 0; d < jox_source_count_doors(scene->world, source); d++)
         if (jox_source_entrance(scene->world, source, d)->area > 0.0)
             return true;
     return false;
@@ -57,9 +57,9 @@ void jox_run_say_demand(const JoScene *scene, JoxText *out) {
         }
         told++;
         jox_text_printf(out, " %s of %s due came: source '",
-                        jox_number_text(came, (uint64_t)demand.came),
+                        jox_number_text(came, (uint64_t)demand.entered),
                         jox_noun(due, (uint64_t)demand.due, "person|people"));
-        jox_source_name(scene->world, s, out);
+        jox_source_append_name(scene->world, s, out);
         jox_text_printf(out, "' (%.200s:%d) %s.", at.file, at.line,
                         has_free_entrance(scene, s) ? "was full" : "lies in walls");
         if (demand.did_not_come > 0.0)

@@ -8,7 +8,7 @@
 
 /* People of a source so far: due, arrived, waiting for room, and not arrived before its end. */
 typedef struct JoxDemand {
-    double due, came, waiting, did_not_come;
+    double due, entered, waiting, did_not_come;
 } JoxDemand;
 JoxDemand jox_run_demand(const JoScene *scene, uint32_t source);
 /* Adds ,"sources": {...} to a summary, if the scene has sources. */

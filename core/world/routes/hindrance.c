@@ -31,7 +31,7 @@ struct JoxHindrances {
     JoxField *fields[CLASSES][LAYERS]; /* by class of radius */
 };
 
-uint32_t jox_hindrance_gate_on(const JoxRouteStage *stage, uint32_t index) {
+uint32_t jox_hindrance_find_gate(const JoxRouteStage *stage, uint32_t index) {
     const JoxPlace *place = &stage->places[index];
     const JoxWalls *walls = stage->all_walls;
     const float on = 0.01f; /* m */
@@ -57,7 +57,7 @@ JoxHindrances *jox_hindrances_create(const JoxRouteStage *stage, uint32_t place,
                          .later = *stage,
                          .later_walls = *walls,
                          .place = place,
-                         .gate = jox_hindrance_gate_on(stage, place)};
+                         .gate = jox_hindrance_find_gate(stage, place)};
     h->later.all_walls = &h->later_walls;
     h->later_walls.rings = jox_alloc((size_t)walls->ring_count + 1, sizeof *walls->rings);
     for (uint32_t r = 0; r < walls->ring_count; r++) {
@@ -77,14 +77,14 @@ void jox_hindrances_free(JoxHindrances *h) {
 }
 
 static JoxField *make_field(const JoxHindrances *h, Layer layer, float clearance) {
-    const JoxRouteLook look = {
+    const JoxRouteFieldOptions look = {
         .gates = layer >= LASTING,
         .bodies = layer == WALLS ? 0
                   : layer == ALL ? JOX_OBSTACLES_ALL
                                  : 1u << JOX_OBSTACLE_FIXED,
         .clearance = clearance,
     };
-    return jox_routes_look(layer == LASTING ? &h->later : h->stage, h->place, &look);
+    return jox_routes_make_field(layer == LASTING ? &h->later : h->stage, h->place, &look);
 }
 
 static int class_of(float radius) {

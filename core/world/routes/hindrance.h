@@ -24,7 +24,7 @@ typedef struct JoxHindrance {
 
 /* Ring of the closed gate on which a place lies that is a point or a line: nobody leaves there
    while it is closed. UINT32_MAX: none. */
-uint32_t jox_hindrance_gate_on(const JoxRouteStage *stage, uint32_t place);
+uint32_t jox_hindrance_find_gate(const JoxRouteStage *stage, uint32_t place);
 
 /* The fields to one place, made as they are needed. */
 typedef struct JoxHindrances JoxHindrances;

@@ -6,8 +6,8 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "task/worker.h"
-#include "world/routes/obstacles.h"
-#include "world/routes/over_edges.h"
+#include "world/routes/body_obstacles.h"
+#include "world/routes/joined_edges.h"
 
 enum { MOST_FIELDS = 64 };
 /* m: the smallest that gives few enough cells to be done within DELAY; the largest still shows
@@ -211,7 +211,7 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_c
 }
 
 /* What a field is made of: what stands where now. `before`: the field that it replaces, or NULL. */
-static Making *prepare(const JoxRouteStage *w, uint32_t place, const JoxRouteLook *look,
+static Making *prepare(const JoxRouteStage *w, uint32_t place, const JoxRouteFieldOptions *look,
                        float most_cells, const JoxField *before) {
     Making *making = jox_alloc(1, sizeof *making);
     making->item.run = make;
@@ -227,7 +227,7 @@ static Making *prepare(const JoxRouteStage *w, uint32_t place, const JoxRouteLoo
     return making;
 }
 
-void jox_routes_see_bodies(const JoxRouteStage *w) {
+void jox_routes_update_bodies(const JoxRouteStage *w) {
     jox_obstacles_update(&w->routes->obstacles, w->objects);
 }
 
@@ -235,7 +235,8 @@ const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes) {
     return &routes->obstacles;
 }
 
-JoxField *jox_routes_look(const JoxRouteStage *w, uint32_t place, const JoxRouteLook *look) {
+JoxField *jox_routes_make_field(const JoxRouteStage *w, uint32_t place,
+                                const JoxRouteFieldOptions *look) {
     Making *making = prepare(w, place, look, MOST_CELLS, NULL);
     make(&making->item);
     JoxField *field = making->field;
@@ -250,8 +251,8 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
     JOX_ASSERT(!route->making); /* it would be lost */
     const bool open = kind == JOX_ROUTE_OPEN, crowd = kind == JOX_ROUTE_CROWD;
-    const JoxRouteLook look = {!open, open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
-                               CLEARANCE};
+    const JoxRouteFieldOptions look = {!open, open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
+                                       CLEARANCE};
     Making *making = prepare(w, place, &look, crowd ? MOST_CROWD_CELLS : MOST_CELLS,
                              routes->fields[place * JOX_ROUTE_KINDS + kind]);
     if (crowd) {

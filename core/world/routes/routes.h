@@ -7,7 +7,7 @@
 #include "geom/objects.h"
 #include "geom/walls.h"
 #include "machine/run.h"
-#include "world/routes/obstacles.h"
+#include "world/routes/body_obstacles.h"
 
 typedef struct JoxRoutes JoxRoutes;
 
@@ -38,16 +38,17 @@ void jox_routes_free(JoxRoutes *routes);
    stand, made anew each second. */
 void jox_routes_update(const JoxRouteStage *stage);
 /* What a field takes into account besides walls that never open. */
-typedef struct JoxRouteLook {
+typedef struct JoxRouteFieldOptions {
     bool gates;      /* closed ones */
     uint32_t bodies; /* a bit for each JoxObstacleKind */
     float clearance; /* m: from walls, at least 0.05 */
-} JoxRouteLook;
+} JoxRouteFieldOptions;
 /* A field to a place that is made at once, for who asks whether a way leads there; the caller frees
    it. There are walls or agents. Changes nothing: bodies are where routes saw them last. */
-JoxField *jox_routes_look(const JoxRouteStage *stage, uint32_t place, const JoxRouteLook *look);
+JoxField *jox_routes_make_field(const JoxRouteStage *stage, uint32_t place,
+                                const JoxRouteFieldOptions *look);
 /* Has routes see where bodies are, in a world that is not stepped any more. */
-void jox_routes_see_bodies(const JoxRouteStage *stage);
+void jox_routes_update_bodies(const JoxRouteStage *stage);
 /* Bodies that ways lead round, as routes saw them last. */
 const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes);
 /* Places moved: all fields are renewed. */

@@ -1,0 +1,131 @@
+/* Bonded bodies as the crowd meets them: when it first leans on one, what breaks, and how many rows
+   press when it does. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "world/stages.h"
+
+static const float SKIN = 0.02f;      /* m: people nearer than this touch */
+static const float FRONT = 0.30f;     /* m: from the wall to the skin of those who are in front */
+static const float ROUNDING = 0.01f;  /* m: more than that of a distance */
+static const double FRONT_TIME = 1.0; /* s: over which their speed is averaged */
+
+/* From an agent's skin to the footprint of a body, m. */
+static float gap_to(const JoxAgents *a, const JoxObject *body, uint32_t i) {
+    JoxV2 at = {a->x[i], a->y[i]};
+    float least = INFINITY;
+    if (body->footprint_count >= 3 &&
+        jox_polygon_contains(body->footprint, body->footprint_count, at))
+        return -jox_param(a, JOX_PARAM_radius, i);
+    for (uint32_t k = 0; k < body->footprint_count; k++) {
+        JoxV2 side = jox_segment_nearest(body->footprint[k],
+                                         body->footprint[(k + 1) % body->footprint_count], at);
+        least = jox_minf(least, jox_length2(jox_sub(at, side)));
+    }
+    return sqrtf(least) - jox_param(a, JOX_PARAM_radius, i);
+}
+
+/* Until somebody touches a bonded body: how fast those before it were in the last second. */
+void jox_stage_note_bond_touch(const JoxBodyStage *stage) {
+    JoxBondStatistics *s = &stage->statistics->bonds;
+    const JoxAgents *a = stage->agents;
+    JoxBodyBonds bonds;
+    for (uint32_t o = 0; o < stage->objects->count && !s->touched; o++) {
+        if (!jox_bodies_bonds(stage->bodies, o, &bonds))
+            continue;
+        JOX_ASSERT(stage->objects->rows[o].live);
+        uint32_t front = 0;
+        double sum = 0.0;
+        const JoxObject *body = &stage->objects->rows[o];
+        for (uint32_t i = 0; i < a->count; i++) {
+            const float reach = jox_param(a, JOX_PARAM_radius, i) + FRONT + ROUNDING;
+            if (!jox_object_reaches(body, (JoxV2){a->x[i], a->y[i]}, reach))
+                continue;
+            float gap = gap_to(a, body, i);
+            if (gap > FRONT)
+                continue;
+            s->touched = s->touched || gap <= 0.0f;
+            front++;
+            sum += sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
+        }
+        if (s->touched)
+            s->touch_s = stage->substep->end;
+        else if (front)
+            s->front_speed += (sum / front - s->front_speed) *
+                              (s->front == 0 ? 1.0 : fmin(1.0, stage->substep->dt / FRONT_TIME));
+        s->front = front > s->front ? front : s->front;
+    }
+}
+
+/* Whether somebody presses on what is this far from the skin: touches it, squeezed from behind, or
+   pushes it. */
+static bool presses(const JoxAgents *a, uint32_t i, float gap) {
+    return (gap < SKIN && a->compression[i] > 0.0f) ||
+           (gap < jox_param(a, JOX_PARAM_push_reach, i) && jox_param(a, JOX_PARAM_push, i) > 0.0f);
+}
+
+/* How many rows have at least half as many people as the first; `row`: of those in the queue, which
+   are in its order. */
+static uint32_t full_rows(const uint32_t *row, const uint32_t *queue, uint32_t count) {
+    uint32_t first = 0, rows = 0;
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin; end < count && row[queue[end]] == row[queue[begin]]; end++)
+            ;
+        first = begin == 0 ? end : first;
+        if (2 * (end - begin) < first)
+            break;
+        rows++;
+    }
+    return rows;
+}
+
+/* Agents in the order in which chains of people, each pressing on the one before, lead to them from
+   the body: the first row presses on it, the second on the first. The people are all that are
+   reached. */
+static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
+    const JoxAgents *a = stage->agents;
+    const JoxNeighbours *near = stage->neighbours;
+    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
+    uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
+    uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (presses(a, i, gap_to(a, body, i))) {
+            row[i] = 1;
+            queue[end++] = i;
+        }
+    for (uint32_t at = 0; at < end; at++) {
+        uint32_t i = queue[at];
+        for (uint32_t k = 0; k < near->count[i] && a->compression[i] > 0.0f; k++) {
+            uint32_t j = near->index[jox_neighbour_at(near, i, k)];
+            float gap = jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
+            if (row[j] || !presses(a, j, gap))
+                continue;
+            JOX_ASSERT(row[i] > 0); /* only those whom a chain reached are in the queue */
+            row[j] = row[i] + 1;
+            queue[end++] = j;
+        }
+    }
+    JOX_ASSERT(end <= a->count);
+    stage->statistics->bonds.people = end;
+    stage->statistics->bonds.rows = full_rows(row, queue, end);
+    jox_free(row);
+    jox_free(queue);
+}
+
+void jox_stage_note_bond_breaks(const JoxBodyStage *stage, const JoxBodiesReport *report) {
+    JoxBondStatistics *s = &stage->statistics->bonds;
+    for (uint32_t k = 0; k < report->break_count; k++) {
+        const JoxBodyBreak *broken = &report->breaks[k];
+        JOX_ASSERT(broken->row < stage->objects->count);
+        JOX_ASSERT(broken->bonds > 0 && broken->pieces > 0);
+        JOX_ASSERT(k == 0 || report->breaks[k - 1].id < broken->id);
+        if (s->broken == 0) {
+            s->first_s = stage->substep->end;
+            count_rows(stage, &stage->objects->rows[broken->row]); /* as it was before the step */
+        }
+        s->broken += broken->bonds;
+        s->pieces += broken->pieces - 1;
+    }
+}
