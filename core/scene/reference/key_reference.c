@@ -110,7 +110,7 @@ static void print_key_table(const char *owner, JoxText *out) {
             jox_text_add(out, " | ");
         jox_text_printf(out, " | %s", key->meaning);
         if (key->restart_reason)
-            jox_text_printf(out, "; edited during a run, from the next start on (%s)",
+            jox_text_printf(out, "; an edit during a run takes effect at the next start (%s)",
                             key->restart_reason);
         jox_text_add(out, " |\n");
     }
