@@ -8,10 +8,7 @@
 
 /* Returns the own slot from which a machine's default of a parameter is drawn, or -1. */
 static int32_t find_own_slot(const JoxMachine *machine, int32_t state, int parameter) {
-    for (uint32_t s = 0; state < 0 && s < machine->own_count; s++)
-        if (strcmp(machine->own[s].name, jox_parameters[parameter].name) == 0)
-            return (int32_t)s;
-    return -1;
+    return state < 0 ? jox_machine_own_slot(machine, jox_parameters[parameter].name) : -1;
 }
 
 static void apply_edit(JoxMachine *machine, const JoxParameterEdit *edit) {

@@ -37,6 +37,13 @@ int32_t jox_machine_memory(const JoxMachine *machine, const char *name) {
     return -1;
 }
 
+int32_t jox_machine_own_slot(const JoxMachine *machine, const char *name) {
+    for (uint32_t s = 0; *name && s < machine->own_count; s++)
+        if (strcmp(machine->own[s].name, name) == 0)
+            return (int32_t)s;
+    return -1;
+}
+
 JoxState jox_state_blank(char *name) {
     return (JoxState){.name = name,
                       .lasts_expression = -1,
@@ -78,12 +85,9 @@ const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *s
 }
 
 bool jox_machine_has(const JoxMachine *m, JoxPart part, const char *name) {
-    bool has = part == JOX_PART_STATE    ? jox_machine_state(m, name) >= 0
-               : part == JOX_PART_MEMORY ? jox_machine_memory(m, name) >= 0
-                                         : false;
-    for (uint32_t o = 0; part == JOX_PART_OWN && o < m->own_count; o++)
-        has |= strcmp(m->own[o].name, name) == 0;
-    return has;
+    return part == JOX_PART_STATE    ? jox_machine_state(m, name) >= 0
+           : part == JOX_PART_MEMORY ? jox_machine_memory(m, name) >= 0
+                                     : jox_machine_own_slot(m, name) >= 0;
 }
 
 const char *jox_machine_renamed(const JoxMachine *m, JoxPart part, const char *name) {

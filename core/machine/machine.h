@@ -396,6 +396,8 @@ static inline const char *jox_memory_identity(const JoxMemorySlot *slot) {
 }
 /* Returns the memory slot of a name, or -1; slots without a name are never found. */
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name);
+/* Returns the slot of an own value by name, or -1; slots without a name are never found. */
+int32_t jox_machine_own_slot(const JoxMachine *machine, const char *name);
 /* Kinds of parts of a machine that have names. */
 typedef enum { JOX_PART_STATE, JOX_PART_OWN, JOX_PART_MEMORY } JoxPart;
 /* Returns whether the machine has a part of this name. */

@@ -24,35 +24,21 @@
 
 enum { LARGEST_INPUT = 256 << 20 }; /* bytes */
 
-static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxPosition position,
-                         JoxDiagnostics *diagnostics) {
-    uint64_t mask = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        int bit = jox_world_add_tag(world, tags[i]);
-        if (bit < 0)
-            jox_diag_error(diagnostics, position, "too-many-tags", NULL,
-                           "a scene has at most 64 different tags");
-        else
-            mask |= (uint64_t)1 << bit;
-    }
-    return mask;
-}
-
 static void add_bodies(JoScene *scene, JoxDiagnostics *diagnostics) {
     JoxSceneSpec *spec = scene->spec;
     for (uint32_t i = 0; i < spec->body_count; i++) {
         JoxSceneBody *body = &spec->bodies[i];
         JoxText why = {0};
         body->def.tags =
-            tag_mask(scene->world, body->tags, body->tag_count, body->position, diagnostics);
+            jox_run_number_tags(scene, body->tags, body->tag_count, body->position, diagnostics);
         if (jox_bodies_add(scene->world->state.bodies, &body->def, &why) == JOX_NO_BODY)
             jox_diag_error(diagnostics, body->position, "bad-body", NULL, "%s",
                            why.data ? why.data : "this body was refused");
         jox_text_free(&why);
     }
     for (uint32_t g = 0; g < spec->group_count; g++)
-        tag_mask(scene->world, spec->groups[g].tags, spec->groups[g].tag_count,
-                 spec->groups[g].position, diagnostics);
+        jox_run_number_tags(scene, spec->groups[g].tags, spec->groups[g].tag_count,
+                            spec->groups[g].position, diagnostics);
 }
 
 /* Places are copied to the world, which owns them, with one more for each agent that is bound for

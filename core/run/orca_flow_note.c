@@ -4,6 +4,7 @@
 
 #include "run/orca_flow_note.h"
 #include "run/run.h"
+#include "run/scene_machines.h"
 
 static const char WAY_OUT[] =
     "Where capacities matter: walker.lua, or time_gap = crowd.time_gap in the behaviour's defaults";
@@ -55,14 +56,6 @@ static bool is_given(const JoxGroup *group) {
     return false;
 }
 
-static const JoxMachine *machine_of(const JoScene *scene, const JoxGroupMix *mix) {
-    const JoxMachineSet *set = scene->world->machines.set;
-    for (uint32_t m = 0; m < set->count; m++)
-        if (strcmp(set->items[m]->path, mix->behaviour) == 0)
-            return set->items[m];
-    return NULL;
-}
-
 static const JoxState *by_orca(const JoxMachine *machine) {
     for (uint32_t s = 0; machine && s < machine->state_count; s++)
         if (goes_somewhere(&machine->states[s]) && !keeps_time_gap(machine, &machine->states[s]))
@@ -75,7 +68,9 @@ bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics) {
     for (uint32_t g = 0; probe && g < scene->spec->group_count; g++) {
         const JoxGroup *group = &scene->spec->groups[g];
         for (uint32_t m = 0; m < group->mix_count && !is_given(group); m++) {
-            const JoxMachine *machine = machine_of(scene, &group->mix[m]);
+            const int32_t index = jox_run_find_machine(scene, group->mix[m].behaviour);
+            const JoxMachine *machine =
+                index < 0 ? NULL : scene->world->model.machines.items[index];
             const JoxState *state = by_orca(machine);
             if (!state)
                 continue;

@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "run/event_signals.h"
+#include "run/group_links.h"
 #include "run/reload.h"
 #include "run/run.h"
 #include "run/starting_people.h"
@@ -96,15 +97,14 @@ void jox_run_give(JoScene *scene, int32_t which, uint32_t group, const JoxGroupV
         if (a->group[i] != group || a->machine[i] == JOX_NO_MACHINE ||
             (which >= 0 && a->machine[i] != which))
             continue;
-        const JoxMachine *machine = machines->set->items[a->machine[i]];
-        for (uint32_t s = 0; s < machine->own_count; s++) {
-            if (strcmp(machine->own[s].name, set->name) != 0)
-                continue;
-            double value = set->kind == JOX_SET_PLACE ? set->place
-                                                      : jox_dist_draw(&set->dist, machines->seed,
-                                                                      a->id[i], 0, JOX_DRAW_OWN, s);
-            jox_machines_set_own(machines, i, s, value);
-        }
+        const uint16_t slot = set->slots[a->machine[i]];
+        if (slot == 0)
+            continue;
+        const double value =
+            set->kind == JOX_SET_PLACE
+                ? set->place
+                : jox_dist_draw(&set->dist, machines->seed, a->id[i], 0, JOX_DRAW_OWN, slot - 1);
+        jox_machines_set_own(machines, i, slot - 1, value);
     }
 }
 
@@ -147,6 +147,7 @@ static bool take_groups(Rescene *r) {
         note(&r->later, "groups (other names or order)");
         return false;
     }
+    jox_run_link_groups(r->scene, r->new, NULL);
     for (uint32_t g = 0; g < r->new->group_count; g++) {
         const JoxGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
         colours |= was->colour != is->colour;

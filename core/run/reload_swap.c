@@ -5,6 +5,7 @@
 
 #include "base/format/plurals.h"
 #include "base/mem.h"
+#include "run/group_links.h"
 #include "run/input_log.h"
 #include "run/reload_batch.h"
 #include "run/scene_machines.h"
@@ -58,6 +59,7 @@ static void link_batch(JoScene *scene, JoxBatch *batch) {
         change->index = jox_machines_add(machines, machine);
         jox_run_tell_replaced(scene, change->index);
     }
+    jox_run_link_groups(scene, scene->spec, NULL);
     for (uint32_t m = 0; m < machines->set->count; m++) {
         JoxDiagnostics none = {0};
         jox_run_link(scene, machines->set->built[m], &none);
@@ -103,6 +105,7 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
         JoxMachine *next = jox_loaded_machine(change->loaded);
         jox_run_number_belongings(scene, next);
         JoxMachine *old = jox_machines_replace(machines, change->index, change->replacement);
+        jox_run_link_groups(scene, scene->spec, NULL);
         give_new(scene, change, old, next);
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
         jox_lua_adopt(scene->lua, change->loaded);

@@ -10,9 +10,10 @@
 #include "run/scene_machines.h"
 #include "run/tags_and_teams.h"
 
-static int32_t find_machine(const JoxMachineRun *machines, const char *path) {
-    for (uint32_t m = 0; m < machines->set->count; m++)
-        if (strcmp(machines->set->items[m]->path, path) == 0)
+int32_t jox_run_find_machine(const JoScene *scene, const char *path) {
+    const JoxMachineSet *set = &scene->world->model.machines;
+    for (uint32_t m = 0; m < set->count; m++)
+        if (strcmp(set->items[m]->path, path) == 0)
             return (int32_t)m;
     return -1;
 }
@@ -27,7 +28,7 @@ const char *jox_run_made(const JoxSceneSpec *spec, const char *path) {
 
 static int32_t load_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
     JoxMachineRun *machines = &scene->world->machines;
-    int32_t known = find_machine(machines, path);
+    int32_t known = jox_run_find_machine(scene, path);
     if (known >= 0)
         return known;
     if (machines->set->count == JOX_MOST_MACHINES) {

@@ -11,6 +11,8 @@
 
 /* Loads the machines of all groups, and those that they may become. False if one does not load. */
 bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics);
+/* Returns the index of the machine that was loaded from a path, or -1. */
+int32_t jox_run_find_machine(const JoScene *scene, const char *path);
 /* Text of a behaviour that the scene made of a journey, by its path; NULL: the path is a file's. */
 const char *jox_run_made(const JoxSceneSpec *spec, const char *path);
 /* Finds the file of the machine that a state becomes; false with diagnostics. */

@@ -5,43 +5,9 @@
 #include "base/format/plurals.h"
 #include "base/mem.h"
 #include "nav/spots/spots.h"
+#include "run/group_links.h"
 #include "run/run.h"
 #include "run/starting_people.h"
-
-/* Names that a group sets must be known to every behaviour of its mix. */
-static void check_names(const JoScene *scene, const JoxGroup *group, const JoxGroupValue *sets,
-                        uint32_t count, bool memory, JoxDiagnostics *diagnostics) {
-    for (uint32_t m = 0; m < group->mix_count; m++) {
-        const JoxMachineRun *machines = &scene->world->machines;
-        const JoxMachine *machine =
-            machines->set->items[jox_world_find_machine(scene->world, group->mix[m].behaviour)];
-        const char *names[256];
-        uint32_t known = memory ? machine->memory_count : machine->own_count;
-        known = known < 256 ? known : 256;
-        for (uint32_t k = 0; k < known; k++)
-            names[k] = memory ? machine->memory[k].name : machine->own[k].name;
-        for (uint32_t s = 0; s < count; s++) {
-            int32_t slot = -1;
-            for (uint32_t k = 0; k < known; k++)
-                slot = strcmp(names[k], sets[s].name) == 0 ? (int32_t)k : slot;
-            bool place = sets[s].kind != JOX_SET_NUMBER;
-            char hint[JOX_HINT];
-            const char *now =
-                jox_machine_renamed(machine, memory ? JOX_PART_MEMORY : JOX_PART_OWN, sets[s].name);
-            if (slot < 0 && now)
-                jox_diag_renamed(diagnostics, sets[s].position, sets[s].name, now);
-            else if (slot < 0)
-                jox_diag_error(diagnostics, sets[s].position, "unknown-value",
-                               jox_did_you_mean(sets[s].name, names, known, hint),
-                               "behaviour %s has no '%.60s'%s", machine->name, sets[s].name,
-                               memory ? " in memory" : "");
-            else if (!memory && machine->own[slot].is_place != place)
-                jox_diag_error(diagnostics, sets[s].position, "bad-type", NULL,
-                               "'%.60s' of behaviour %s is a %s", sets[s].name, machine->name,
-                               place ? "number" : "place");
-        }
-    }
-}
 
 void jox_run_set_schedule(JoScene *scene, bool anew) {
     const JoxSceneSpec *spec = scene->spec;
@@ -185,18 +151,7 @@ static void place_people(JoScene *scene, JoxDiagnostics *diagnostics) {
 /* ---- all of it ---- */
 
 void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxSceneSpec *spec = scene->spec;
-    for (uint32_t g = 0; g < spec->group_count; g++) {
-        const JoxGroup *group = &spec->groups[g];
-        check_names(scene, group, group->set, group->set_count, false, diagnostics);
-        check_names(scene, group, group->memory, group->memory_count, true, diagnostics);
-        for (uint32_t p = 0; p < group->profile_count; p++)
-            check_names(scene, group, group->profiles[p].set, group->profiles[p].set_count, false,
-                        diagnostics);
-    }
-    for (uint32_t s = 0; s < spec->source_count; s++)
-        check_names(scene, &spec->groups[spec->sources[s].like], spec->sources[s].memory,
-                    spec->sources[s].memory_count, true, diagnostics);
+    jox_run_link_groups(scene, scene->spec, diagnostics);
     if (diagnostics->errors)
         return;
     jox_run_set_schedule(scene, true);

@@ -38,6 +38,20 @@ void jox_run_number_belongings(JoScene *scene, JoxMachine *machine) {
     jox_run_refresh_names(scene);
 }
 
+uint64_t jox_run_number_tags(JoScene *scene, char *const *tags, uint32_t count,
+                             JoxPosition position, JoxDiagnostics *diagnostics) {
+    uint64_t bits = 0;
+    for (uint32_t t = 0; t < count; t++) {
+        const int number = jox_world_add_tag(scene->world, tags[t]);
+        if (number >= 0)
+            bits |= (uint64_t)1 << number;
+        else if (diagnostics)
+            jox_diag_error(diagnostics, position, "too-many-tags", NULL,
+                           "a scene has at most 64 different tags");
+    }
+    return bits;
+}
+
 /* ---- what is asked for ---- */
 
 static bool lists(char *const *tags, uint32_t count, const char *name) {

@@ -13,6 +13,10 @@ void jox_run_refresh_names(JoScene *scene);
 /* Gives the tags and teams of a machine that joins the scene their numbers in it; new names get new
    numbers. */
 void jox_run_number_belongings(JoScene *scene, JoxMachine *machine);
+/* Returns the bits of tags by their numbers, and numbers those that are new. Adds an error if there
+   are more than 64, unless `diagnostics` is NULL; the tags beyond are left out. */
+uint64_t jox_run_number_tags(JoScene *scene, char *const *tags, uint32_t count,
+                             JoxPosition position, JoxDiagnostics *diagnostics);
 /* Checks the tags and teams that a machine names. A tag that it asks for must be on a body or group
    of the scene, or be set by one of `machines`, which include this one. `files` are the machine's.
  */

@@ -14,14 +14,6 @@
 
 static const float FARTHEST_POINT = 1e6f; /* m: no plan is larger */
 
-uint32_t jox_world_find_machine(const JoWorld *world, const char *path) {
-    const JoxMachineSet *set = &world->model.machines;
-    for (uint32_t m = 0; m < set->count; m++)
-        if (strcmp(set->items[m]->path, path) == 0)
-            return m;
-    return 0;
-}
-
 /* ---- one agent ---- */
 
 /* Which behaviour of a mix an agent gets. */
@@ -30,10 +22,10 @@ static uint32_t pick_machine(const JoWorld *world, const JoxGroup *group, uint32
     JOX_ASSERT(group->mix_count > 0);
     for (uint32_t m = 0; m + 1 < group->mix_count; m++) {
         if (u < group->mix[m].weight)
-            return jox_world_find_machine(world, group->mix[m].behaviour);
+            return group->mix[m].machine;
         u -= group->mix[m].weight;
     }
-    return jox_world_find_machine(world, group->mix[group->mix_count - 1].behaviour);
+    return group->mix[group->mix_count - 1].machine;
 }
 
 /* Which profile of a group an agent has; NULL where it has none. */
@@ -77,53 +69,46 @@ static uint32_t least(uint32_t slots) {
     return slots < JOX_MOST_GIVEN ? slots : JOX_MOST_GIVEN;
 }
 
-static void remember(const JoxGroupValue *memory, uint32_t count, const JoxMachine *machine,
-                     Overrides *o) {
-    for (uint32_t s = 0; s < count; s++) {
-        const int32_t slot = jox_machine_memory(machine, memory[s].name);
-        if (slot >= 0 && slot < JOX_MOST_GIVEN)
-            o->memory[slot] = &memory[s].dist;
+static void override_memory(const JoxGroupValue *values, uint32_t count, uint32_t machine,
+                            Overrides *o) {
+    for (uint32_t v = 0; v < count; v++) {
+        const uint16_t slot = values[v].slots[machine];
+        if (slot > 0)
+            o->memory[slot - 1] = &values[v].dist;
     }
 }
 
-static void give(JoWorld *world, const JoxGroup *group, const JoxGroupValue *values, uint32_t count,
-                 const JoxMachine *machine, JoxV2 at, Overrides *o) {
-    for (uint32_t s = 0; s < count; s++)
-        for (uint32_t k = 0; k < least(machine->own_count); k++) {
-            const JoxGroupValue *set = &values[s];
-            if (strcmp(machine->own[k].name, set->name) != 0)
-                continue;
-            o->own[k] = &set->dist;
-            if (set->kind != JOX_SET_NUMBER && o->place_count < MOST_PLACES) {
-                int32_t place =
-                    set->kind == JOX_SET_PLACE ? set->place : add_antipode(world, group, at);
-                o->places[o->place_count] = jox_dist_constant(place);
-                o->own[k] = &o->places[o->place_count++];
-            }
+static void override_own(JoWorld *world, const JoxGroup *group, const JoxGroupValue *values,
+                         uint32_t count, uint32_t machine, JoxV2 at, Overrides *o) {
+    for (uint32_t v = 0; v < count; v++) {
+        const JoxGroupValue *set = &values[v];
+        const uint16_t slot = set->slots[machine];
+        if (slot == 0)
+            continue;
+        o->own[slot - 1] = &set->dist;
+        if (set->kind != JOX_SET_NUMBER && o->place_count < MOST_PLACES) {
+            int32_t place =
+                set->kind == JOX_SET_PLACE ? set->place : add_antipode(world, group, at);
+            o->places[o->place_count] = jox_dist_constant(place);
+            o->own[slot - 1] = &o->places[o->place_count++];
         }
+    }
 }
 
-static void override(JoWorld *world, const JoxGroup *group, const JoxProfile *profile,
-                     const JoxGroupValue *memory, uint32_t memory_count, const JoxMachine *machine,
-                     JoxV2 at, Overrides *o) {
-    const uint32_t own = least(machine->own_count), remembered = least(machine->memory_count);
+/* Collects what the agent's group, its profile and `memory` set in place of the machine's values.
+ */
+static void collect_overrides(JoWorld *world, const JoxGroup *group, const JoxProfile *profile,
+                              const JoxGroupValue *memory, uint32_t memory_count, uint32_t index,
+                              JoxV2 at, Overrides *o) {
+    const JoxMachine *machine = world->model.machines.items[index];
     o->place_count = 0;
-    memset(o->own, 0, own * sizeof *o->own);
-    memset(o->memory, 0, remembered * sizeof *o->memory);
-    give(world, group, group->set, group->set_count, machine, at, o);
+    memset(o->own, 0, least(machine->own_count) * sizeof *o->own);
+    memset(o->memory, 0, least(machine->memory_count) * sizeof *o->memory);
+    override_own(world, group, group->set, group->set_count, index, at, o);
     if (profile)
-        give(world, group, profile->set, profile->set_count, machine, at, o);
-    remember(group->memory, group->memory_count, machine, o);
-    remember(memory, memory_count, machine, o); /* a source's, where it gives some */
-}
-
-static uint16_t team_number(const JoWorld *world, const char *team) {
-    if (!team)
-        return 0;
-    for (uint32_t g = 0; g < world->model.group_count; g++)
-        if (world->model.groups[g].team && strcmp(world->model.groups[g].team, team) == 0)
-            return (uint16_t)(g + 1); /* the first group of the team gives its number */
-    return 0;
+        override_own(world, group, profile->set, profile->set_count, index, at, o);
+    override_memory(group->memory, group->memory_count, index, o);
+    override_memory(memory, memory_count, index, o); /* a source's, where it gives some */
 }
 
 /* The team of a group's next agent: the group's, or its party's own. */
@@ -132,7 +117,7 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
     const JoxWorldModel *model = &world->model;
     const JoxGroup *group = &model->groups[number];
     if (group->party < 2)
-        return team_number(world, group->team);
+        return group->team_number;
     if (population->party_left[number] == 0) {
         uint32_t first = model->group_count + 1; /* teams of groups come before */
         population->party_team[number] =
@@ -156,11 +141,7 @@ static void join_group(JoWorld *world, uint32_t i, uint32_t number) {
     if (a->group[i] != number)
         a->group[i] = (uint16_t)number;
     a->team[i] = (uint16_t)next_team(world, number);
-    for (uint32_t t = 0; t < group->tag_count; t++) {
-        int tag = jox_world_add_tag(world, group->tags[t]);
-        JOX_ASSERT(tag >= 0); /* whoever loads a scene has counted them */
-        a->tags[i] |= (uint64_t)1 << tag;
-    }
+    a->tags[i] |= group->tag_bits;
     if (isfinite(group->facing)) {
         a->face_x[i] = (float)jox_cos(group->facing);
         a->face_y[i] = (float)jox_sin(group->facing);
@@ -174,8 +155,8 @@ JoxBirthSpot jox_world_spawn(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
     const uint32_t index = pick_machine(world, group, id);
     JOX_ASSERT(index < world->model.machines.count);
     Overrides set;
-    override(world, group, pick_profile(world, group, id), birth->memory, birth->memory_count,
-             world->model.machines.items[index], wish->at, &set);
+    collect_overrides(world, group, pick_profile(world, group, id), birth->memory,
+                      birth->memory_count, index, wish->at, &set);
     wish->radius = jox_machines_birth_radius(&world->machines, id, index, set.own);
     JoxV2 spot;
     jox_world_apply_walls(world);

@@ -9,6 +9,7 @@
 #include "base/number/distribution.h"
 #include "base/sections.h"
 #include "geom/fill.h"
+#include "machine/run.h"
 #include "nav/nav.h"
 
 typedef struct JoWorld JoWorld;
@@ -19,13 +20,17 @@ typedef struct JoxGroupValue {
     enum { JOX_SET_NUMBER, JOX_SET_PLACE, JOX_SET_ANTIPODE } kind;
     JoxDist dist;
     int32_t place; /* index of places; JOX_SET_PLACE only */
+    /* By machine of the world: 1 + the slot of the value there, 0: it has none. Filled when the
+       scene is linked. */
+    uint16_t slots[JOX_MOST_MACHINES];
     JoxPosition position;
 } JoxGroupValue;
 
 typedef struct JoxGroupMix {
-    char *behaviour; /* the path as found on disk */
-    double weight;   /* share; the weights of a group sum to 1 */
-    char *text;      /* of a journey, for which there is no file; NULL: it is read */
+    char *behaviour;  /* the path as found on disk */
+    uint32_t machine; /* its index in the world; filled when the scene is linked */
+    double weight;    /* share; the weights of a group sum to 1 */
+    char *text;       /* of a journey, for which there is no file; NULL: it is read */
     JoxPosition position;
 } JoxGroupMix;
 
@@ -73,12 +78,14 @@ typedef struct JoxGroup {
     /* In order of time, or NULL; the first `count` are those of `positions`, at 0 s. */
     JoxStart *starts;
     uint32_t start_count;
-    float facing;   /* rad, anti-clockwise from +x; NAN: not given */
-    JoxV2 centre;   /* of a circle fill, and the mirror of `antipode` */
-    char *team;     /* or NULL */
-    uint32_t party; /* agents in a row that are a team of their own; 1: none */
+    float facing;         /* rad, anti-clockwise from +x; NAN: not given */
+    JoxV2 centre;         /* of a circle fill, and the mirror of `antipode` */
+    char *team;           /* or NULL */
+    uint16_t team_number; /* filled when the scene is linked; 0: no team */
+    uint32_t party;       /* agents in a row that are a team of their own; 1: none */
     char **tags;
     uint32_t tag_count;
+    uint64_t tag_bits; /* the same by their numbers; filled when the scene is linked */
     JoxGroupValue *set;
     uint32_t set_count;
     JoxGroupValue *memory; /* initial memory; numbers only */
@@ -136,8 +143,6 @@ void jox_world_explain_unplaced(JoxBirthSpot spot, double x, double y, JoxText *
 /* Before a step: brings in whose start has come. Who would stand in another waits until that one
    has gone on; those behind do not wait for it. */
 void jox_world_spawn_due_starts(JoWorld *world);
-/* Index of the machine that was loaded from a path; 0 where there is none. */
-uint32_t jox_world_find_machine(const JoWorld *world, const char *path);
 /* Lists parties, who has come in and the places of single agents as state. */
 void jox_population_sections(JoWorld *world, JoxSections *sections);
 

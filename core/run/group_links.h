@@ -1,0 +1,16 @@
+/* Links the groups of a specification to the machines, teams and tags of a scene, so that agents
+   are made without comparing names. */
+#ifndef JOX_RUN_GROUP_LINKS_H
+#define JOX_RUN_GROUP_LINKS_H
+
+#include "base/format/diag.h"
+#include "jostle.h"
+#include "scene/scene.h"
+
+/* Fills in the links of the groups and sources of `spec`: machines of mixes, slots of values that
+   are set, teams and tags. Must be called again when machines have been added or replaced. Adds an
+   error for each value that a machine of the group's mix has no slot for, unless `diagnostics` is
+   NULL. */
+void jox_run_link_groups(JoScene *scene, JoxSceneSpec *spec, JoxDiagnostics *diagnostics);
+
+#endif
