@@ -1,4 +1,4 @@
-/* Any bytes as a behaviour: a machine or errors. */
+/* Loads any bytes as a behaviour: a machine, or errors. */
 #include "lua/loader.h"
 #include "support/fuzz.h"
 

@@ -1,7 +1,6 @@
-/* Bytes as calls of jostle.h by who heeds nothing that it asks for: odd numbers, handles and names,
-   NULL, in any order, on a scene, on a world that was made by hand and on none, and from within a
-   message. Each is answered, and reported where it is misuse; no expectation of the engine's own is
-   broken, and the people of a world that goes on are somewhere. */
+/* Calls jostle.h in any order with invalid and unusual numbers, handles, names and NULL, on a
+   scene, on a world made by hand and on none, and from within a message. Each call returns, misuse
+   is reported, no assertion of the engine fails, and positions of agents stay finite. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,10 +34,10 @@ typedef struct Caller {
     uint32_t agent_count, body_count;
     void *saved;
     size_t saved_size;
-    bool within; /* a message */
+    bool within; /* calls come from within a message */
 } Caller;
 
-/* ---- what is given ---- */
+/* ---- arguments ---- */
 
 static uint8_t take_byte(Caller *c) {
     return c->at < c->end ? *c->at++ : 0;
@@ -342,8 +341,8 @@ static void ask_of_scene(Caller *c) {
     jo_free(jo_scene_lua_costs(s));
 }
 
-/* A driven body whose limits and end are odd, and what it then presses with. */
-static void drive(Caller *c) {
+/* Adds a kinematic body with unusual limits, and asks for its impulse. */
+static void add_driven_body(Caller *c) {
     JoError error = {0};
     double impulse[3], turn[3];
     JoWorld *w = pick_world(c);
@@ -361,33 +360,34 @@ static void drive(Caller *c) {
     FUZZ_CHECK(stats.not_placed <= UINT32_MAX && stats.not_moved_out <= UINT32_MAX);
 }
 
-/* The greatest bytes are calls that came later, so that what was found before means the same. */
-static void call(Caller *c) {
+/* Makes one call. The greatest bytes are calls added later, so that inputs found before keep their
+   meaning. */
+static void make_call(Caller *c) {
     static void (*const CALLS[])(Caller *) = {add_or_spawn, act_on_agent, act_on_body,
                                               act_on_world, ask,          act_on_scene};
     const uint8_t what = take_byte(c);
     if (what >= 248)
         ask_of_scene(c);
     else if (what >= 240)
-        drive(c);
+        add_driven_body(c);
     else
         CALLS[what % (sizeof CALLS / sizeof *CALLS)](c);
 }
 
-/* ---- the whole ---- */
+/* ---- one input ---- */
 
-/* A message comes within a step: what would change its world is misuse there. */
+/* Calls from within a message, which comes during a step: to change the world is misuse then. */
 static void call_within_step(void *context, const char *text) {
     Caller *c = context;
     (void)text;
     if (c->within || !c->scene)
         return;
     c->within = true;
-    call(c);
+    make_call(c);
     c->within = false;
 }
 
-/* Misuse is told of; what else does not hold is a finding. */
+/* Ignores assertions on misuse (JOX_REQUIRE); any other is a finding. */
 static void abort_unless_misuse(const char *condition, const char *path, int line) {
     char text[512];
     FILE *file = fopen(path, "r");
@@ -433,7 +433,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     c.made = jo_world_create(&def, &error);
     c.scene = load_talkers(&c, take_byte(&c) % 2);
     for (int n = 0; n < MOST_CALLS && c.at < c.end; n++)
-        call(&c);
+        make_call(&c);
     jo_world_step(c.made, 2);
     check_agent_states(c.made);
     jo_scene_step(c.scene, &error);

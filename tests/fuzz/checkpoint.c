@@ -1,5 +1,5 @@
-/* Any bytes as a checkpoint, as they are and with the checksums that they would need: of what is
-   behind these, too, nothing is believed. */
+/* Resumes any bytes as a checkpoint, as they are and with correct checksums: what lies behind the
+   checksums must not be trusted either. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,9 +18,13 @@ static void resume_file(const void *data, size_t size) {
     fuzz_run(scene, 3);
 }
 
-/* Piece by piece, each with the length and the name that it claims, into a file of good form. */
-static void mend(const uint8_t *data, size_t size, JoxText *out) {
-    enum { HEAD = 40, PIECE = 32, NAME = 16 }; /* bytes: of a file's head, of a piece's, a name */
+/* Copies the pieces, with the names and lengths that they claim, into a well-formed file. */
+static void copy_pieces(const uint8_t *data, size_t size, JoxText *out) {
+    enum {
+        HEAD = 40,
+        PIECE = 32,
+        NAME = 16
+    }; /* bytes of a file's head, of a piece's head, of a name */
     jox_pieces_begin(out);
     for (size_t at = HEAD; at + PIECE < size;) {
         char name[NAME] = {0};
@@ -38,7 +42,7 @@ static void mend(const uint8_t *data, size_t size, JoxText *out) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     JoxText mended = {0};
     resume_file(data, size);
-    mend(data, size, &mended);
+    copy_pieces(data, size, &mended);
     resume_file(mended.data, mended.length);
     jox_text_free(&mended);
     return 0;

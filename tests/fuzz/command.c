@@ -1,11 +1,14 @@
-/* Lines as the arguments of a command: read by its options, or refused with a sentence. */
+/* Parses lines as the arguments of a command, which are read or refused with a sentence. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/cli.h"
 #include "support/fuzz.h"
 
-enum { MOST = 64, ROOM = 1 << 14 }; /* arguments; bytes, more than any command's options have */
+enum {
+    MOST = 64,
+    ROOM = 1 << 14
+}; /* arguments; bytes, more than the options of any command take */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static char options[ROOM];

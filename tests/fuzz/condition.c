@@ -1,5 +1,5 @@
-/* Lines as expressions of a behaviour: a condition, steering, a push and what is remembered, which
-   are compiled to programs, and run for a few agents. */
+/* Compiles lines as expressions of a behaviour (a condition, steering, a push, a memory) and runs
+   them for a few agents. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

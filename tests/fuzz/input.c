@@ -1,11 +1,12 @@
-/* Any bytes as an input log; what was understood is written and read back, the same. */
+/* Reads any bytes as an input log; entries that are read must be equal after writing and
+   reading. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "support/fuzz.h"
 #include "world/input/input_entries.h"
 
-/* Entries of one line alone: the files of others are their own text. */
+/* Writes an entry, and reads and writes it again. */
 static void read_back(const JoxInputEntry *entry) {
     JoxInputLog log = {0};
     JoxDiagnostics diagnostics = {0};

@@ -1,6 +1,6 @@
-/* Bytes as edits of what one who collects has in a checkpoint: the first byte says whose, the rest
-   is as in state.c. The checkpoint, with checksums that are right, is resumed, and the run goes on
-   for a few steps: to an error, or to figures and files; and what collects changes no person. */
+/* Edits what a listener stores in a checkpoint: the first byte chooses the listener, the rest is as
+   in state.c. The checkpoint, with correct checksums, is resumed and run for a few steps, to an
+   error or to figures and files; listeners must not change the world. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include "support/edits.h"
 #include "support/fuzz.h"
 
-/* Each kind of probe, each with something to measure. */
+/* A scene with each kind of probe, each of which measures something. */
 static const char SCENE[] =
     "jostle: 1\n"
     "seed: 1\n"
@@ -57,7 +57,7 @@ enum { BEGINNING = 128, STEPS = 3 };
 
 static JoxText checkpoint;    /* the file */
 static JoxText recording;     /* its bytes */
-static const char *names[32]; /* of those who collect */
+static const char *names[32]; /* of the listeners in it */
 static uint32_t name_count;
 static uint64_t later_hash;
 
@@ -70,7 +70,7 @@ static void read_into(const char *path, JoxText *out) {
     jox_free(bytes);
 }
 
-/* gnuplot is not what is tried: a program that does nothing stands for it. */
+/* Replaces gnuplot, which is not tested, by a program that does nothing. */
 static void replace_gnuplot(void) {
     fuzz_write("bin/none", "", 0);
     FUZZ_CHECK(symlink("/bin/true", fuzz_path("bin/gnuplot")) == 0);
@@ -101,7 +101,8 @@ static JoScene *resume_bytes(const JoxText *file, JoError *error) {
     return scene;
 }
 
-/* A report is drawn for a second: not for the edits of others. */
+/* Attaches the listeners. Drawing a report takes a second, so it is not attached for edits of
+ * others. */
 static bool attach_listeners(JoScene *scene, bool report, JoError *error) {
     fuzz_write("r.sqlite", recording.data, recording.length);
     return jo_scene_record_on(scene, fuzz_path("r.sqlite"), error) &&
@@ -142,7 +143,7 @@ static void write_checkpoint_once(void) {
 
 /* ---- one input ---- */
 
-/* Names of sections are told by those of a scene that has them. */
+/* Visits the sections of the listener named `context`, in a resumed scene. */
 static void visit_listener_sections(void *context, JoxSections *sections) {
     JoError error = {0};
     JoScene *scene = resume_bytes(&checkpoint, &error);
@@ -156,7 +157,7 @@ static void visit_listener_sections(void *context, JoxSections *sections) {
     jo_scene_free(scene);
 }
 
-/* The checkpoint with the sections of one who collects edited. */
+/* Copies the checkpoint, with edits of the sections of one listener. */
 static void edit_listener(const char *name, const uint8_t *data, size_t size, JoxText *out) {
     char why[200];
     JoxPiece piece;
@@ -195,7 +196,7 @@ static void run_resumed(JoScene *scene, bool report, bool draw) {
     FUZZ_CHECK((report && !draw) || jo_scene_finish(scene, &error) || *error.text);
 }
 
-/* What fonts take is kept by their library. */
+/* Ignores memory that the library of fonts keeps. */
 __attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) {
     return "leak:libfontconfig";

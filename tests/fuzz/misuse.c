@@ -1,6 +1,6 @@
-/* Bytes as choices among the productions of Lua's grammar, over values of the language: functions,
-   tests, loops and tables of a behaviour. The parser reads all that Lua accepts to its end, and the
-   search for misuse ends in a machine or in errors. */
+/* Makes a behaviour by choosing among productions of Lua's grammar: functions, tests, loops and
+   tables over values of the language. The parser must read all that Lua accepts to its end, and the
+   search for misuse must end in a machine or in errors. */
 #include <lauxlib.h>
 #include <lua.h>
 #include <stdio.h>
@@ -67,7 +67,7 @@ static void add_table(Choices *c) {
     add_source(c, "}");
 }
 
-/* Something that may be called, indexed or assigned to. */
+/* Adds an expression that may be called, indexed or assigned to. */
 static void add_suffixed(Choices *c) {
     if (pick(c, 8) == 7) {
         add_source(c, "(");
@@ -247,7 +247,7 @@ static void add_block(Choices *c) {
     c->depth--;
 }
 
-/* ---- the whole ---- */
+/* ---- one input ---- */
 
 static void check_parser(const JoxText *text) {
     lua_State *lua = luaL_newstate();

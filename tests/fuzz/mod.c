@@ -1,4 +1,5 @@
-/* A mod: its mod.yaml, a patch of a scene and one of a behaviour, each behind a line "%%". */
+/* Runs a scene with a mod. The input is its mod.yaml, a patch of a scene and one of a behaviour,
+   separated by lines "%%". */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

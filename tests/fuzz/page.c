@@ -1,4 +1,4 @@
-/* Lines as what a browser says to the live page of a running scene. */
+/* Sends lines to the live page of a running scene, as messages of a browser. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@ static const char SCENE[] =
     "groups: {a: {behaviour: player.lua, count: 3, in: hall},\n"
     "         b: {behaviour: stander.lua, count: 3, in: hall}}\n";
 
-static void say(JoxScenePage *s, char *text) {
+static void send_lines(JoxScenePage *s, char *text) {
     int lines = 0;
     for (char *line = text; line && lines < MOST_LINES; lines++) {
         char *end = strchr(line, '\n');
@@ -48,7 +48,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     s.page.watchers[0].client = 1;
     if (!jox_scene_page_load(&s, &error))
         abort();
-    say(&s, text);
+    send_lines(&s, text);
     FUZZ_CHECK(s.page.watchers[0].colour < JOX_LIVE_COLOUR_COUNT);
     s.page.source->status(&s, 0, &s.page.text);
     s.page.source->scene(&s, &s.page.text);

@@ -1,4 +1,4 @@
-/* Walls from files: well-known text and XML. */
+/* Reads walls from well-known text or XML. */
 #include <math.h>
 #include <stdlib.h>
 

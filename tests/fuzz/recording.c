@@ -1,5 +1,4 @@
-/* Any bytes as a recording, SQLite or text: read frame by frame, read whole, and for its plan. */
-
+/* Reads any bytes as a recording in SQLite or text: by frames, as a whole, and its plan. */
 #include "support/recording.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

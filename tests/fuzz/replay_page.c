@@ -1,4 +1,4 @@
-/* Lines as what a browser says to the live page of a recording. */
+/* Sends lines to the live page of a recording, as messages of a browser. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +18,8 @@ static const char SCENE[] =
     "groups: {a: {behaviour: stander.lua, count: 3, in: hall},\n"
     "         b: {behaviour: stander.lua, count: 3, in: hall}}\n";
 
-/* The recording of all inputs. */
-static const char *recording(void) {
+/* Makes the recording that all inputs use, once; returns its path. */
+static const char *make_recording(void) {
     static char path[4096];
     if (path[0])
         return path;
@@ -43,8 +43,8 @@ static const char *recording(void) {
     return path;
 }
 
-/* Time goes on by 30 ms with each line. */
-static void say(JoxReplayPage *p, char *text) {
+/* Sends the lines, 30 ms apart. */
+static void send_replay_lines(JoxReplayPage *p, char *text) {
     double now = jox_clock_wall();
     int lines = 0;
     for (char *line = text; line && lines < MOST_LINES; lines++) {
@@ -65,7 +65,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char *text = fuzz_text(data, size);
     JoxReplayPage p = {.def = &def};
     JoError error = {0};
-    def.recording = recording();
+    def.recording = make_recording();
     def.message = ignore_message;
     p.page.server = fuzz_server();
     p.page.session.speed = 1;
@@ -73,7 +73,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (!jox_replay_page_load(&p, &error))
         abort();
     p.at = p.from;
-    say(&p, text);
+    send_replay_lines(&p, text);
     p.page.source->status(&p, 0, &p.page.text);
     p.page.source->scene(&p, &p.page.text);
     p.page.source->pack_frame(&p, p.page.watchers[0].colour, &p.page.bytes);

@@ -1,4 +1,4 @@
-/* Any bytes as a scene: a description of it or errors, of which each has its place. */
+/* Reads any bytes as a scene: it is read, or has errors. */
 #include <string.h>
 
 #include "scene/scene.h"

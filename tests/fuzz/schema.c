@@ -1,14 +1,14 @@
-/* Any SQL as the schema and the rows of a recording: what a hostile database can hold, in files of
-   good form. */
+/* Makes a database by any SQL and reads it as a recording: hostile schemas and rows in well-formed
+   files. */
 #include <sqlite3.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 #include "support/recording.h"
 
-/* The making of the file is no part of the test: it may touch no other file, and is short. */
-static int allow(void *context, int action, const char *a, const char *b, const char *c,
-                 const char *d) {
+/* Denies SQL that would open other files. */
+static int deny_other_files(void *context, int action, const char *a, const char *b, const char *c,
+                            const char *d) {
     (void)context;
     (void)a;
     (void)b;
@@ -17,7 +17,8 @@ static int allow(void *context, int action, const char *a, const char *b, const 
     return action == SQLITE_ATTACH || action == SQLITE_DETACH ? SQLITE_DENY : SQLITE_OK;
 }
 
-static int give_up(void *context) {
+/* Stops SQL that takes too long. */
+static int stop_long_sql(void *context) {
     int *left = context;
     return --*left < 0;
 }
@@ -31,8 +32,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         abort();
     char *sql = fuzz_text(data, size);
     sqlite3_limit(db, SQLITE_LIMIT_LENGTH, 1 << 20);
-    sqlite3_set_authorizer(db, allow, NULL);
-    sqlite3_progress_handler(db, 1000, give_up, &left);
+    sqlite3_set_authorizer(db, deny_other_files, NULL);
+    sqlite3_progress_handler(db, 1000, stop_long_sql, &left);
     sqlite3_exec(db, "PRAGMA synchronous = OFF; PRAGMA journal_mode = MEMORY", NULL, NULL, NULL);
     sqlite3_exec(db, sql, NULL, NULL, NULL);
     sqlite3_exec(db, "COMMIT", NULL, NULL, NULL);

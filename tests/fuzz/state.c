@@ -1,7 +1,6 @@
-/* Bytes as edits of a saved state, 16 bytes each, with a checksum that is right: a number becomes
-   another, a cell that of its neighbour, a list longer or shorter. What the restore takes for a
-   state runs for a few steps; then the state as it was is restored, and goes on to the bit.
-   FUZZ_SHOW=1 prints what each edit changes. */
+/* Edits a saved state (support/edits.h) and corrects its checksum. A state that is restored runs
+   for a few steps; then the original state is restored and must give the same hashes. FUZZ_SHOW=1
+   prints what each edit changes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +11,7 @@
 #include "support/edits.h"
 #include "support/fuzz.h"
 
-/* A crowd and a few bodies that leave no section empty, and the state small. */
+/* A small scene that fills every section of the state. */
 static const char SCENE[] =
     "jostle: 1\n"
     "seed: 1\n"
@@ -64,7 +63,7 @@ static JoScene *scene;
 static JoxText base;
 static uint64_t base_hash, later_hash;
 
-/* ---- a world with something of each kind under way ---- */
+/* ---- a world in which everything is under way ---- */
 
 static bool restore_world(const JoxText *state, JoError *error) {
     JOX_GUARD (scene->heap, error)
@@ -72,7 +71,7 @@ static bool restore_world(const JoxText *state, JoError *error) {
     return jox_world_restore(scene->world, state->data, state->length, error);
 }
 
-/* Steps, until one fails. */
+/* Runs steps until one fails. */
 static void step_world(int steps) {
     JOX_GUARD (scene->heap, NULL)
         return;
@@ -125,7 +124,7 @@ static void save_busy_world(void) {
     atexit(free_busy_world);
 }
 
-/* ---- a run of it ---- */
+/* ---- one input ---- */
 
 static void visit_world_sections(void *context, JoxSections *sections) {
     (void)context;

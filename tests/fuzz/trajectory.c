@@ -1,4 +1,4 @@
-/* Any bytes as a text recording, whatever its columns. */
+/* Reads any bytes as a recording in text. */
 #include "support/recording.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

@@ -1,6 +1,6 @@
-/* Bytes as choices among the keys of a scene (make_scene.c), which runs for 50 steps, with one
-   thread and with two: every number is finite, nobody crosses the wall of the hall, and the hashes
-   are equal. */
+/* Makes a scene by choosing among its keys (make_scene.c), and runs it for 50 steps with one thread
+   and with two: all numbers are finite, nobody crosses the wall of the hall, and the hashes are
+   equal. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 enum { STEPS = 50, CAPACITY = 4096 };
 
-/* By id: 1 and whether who was first seen there was in the hall; 0: not seen yet. */
+/* By an agent's id: 1 + whether it was in the hall when first seen; 0: not seen yet. */
 static uint8_t side[CAPACITY];
 
 static void check_walkers(const JoWorld *world) {

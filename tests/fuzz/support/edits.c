@@ -10,7 +10,7 @@
 
 enum { EDIT = 16, MOST_EDITS = 8, HEAD = 24 };
 
-/* What stands before the cells of a section. */
+/* The head of a section, before its cells. */
 typedef struct Head {
     uint64_t name, size, count;
 } Head;
@@ -21,16 +21,17 @@ static Head head_at(const JoxText *state, size_t at) {
     return head;
 }
 
-/* Calls a function for each section, with where it and the one before it begin. */
+/* A search for a section by the key of an edit. */
 typedef struct Search {
     uint16_t key;
-    uint64_t name; /* of all, that whose low bits follow the key most closely, counted round */
-    size_t count, wanted;
-    size_t at, before;
+    uint64_t name;        /* the name whose low 16 bits follow the key most closely, modulo 2^16 */
+    size_t count, wanted; /* sections of this name; number of the one wanted */
+    size_t at, before;    /* begin of the section, and of the one before it */
 } Search;
 typedef void Visit(Search *search, Head head, size_t at, size_t before);
 
-static void each_section(const JoxText *state, Visit *visit, Search *search) {
+/* Calls a function for each section, with the begins of it and of the one before. */
+static void visit_each_section(const JoxText *state, Visit *visit, Search *search) {
     enum { MAGIC = 8 };
     for (size_t at = MAGIC, before = MAGIC; at < state->length - sizeof(uint64_t);) {
         const Head head = head_at(state, at);
@@ -59,17 +60,17 @@ static void take_place(Search *search, Head head, size_t at, size_t before) {
     search->before = before;
 }
 
-/* Where the section of an edit begins: by a key of its name, so that it is the same one after
-   others came to be listed, and by its number among those of that name. Where the one before it
-   begins, in *before. */
+/* Returns the begin of the section that an edit is for, and in *before that of the one before it.
+   An edit gives a key of the section's name, which stays valid when sections are added, and its
+   number among those of that name. */
 static size_t find_section(const JoxText *state, const uint8_t *edit, size_t *before) {
     Search search = {0};
     memcpy(&search.key, edit, sizeof search.key);
-    each_section(state, take_name, &search);
-    each_section(state, count_name, &search);
+    visit_each_section(state, take_name, &search);
+    visit_each_section(state, count_name, &search);
     search.wanted = edit[15] % search.count;
     search.count = 0;
-    each_section(state, take_place, &search);
+    visit_each_section(state, take_place, &search);
     *before = search.before;
     return search.at;
 }
@@ -88,7 +89,7 @@ static double odd_number(uint8_t choice, double was) {
     return odd[choice % 16];
 }
 
-/* A number within a cell of `size` bytes, where it fits. */
+/* Changes a number within a cell of `size` bytes, if it fits. */
 static void put_number(char *cell, size_t size, const uint8_t *edit) {
     uint16_t offset;
     uint64_t value = 0;
@@ -115,8 +116,8 @@ static void put_number(char *cell, size_t size, const uint8_t *edit) {
     memcpy(to, &value, wide);
 }
 
-/* Cells are taken from a section, or its last one stands there once more: in the number of cells
-   that stands before it, too. */
+/* Removes the last cell of a section or repeats it, and corrects the number of cells that is saved
+   in the section before. */
 static void resize(JoxText *state, size_t at, size_t before, size_t more) {
     Head head = head_at(state, at), counts = head_at(state, before);
     const size_t end_at = at + HEAD + head.size * head.count;
@@ -153,7 +154,7 @@ static void print_section(void *context, const char *section, size_t index, void
     jox_hash_add(&hash, dot + 1, strlen(dot + 1));
     if (index == 0 && jox_hash_end(&hash) == *name) {
         fprintf(stderr, "%s, cells of %zu bytes\n", section, size);
-        *name = 0; /* once, where several sections have the name */
+        *name = 0; /* print it once if several sections have the name */
     }
 }
 
@@ -183,7 +184,8 @@ static void edit_section(JoxText *state, const uint8_t *edit, FuzzWalk *walk, vo
         put_number(cell, head.size, edit);
 }
 
-static void seal(JoxText *state) {
+/* Corrects the checksum of a state. */
+static void write_checksum(JoxText *state) {
     const size_t length = state->length - sizeof(uint64_t);
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, state->data, length);
@@ -194,5 +196,5 @@ static void seal(JoxText *state) {
 void fuzz_edit(JoxText *state, const uint8_t *data, size_t size, FuzzWalk *walk, void *context) {
     for (size_t k = 0; k < MOST_EDITS && (k + 1) * EDIT <= size; k++)
         edit_section(state, data + k * EDIT, walk, context);
-    seal(state);
+    write_checksum(state);
 }

@@ -1,14 +1,15 @@
-/* Edits of what was saved as sections (base/sections.h), with a checksum that is right: a number
-   becomes another, a cell that of its neighbour, a list longer or shorter. */
+/* Edits a state that was saved as sections (base/sections.h), and corrects its checksum. An edit
+   changes a number, copies a cell over another, or makes a list longer or shorter. */
 #ifndef JOSTLE_FUZZ_EDITS_H
 #define JOSTLE_FUZZ_EDITS_H
 
 #include "base/sections.h"
 
-/* Walks over the sections; called with FUZZ_SHOW=1, to print what each edit changes. */
+/* Visits the sections that the state was saved from; called if FUZZ_SHOW is set, to name the edited
+   section. */
 typedef void FuzzWalk(void *context, JoxSections *sections);
 
-/* By bytes, 16 for each edit. */
+/* Applies edits, of 16 bytes each. */
 void fuzz_edit(JoxText *state, const uint8_t *data, size_t size, FuzzWalk *walk, void *context);
 
 #endif

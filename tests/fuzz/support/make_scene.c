@@ -8,7 +8,7 @@
 
 #include "scene/format/keys.h"
 
-/* The bytes, each of which is a choice; behind the last all are the first choice. */
+/* The input: each byte is a choice; beyond the last one, each choice is the first. */
 typedef struct Choices {
     const uint8_t *data;
     size_t size, at;
@@ -27,7 +27,7 @@ static const char *one_of(Choices *c, const char *const *names, uint32_t count) 
 }
 #define ONE_OF(c, names) one_of(c, names, sizeof names / sizeof *names)
 
-static const char *name_for(Choices *c, const char *key) {
+static const char *pick_name_for(Choices *c, const char *key) {
     static const char *const PLACES[] = {"hall", "west", "east", "spot", "line", "row", "both"};
     static const char *const BEHAVIOURS[] = {"walker.lua",  "stander.lua", "wanderer.lua",
                                              "presser.lua", "shover.lua",  "pedestrian.lua",
@@ -56,7 +56,7 @@ static void add_random_number(Choices *c, double least, double greatest, const c
     case 2:
         jox_text_printf(c->out, "%.9g", most);
         break;
-    case 3: /* the very ends of what is allowed, and what lies behind them */
+    case 3: /* the bound of the range, and a value outside */
         jox_text_printf(c->out, "%.9g", pick(c, 2) ? least : least - 1e-3);
         break;
     default:
@@ -64,16 +64,16 @@ static void add_random_number(Choices *c, double least, double greatest, const c
     }
 }
 
-static void whole(Choices *c, const JoxKey *key) {
+static void add_whole_number(Choices *c, const JoxKey *key) {
     const double most = key->greatest < 12 ? key->greatest : 12;
     const double least = key->least > most ? most : key->least;
-    const bool budget = key->least >= 1000; /* of instructions */
+    const bool budget = key->least >= 1000; /* a limit of instructions */
     jox_text_printf(c->out, "%.0f",
                     budget ? 100000 : least + pick(c, (uint32_t)(most - least) + 1));
 }
 
-/* Most lie in the hall. */
-static void point(Choices *c, int axes) {
+/* Adds a point, most often in the hall. */
+static void add_point(Choices *c, int axes) {
     static const double LONG[] = {FUZZ_HALL_X, FUZZ_HALL_Y, 2};
     jox_text_add(c->out, "[");
     for (int k = 0; k < axes; k++) {
@@ -86,8 +86,8 @@ static void point(Choices *c, int axes) {
     jox_text_add(c->out, "]");
 }
 
-/* Lengths, or numbers of things, along the axes. */
-static void extent(Choices *c, const JoxKey *key) {
+/* Adds lengths or counts along the three axes. */
+static void add_extent(Choices *c, const JoxKey *key) {
     const bool whole_numbers = key->least >= 1;
     jox_text_add(c->out, "[");
     for (int k = 0; k < 3; k++)
@@ -96,8 +96,8 @@ static void extent(Choices *c, const JoxKey *key) {
     jox_text_add(c->out, "]");
 }
 
-/* Corners in order about a middle; now and then one that is out of it. */
-static void polygon(Choices *c, uint32_t corners) {
+/* Adds corners in order around a centre; now and then one is out of order. */
+static void add_polygon(Choices *c, uint32_t corners) {
     const double x = pick(c, FUZZ_HALL_X + 1), y = pick(c, FUZZ_HALL_Y + 1);
     const double radius = 0.1 + pick(c, 30) * 0.1;
     const uint32_t odd = pick(c, 40) == 39 ? 0 : corners;
@@ -111,39 +111,39 @@ static void polygon(Choices *c, uint32_t corners) {
     jox_text_add(c->out, "]");
 }
 
-static void map(Choices *c, const char *owner);
+static void add_map(Choices *c, const char *owner);
 
 /* Writes a value of the type that a content begins with: an owner, or a word that keys.h lists. */
-static void item(Choices *c, const char *of, size_t length) {
+static void add_item(Choices *c, const char *content, size_t length) {
     char name[40];
-    snprintf(name, sizeof name, "%.*s", (int)length, of);
+    snprintf(name, sizeof name, "%.*s", (int)length, content);
     if (!strcmp(name, "xy") || !strcmp(name, "xyz"))
-        point(c, name[2] ? 3 : 2);
+        add_point(c, name[2] ? 3 : 2);
     else if (!strcmp(name, "start"))
         jox_text_printf(c->out, "[%u, %u, %u]", pick(c, 3), pick(c, 20), pick(c, 10));
     else if (!strcmp(name, "value") && pick(c, 3))
-        jox_text_add(c->out, name_for(c, "set"));
+        jox_text_add(c->out, pick_name_for(c, "set"));
     else if (jox_owner_find(&jox_scene_format, name, length))
-        map(c, name);
+        add_map(c, name);
     else if (!strcmp(name, "draw") && pick(c, 2))
         jox_text_printf(c->out, "{uniform: [%u, %u]}", pick(c, 3), 3 + pick(c, 9));
     else
         add_random_number(c, 0, 10, "1");
 }
 
-/* "wall[2]" is a list of two or more, "place*" a map of names. */
-static void several(Choices *c, const JoxKey *key) {
-    const char *of = key->content ? key->content : "xy[2]";
-    const size_t length = strcspn(of, "*[");
-    const char *mark = of + length;
+/* Adds the list or map that a key's content says: "wall[2]" a list, "place*" a map of names. */
+static void add_items(Choices *c, const JoxKey *key) {
+    const char *content = key->content ? key->content : "xy[2]";
+    const size_t length = strcspn(content, "*[");
+    const char *mark = content + length;
     if (!*mark) {
-        item(c, of, length);
+        add_item(c, content, length);
         return;
     }
     const bool named = strchr(mark, '*') != NULL, list = strchr(mark, '[') != NULL;
     const char *least = strchr(mark, '[');
-    if (!strcmp(of, "xy[3]")) {
-        polygon(c, 3 + pick(c, 3));
+    if (!strcmp(content, "xy[3]")) {
+        add_polygon(c, 3 + pick(c, 3));
         return;
     }
     const uint32_t count = (least ? (uint32_t)atoi(least + 1) : 1) + pick(c, 2);
@@ -151,22 +151,23 @@ static void several(Choices *c, const JoxKey *key) {
     for (uint32_t i = 0; i < (count ? count : 1); i++) {
         jox_text_add(c->out, i ? ", " : "");
         if (named && !list)
-            jox_text_printf(c->out, "%s: ", !strcmp(key->name, "mix") ? name_for(c, "mix") : "n");
-        item(c, of, length);
+            jox_text_printf(c->out,
+                            "%s: ", !strcmp(key->name, "mix") ? pick_name_for(c, "mix") : "n");
+        add_item(c, content, length);
         if (named && !list)
             break;
     }
     jox_text_add(c->out, list ? "]" : "}");
 }
 
-static void value(Choices *c, const JoxKey *key) {
+static void add_value(Choices *c, const JoxKey *key) {
     char choice[64];
     switch (key->type) {
     case JOX_TYPE_NUMBER:
         add_random_number(c, key->least, key->greatest, key->default_text);
         break;
     case JOX_TYPE_WHOLE:
-        whole(c, key);
+        add_whole_number(c, key);
         break;
     case JOX_TYPE_BOOL:
         jox_text_add(c->out, pick(c, 2) ? "true" : "false");
@@ -174,9 +175,9 @@ static void value(Choices *c, const JoxKey *key) {
     case JOX_TYPE_POINT:
     case JOX_TYPE_POINT3:
         if (key->least >= 0)
-            extent(c, key);
+            add_extent(c, key);
         else
-            point(c, key->type == JOX_TYPE_POINT ? 2 : 3);
+            add_point(c, key->type == JOX_TYPE_POINT ? 2 : 3);
         break;
     case JOX_TYPE_TEXT:
     case JOX_TYPE_NAMES:
@@ -187,16 +188,16 @@ static void value(Choices *c, const JoxKey *key) {
             jox_choice_name(key->choices, (int)pick(c, (uint32_t)n), choice, sizeof choice);
             jox_text_add(c->out, choice);
         } else {
-            jox_text_add(c->out, name_for(c, key->name));
+            jox_text_add(c->out, pick_name_for(c, key->name));
         }
         break;
     default:
-        several(c, key);
+        add_items(c, key);
     }
 }
 
-/* What reads other files, or is long, is for other targets. */
-static bool left_out(const JoxKey *key) {
+/* Whether a key is left to other targets: it names other files, or makes runs long. */
+static bool is_left_out(const JoxKey *key) {
     static const char *const NAMES[] = {"include", "input",  "mods",  "patch",   "replace",
                                         "file",    "jostle", "title", "duration"};
     for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++)
@@ -205,38 +206,38 @@ static bool left_out(const JoxKey *key) {
     return false;
 }
 
-/* An owner's keys: those that are required, one that says its kind, and some of the others. */
-static void map(Choices *c, const char *owner) {
+/* Adds a map of an owner: its required keys, one that selects its kind, and some of the others. */
+static void add_map(Choices *c, const char *owner) {
     const JoxFormat *f = &jox_scene_format;
     uint32_t kinds = 0, kind, begun = 0;
     for (size_t k = 0; k < f->key_count; k++)
-        kinds +=
-            !strcmp(f->keys[k].owner, owner) && f->keys[k].selected_kind && !left_out(&f->keys[k]);
+        kinds += !strcmp(f->keys[k].owner, owner) && f->keys[k].selected_kind &&
+                 !is_left_out(&f->keys[k]);
     kind = kinds ? pick(c, kinds) : 0;
     jox_text_add(c->out, "{");
     for (size_t k = 0; k < f->key_count && c->depth < DEEPEST; k++) {
         const JoxKey *key = &f->keys[k];
-        if (strcmp(key->owner, owner) != 0 || left_out(key))
+        if (strcmp(key->owner, owner) != 0 || is_left_out(key))
             continue;
         if (key->selected_kind ? kind-- != 0
                                : strcmp(key->default_text, "!") != 0 && pick(c, 6) != 5)
             continue;
         jox_text_printf(c->out, "%s%s: ", begun++ ? ", " : "", key->name);
         c->depth++;
-        value(c, key);
+        add_value(c, key);
         c->depth--;
     }
     jox_text_add(c->out, "}");
 }
 
-static void groups(Choices *c) {
+static void add_groups(Choices *c) {
     static const char *const FORMS[] = {"count: 12, in: hall", "count: 6, in: west, outside: spot",
                                         "at: [[5, 5], [5.2, 5], [5, 5]]",
                                         "density: 0.2, in: hall, fill: hex",
                                         "count: 5, in: line, fill: line"};
     jox_text_add(c->out, "groups:\n");
     for (int g = 0; g < 3; g++) {
-        const char *behaviour = name_for(c, "behaviour");
+        const char *behaviour = pick_name_for(c, "behaviour");
         jox_text_printf(c->out, "  g%d: {behaviour: %s, %s", g, behaviour, ONE_OF(c, FORMS));
         for (size_t k = 0; k < jox_scene_format.key_count; k++) {
             static const char *const MORE[] = {"spacing", "facing", "party", "team", "haste"};
@@ -246,16 +247,16 @@ static void groups(Choices *c) {
             for (size_t m = 0; m < sizeof MORE / sizeof *MORE; m++)
                 if (!strcmp(MORE[m], key->name) && pick(c, 5) == 4) {
                     jox_text_printf(c->out, ", %s: ", key->name);
-                    value(c, key);
+                    add_value(c, key);
                 }
         }
         if (!strcmp(behaviour, "walker.lua") || !strcmp(behaviour, "pedestrian.lua"))
-            jox_text_printf(c->out, ", set: {goal: %s}", name_for(c, "in"));
+            jox_text_printf(c->out, ", set: {goal: %s}", pick_name_for(c, "in"));
         jox_text_add(c->out, "}\n");
     }
 }
 
-/* Lists of an owner, each of which may be missing; `first` is always there. */
+/* Adds a list of up to three random items of an owner, after the item `first`, if any. */
 static void add_entries(Choices *c, const char *key, const char *owner, const char *first) {
     const uint32_t count = pick(c, 4);
     if (!count && !*first)
@@ -263,7 +264,7 @@ static void add_entries(Choices *c, const char *key, const char *owner, const ch
     jox_text_printf(c->out, "%s:\n%s", key, first);
     for (uint32_t i = 0; i < count; i++) {
         jox_text_add(c->out, "  - ");
-        map(c, owner);
+        add_map(c, owner);
         jox_text_add(c->out, "\n");
     }
 }
@@ -289,22 +290,22 @@ void fuzz_make_scene(const uint8_t *data, size_t size, JoxText *out) {
         &c, "bodies", "body",
         "  - {name: b0, shape: {box: {size: [0.5, 0.5, 0.5]}}, at: [10, 2, 0.25], mass: 20, "
         "tags: [ball, red]}\n");
-    groups(&c);
+    add_groups(&c);
     if (pick(&c, 2))
         jox_text_printf(out, "sources: [{at: east, like: %s, rate: %u, keep: %u}]\n",
-                        name_for(&c, "like"), 1 + pick(&c, 30), pick(&c, 60));
+                        pick_name_for(&c, "like"), 1 + pick(&c, 30), pick(&c, 60));
     add_entries(&c, "sinks", "sink", "");
     add_entries(&c, "events", "event", "");
     static const char *const TABLES[] = {"forces", "walking", "limits"};
     for (int t = 0; t < 3; t++)
         if (pick(&c, 5) == 4) {
             jox_text_printf(out, "%s: ", TABLES[t]);
-            map(&c, TABLES[t]);
+            add_map(&c, TABLES[t]);
             jox_text_add(out, "\n");
         }
     if (pick(&c, 4) == 3) {
         jox_text_add(out, "probes: {p: ");
-        map(&c, "probe");
+        add_map(&c, "probe");
         jox_text_add(out, "}\n");
     }
     if (pick(&c, 4) == 3)

@@ -10,7 +10,7 @@
 enum { MOST_FRAMES = 50 };
 static const JoxTrajectoryOptions OPTIONS = {.fps = 10, .unit = 1};
 
-static void by_frames(const char *path) {
+static void read_by_frames(const char *path) {
     JoxDiagnostics diagnostics = {0};
     JoxTrajectoryReader *reader = jox_trajectory_reader_open(path, &OPTIONS, &diagnostics);
     FUZZ_CHECK((reader != NULL) == (diagnostics.errors == 0));
@@ -41,7 +41,7 @@ static void by_frames(const char *path) {
     jox_trajectory_reader_close(reader);
 }
 
-static void whole(const char *path) {
+static void read_whole(const char *path) {
     JoxDiagnostics diagnostics = {0};
     JoxTrajectories *t = jox_trajectories_read(path, &OPTIONS, &diagnostics);
     FUZZ_CHECK((t != NULL) == (diagnostics.errors == 0));
@@ -53,7 +53,7 @@ static void whole(const char *path) {
     jox_trajectories_free(t);
 }
 
-static void plan(const char *path) {
+static void read_plan(const char *path) {
     JoxDiagnostics diagnostics = {0};
     char *text = jox_wall_file_read_recorded(path, &diagnostics);
     FUZZ_CHECK((text != NULL) == (diagnostics.errors == 0));
@@ -61,7 +61,7 @@ static void plan(const char *path) {
     fuzz_end_diagnostics(&diagnostics);
 }
 
-/* All that a live page is sent of a frame. */
+/* Makes all that is sent of a frame to a live page. */
 static void show_frame(JoxReplay *replay, uint32_t frame) {
     const JoxLiveSession session = {.speed = 1};
     JoxText text = {0};
@@ -78,7 +78,7 @@ static void show_frame(JoxReplay *replay, uint32_t frame) {
     jox_bytes_free(&bytes);
 }
 
-static void on_a_page(const char *path) {
+static void replay_on_page(const char *path) {
     JoxDiagnostics diagnostics = {0};
     const JoxReplayDef def = {.recording = path, .options = OPTIONS};
     JoxReplay *replay = jox_replay_open(&def, &diagnostics);
@@ -97,8 +97,8 @@ static void on_a_page(const char *path) {
 }
 
 void fuzz_recording(const char *path) {
-    by_frames(path);
-    on_a_page(path);
-    whole(path);
-    plan(path);
+    read_by_frames(path);
+    replay_on_page(path);
+    read_whole(path);
+    read_plan(path);
 }

@@ -3,7 +3,7 @@
 
 #include "fuzz.h"
 
-/* Reads a recording in every way, and checks that what comes out is whole. */
+/* Reads a recording in every way, and checks the result. */
 void fuzz_recording(const char *path);
 
 #endif

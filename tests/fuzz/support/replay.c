@@ -1,5 +1,5 @@
-/* Stands in for libFuzzer in builds without it: gives a target every file of the arguments (folders
-   are walked), and behind --mutate N also N mutations of each, the same every time.
+/* Replaces libFuzzer in builds without it: runs a target on every file of the arguments, also below
+   folders, and with --mutate N on N mutations of each, the same every time.
      TARGET [--mutate N] FILE|FOLDER... */
 #include <ftw.h>
 #include <stdio.h>
@@ -17,8 +17,8 @@ static uint32_t roll(size_t sides) {
     return (uint32_t)(dice >> 33) % (uint32_t)sides;
 }
 
-/* A byte becomes another, a stretch is taken out, or lies once more elsewhere. */
-static size_t mutate(uint8_t *data, size_t size) {
+/* Changes a byte, removes some bytes, or copies some over others; returns the new size. */
+static size_t mutate_input(uint8_t *data, size_t size) {
     const size_t from = roll(size), at = roll(size);
     size_t n = 1 + roll(16);
     switch (roll(4)) {
@@ -40,7 +40,7 @@ static size_t mutate(uint8_t *data, size_t size) {
     }
 }
 
-/* In memory of its own size, so that a sanitizer sees every byte that is read behind it. */
+/* Runs the target on a copy of exact size, so that a sanitizer sees reads beyond it. */
 static void run_input(const uint8_t *data, size_t size) {
     uint8_t *copy = malloc(size ? size : 1);
     if (!copy)
@@ -71,7 +71,7 @@ static int run_input_file(const char *path, const struct stat *info, int kind, s
         size_t now = size;
         memcpy(changed, whole, size);
         for (uint32_t k = 1 + roll(4); k > 0; k--)
-            now = mutate(changed, now);
+            now = mutate_input(changed, now);
         run_input(changed, now);
     }
     return 0;
