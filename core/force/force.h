@@ -9,9 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "agents/agents.h"
-#include "agents/contact_planes.h"
-#include "agents/neighbours.h"
+#include "agents/step.h"
 #include "geom/objects.h"
 #include "geom/wall_grid.h"
 #include "geom/wall_images.h"
@@ -31,33 +29,17 @@ typedef struct JoxForceOptions {
     float least;         /* m/s2: least |f|/m that makes a half-plane */
 } JoxForceOptions;
 
-/* Inputs of a step. All but `agents`, `neighbours` and `dt` may be zero. They must stay valid, and
-   the agents keep their order, from begin to infer. The distances of the neighbours are those
-   before the move. */
-typedef struct JoxForceStep {
-    JoxAgents *agents;
-    const JoxNeighbours *neighbours;
-    const JoxObjects *objects;
+/* What else begin is given. All may be zero. It must stay valid from begin to infer. */
+typedef struct JoxForceInputs {
     const JoxWallGrid *walls; /* grid that jox_nav_touching_walls returns; NULL: no walls */
     const float *unhidden2;   /* m2, until agents move: no wall hides neighbours nearer than this;
                                  NULL: unknown */
-    JoxPool *pool;
-    double time; /* s: simulated time at the start of the step */
-    uint64_t seed;
-    bool turning;         /* agents turn their shoulders among others, where contacts are solved */
-    double dt;            /* s, above 0 */
-    double planning_time; /* s: how far ahead velocities are planned; 0: dt */
-    double response;      /* share of the way to the planned velocity covered in dt; 0: all */
-    double interval; /* s: between plans of agents that are not pressed while they stand; 0: dt */
-    double interval_response; /* share covered in that time */
-    double interval_forced;   /* s: how long a force would have to act, at the start of the interval
-                                 and all at once, to have the effect at its end that it has step by
-                                 step; 0: interval */
-    const uint8_t *push_on;   /* per agent, 0: does not push now; NULL: all may push */
+    bool turning; /* agents turn their shoulders among others, where contacts are solved */
+    const uint8_t *push_on;      /* per agent, 0: does not push now; NULL: all may push */
     const uint8_t *push_nearest; /* per agent, 1: pushes the nearest target only; NULL: all */
     /* Direction of the push per agent, of any length; (0, 0) or NULL: the preferred velocity. */
     const float *push_toward_x, *push_toward_y;
-} JoxForceStep;
+} JoxForceInputs;
 
 typedef struct JoxForceTotals {
     uint32_t pushers; /* agents that pushed something this step */
@@ -94,8 +76,10 @@ float jox_force_passing_reach(const JoxForces *forces);
 /* Lists the state that outlasts a step: the impulses from which the next contact solve starts. */
 void jox_forces_sections(JoxForces *forces, JoxSections *sections);
 
-/* Starts a step: zeroes push, contact, compression, load and contacts, and empties the impulses. */
-void jox_force_begin(JoxForces *forces, const JoxForceStep *step);
+/* Starts a step: zeroes push, contact, compression, load and contacts, and empties the impulses.
+   What `step` and `inputs` point to must stay valid, and the agents keep their order, until
+   infer. */
+void jox_force_begin(JoxForces *forces, const JoxStep *step, const JoxForceInputs *inputs);
 /* Equation 5: writes push_x, push_y of the agents that are pushed, and impulses on bodies. */
 void jox_force_push(JoxForces *forces);
 /* Equations 6 and 7: writes contact_x, contact_y, contacts, compression, load, and impulses on

@@ -24,7 +24,8 @@ typedef struct JoxContacts JoxContacts; /* contact/contacts.h */
 
 struct JoxForces {
     JoxForceOptions options;
-    JoxForceStep step; /* from begin on */
+    JoxStep step;      /* from begin on */
+    JoxForceInputs in; /* likewise */
     JoxForceTotals totals;
     uint32_t chunks;
     JoIsa isa;      /* instruction set of the kernels */
@@ -57,14 +58,14 @@ static inline float jox_circumference(float radius) {
 typedef struct JoxPlanning {
     float interval, response, forced;
 } JoxPlanning;
-static inline JoxPlanning jox_planning(const JoxForceStep *step, bool each_step) {
+static inline JoxPlanning jox_planning(const JoxTiming *t, bool each_step) {
     if (each_step)
-        return (JoxPlanning){(float)step->dt, (float)step->response, (float)step->dt};
-    return (JoxPlanning){(float)step->interval, (float)step->interval_response,
-                         (float)step->interval_forced};
+        return (JoxPlanning){(float)t->dt, (float)t->response, (float)t->dt};
+    return (JoxPlanning){(float)t->interval, (float)t->interval_response,
+                         (float)t->interval_forced};
 }
-static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) {
-    return jox_planning(step, jox_stands_pressed(step->agents, i));
+static inline JoxPlanning jox_planning_of(const JoxStep *step, uint32_t i) {
+    return jox_planning(&step->timing, jox_stands_pressed(step->agents, i));
 }
 
 /* Returns the sum of an agent's force terms of some roles (flags of JoxForceRole), N, in the order

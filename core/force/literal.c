@@ -10,12 +10,12 @@ static const float ROUNDING = 1e-5f;
 JoxV2 jox_literal_push_offset(const JoxForces *f, uint32_t pusher, JoxV2 to_centre) {
     const JoxAgents *a = f->step.agents;
     JoxV2 way = {a->vx[pusher], a->vy[pusher]};
-    return jox_sub(to_centre, jox_scale(way, (float)f->step.dt));
+    return jox_sub(to_centre, jox_scale(way, (float)f->step.timing.dt));
 }
 
 bool jox_literal_under_force(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    float impulse = jox_length(jox_v2(a->force_x[i], a->force_y[i])) * (float)f->step.dt;
+    float impulse = jox_length(jox_v2(a->force_x[i], a->force_y[i])) * (float)f->step.timing.dt;
     return impulse >= ROUNDING * jox_param(a, JOX_PARAM_mass, i) && isfinite(impulse);
 }
 
@@ -23,7 +23,7 @@ bool jox_literal_under_force(const JoxForces *f, uint32_t i) {
 static JoxV2 find_forced_velocity(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     return jox_forced_velocity(jox_velocity_before(f, i), jox_v2(a->force_x[i], a->force_y[i]),
-                               jox_param(a, JOX_PARAM_mass, i), 1.0f, (float)f->step.dt);
+                               jox_param(a, JOX_PARAM_mass, i), 1.0f, (float)f->step.timing.dt);
 }
 
 /* (11), (12) Makes the half-plane of the force; the speed limit is raised so that it allows the
@@ -43,7 +43,7 @@ static void make_force_plane(JoxForces *f, uint32_t i) {
 
 void jox_literal_sum(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
+    const float dt = (float)f->step.timing.dt, mass = jox_param(a, JOX_PARAM_mass, i);
     const JoxV2 force = jox_sum_terms(a, i, JOX_FORCE_ALL); /* (10) */
     const JoxV2 given = jox_add(jox_moving_force(a, i), jox_sum_terms(a, i, JOX_FORCE_CONTACT));
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
@@ -77,8 +77,8 @@ static void share_in_cone(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, 
    one. */
 void jox_literal_pass_on(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    float size =
-        jox_param(a, JOX_PARAM_absorb, i) * jox_param(a, JOX_PARAM_mass, i) / (float)f->step.dt;
+    float size = jox_param(a, JOX_PARAM_absorb, i) * jox_param(a, JOX_PARAM_mass, i) /
+                 (float)f->step.timing.dt;
     JoxV2 before = jox_velocity_before(f, i), after = {a->vx[i], a->vy[i]};
     if (!(size > 0.0f))
         return;

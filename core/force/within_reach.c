@@ -5,7 +5,7 @@
 
 bool jox_force_is_walled_off(const JoxForces *f, JoxV2 from, JoxV2 to) {
     /* Tests from either end, as the grid lists edges up to half of the distance only. */
-    const JoxWallGrid *walls = f->step.walls;
+    const JoxWallGrid *walls = f->in.walls;
     return walls && (jox_wall_grid_has_wall_between(walls, from, to) ||
                      jox_wall_grid_has_wall_between(walls, to, from));
 }

@@ -4,9 +4,7 @@
 #ifndef JOX_NAV_NAV_H
 #define JOX_NAV_NAV_H
 
-#include "agents/agents.h"
-#include "agents/contact_planes.h"
-#include "agents/neighbours.h"
+#include "agents/step.h"
 #include "agents/walk_law.h"
 #include "geom/objects.h"
 #include "geom/wall_grid.h"
@@ -53,22 +51,12 @@ const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neig
 const float *jox_nav_unhidden2(const JoxNav *nav);
 /* End of prefer: writes the aims of all agents; of those that keep a time gap and plan in this
    step, also walk (the velocity that the walking law wants among others and walls), eagerness and
-   course. `time`: simulated, s; `interval`: since the last plan, s. */
-void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, uint64_t seed,
-                  double time, double interval, bool plans, JoxPool *pool);
-/* When agents plan, and for which time. */
-typedef struct JoxPlanTime {
-    uint64_t seed;        /* seeds the random numbers */
-    double time;          /* s, simulated */
-    double planning_time; /* s from `time` on: when the planned velocity is reached */
-    bool plans;           /* false: agents that want to get on keep their plans */
-} JoxPlanTime;
+   course. */
+void jox_nav_walk(JoxNav *nav, const JoxStep *step);
 /* solve: writes next_x, next_y, the velocity to have `planning_time` seconds from now, and sets
    `failed` where no velocity meets all half-planes. Contacts in `touched` give hard half-planes, as
    walls do. Returns how many agents had a hard half-plane relaxed. */
-uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, const JoxContactPlanes *touched,
-                       const JoxPlanTime *planning, JoxPool *pool);
+uint32_t jox_nav_solve(JoxNav *nav, const JoxStep *step);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
 typedef enum JoxConstraintKind {
     JOX_CONSTRAINT_WALL,
@@ -85,9 +73,7 @@ typedef struct JoxConstraint {
 enum { JOX_MOST_CONSTRAINTS = 93 };
 /* Lists the half-planes of one agent as solve makes them, in the order of solving; valid between
    solve and move. Returns how many. */
-uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
-                             const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             const JoxContactPlanes *touched, double planning_time, uint32_t agent,
+uint32_t jox_nav_constraints(const JoxNav *nav, const JoxStep *step, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]);
 /* The choice of an agent in the state between two steps. */
 typedef struct JoxPlan {
@@ -97,18 +83,14 @@ typedef struct JoxPlan {
     bool failed;  /* no velocity meets all of them */
 } JoxPlan;
 /* Finds the neighbours of one agent anew and solves for it alone, from its preferred velocity,
-   whether or not `planning` says that agents plan. Contacts and forces are those of the last step;
-   call it between that step and the next. Changes nothing. */
-void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *objects,
-                  const JoxContactPlanes *touched, const JoxPlanTime *planning, uint32_t agent,
-                  JoxPlan *out);
+   whether or not agents plan in the step. Contacts and forces are those of the last step; call it
+   between that step and the next. Changes nothing. */
+void jox_nav_plan(const JoxNav *nav, const JoxStep *step, uint32_t agent, JoxPlan *out);
 /* move: sets the velocity to forced + (next - forced) * response; moves by the mean of that
    approach over the step, forced + (next - forced) * on_the_way; resolves overlaps weakly (of
    contacts where `touched` has them, else of neighbours); passes no wall. prev_x, prev_y keep the
    old position; updates still, still_x, still_y. */
-void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                  const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
-                  double response, double on_the_way, JoxPool *pool);
+void jox_nav_move(JoxNav *nav, const JoxStep *step);
 
 /* Where an agent is to be born. */
 typedef struct JoxBirthWish {

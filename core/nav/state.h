@@ -84,6 +84,14 @@ struct JoxNav {
     const JoxWalkLaw *walk; /* belongs to the model */
 };
 
+/* Returns a step whose contact planes are NULL where contacts were not searched for. */
+static inline JoxStep jox_nav_step(const JoxStep *step) {
+    JoxStep own = *step;
+    if (own.touched && !own.touched->agents)
+        own.touched = NULL;
+    return own;
+}
+
 void jox_nav_reserve(JoxNav *nav, uint32_t agents);
 /* Called once all agents have moved: reads the positions of the strays; drops them and the drift if
    there are too many. */

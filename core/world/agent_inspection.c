@@ -42,7 +42,7 @@ static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
 /* Whether the agent was in the last step, so that its scratch columns hold figures: they do not of
    who came since, nor in a world that was restored since. */
 static bool was_in_step(const JoWorld *w, uint32_t i) {
-    return w->scratch.substep.dt > 0.0 && w->state.agents.breadth[i] > 0.0f;
+    return w->scratch.substep.step.timing.dt > 0.0 && w->state.agents.breadth[i] > 0.0f;
 }
 
 /* What the agent would choose as everything stands; unknown of who was not in the last step. */
@@ -53,11 +53,9 @@ static void look_now(JoWorld *w, uint32_t i, JoxInspected *seen) {
     JoxPlan *plan = jox_alloc(1, sizeof *plan);
     jox_bodies_objects(w->state.bodies, &w->scratch.objects);
     jox_objects_lay(&w->scratch.objects);
-    const JoxPlanTime planning = {.seed = w->model.def.seed,
-                                  .time = (double)w->state.tick * w->model.def.dt,
-                                  .planning_time = w->scratch.substep.planning_time};
-    jox_nav_plan(w->scratch.nav, a, &w->scratch.objects,
-                 jox_force_contact_planes(w->scratch.forces), &planning, i, plan);
+    JoxStep step = w->scratch.substep.step;
+    step.timing.time = (double)w->state.tick * w->model.def.dt;
+    jox_nav_plan(w->scratch.nav, &step, i, plan);
     memcpy(seen->planes, plan->planes, plan->count * sizeof *plan->planes);
     seen->plane_count = plan->count;
     seen->chosen = plan->chosen;
@@ -149,16 +147,14 @@ void jox_inspect_after_push(JoxInspection *all, const JoxAgents *a, const JoxFor
     }
 }
 
-void jox_inspect_after_solve(JoxInspection *all, const JoxAgents *a, const JoxNav *nav,
-                             const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             const JoxContactPlanes *touched, double planning_time) {
+void jox_inspect_after_solve(JoxInspection *all, const JoxNav *nav, const JoxStep *step) {
+    const JoxAgents *a = step->agents;
     for (uint32_t n = 0; n < all->count; n++) {
         JoxInspected *seen = &all->agents[n];
         uint32_t i = jox_agents_find(a, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        seen->plane_count = jox_nav_constraints(nav, a, neighbours, objects, touched, planning_time,
-                                                i, seen->planes);
+        seen->plane_count = jox_nav_constraints(nav, step, i, seen->planes);
         JOX_ASSERT(seen->plane_count <= JOX_MOST_CONSTRAINTS);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};

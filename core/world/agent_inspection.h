@@ -51,9 +51,7 @@ JoxInspected *jox_world_inspect(struct JoWorld *world, uint32_t slot, const JoxW
 /* In a step, behind the stages push, solve and infer. */
 void jox_inspect_after_push(JoxInspection *inspection, const JoxAgents *agents,
                             const JoxForces *forces);
-void jox_inspect_after_solve(JoxInspection *inspection, const JoxAgents *agents, const JoxNav *nav,
-                             const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             const JoxContactPlanes *touched, double planning_time);
+void jox_inspect_after_solve(JoxInspection *inspection, const JoxNav *nav, const JoxStep *step);
 void jox_inspect_after_infer(JoxInspection *inspection, const JoxAgents *agents,
                              const JoxForces *forces);
 /* Nobody has looked for a while: ends what is old. */

@@ -53,8 +53,9 @@ void jox_stage_note_bond_touch(const JoxBodyStage *stage) {
         if (s->touched)
             s->touch_s = stage->substep->end;
         else if (front)
-            s->front_speed += (sum / front - s->front_speed) *
-                              (s->front == 0 ? 1.0 : fmin(1.0, stage->substep->dt / FRONT_TIME));
+            s->front_speed +=
+                (sum / front - s->front_speed) *
+                (s->front == 0 ? 1.0 : fmin(1.0, stage->substep->step.timing.dt / FRONT_TIME));
         s->front = front > s->front ? front : s->front;
     }
 }

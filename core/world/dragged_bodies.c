@@ -109,7 +109,7 @@ void jox_stage_drag_bodies(const JoxBodyStage *s) {
                                       most * (wanted.z - pose.velocity.z)},
                               DRAG_FORCE);
         force.z += jox_minf(pose.mass * (float)s->gravity, DRAG_FORCE);
-        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)s->substep->dt);
+        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)s->substep->step.timing.dt);
         JoxV3 spin = {pose.spin.x * kept, pose.spin.y * kept, pose.spin.z * kept};
         jox_bodies_set_velocity(s->bodies, grab->row, pose.velocity, spin);
         jox_bodies_force(s->bodies, grab->row, force);

@@ -59,7 +59,7 @@ static double hit_momentum(const JoxBodyStage *s, const JoxBodiesReport *report)
 /* What fast bodies did to people: a change of velocity now, a contact force in the columns. */
 static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
     JoxAgents *a = s->agents;
-    float dt = (float)s->substep->dt;
+    float dt = (float)s->substep->step.timing.dt;
     for (uint32_t h = 0; h < report->hit_count; h++) {
         const JoxDiscHit *hit = &report->hits[h];
         JOX_ASSERT(hit->disc < a->count);
@@ -147,7 +147,7 @@ static void hold_up_driven(const JoxBodyStage *s) {
 
 JoxBodiesReport jox_stage_step_bodies(const JoxBodyStage *s) {
     uint32_t count;
-    float dt = (float)s->substep->dt;
+    float dt = (float)s->substep->step.timing.dt;
     const JoxImpulse *impulses = jox_force_impulses(s->forces_of, &count);
     give_impulses(s, impulses, count);
     hold_up_driven(s);

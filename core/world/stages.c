@@ -9,7 +9,7 @@
 /* A step that is not divided has one substep, which is the first and the last. */
 static void check_substep(const JoxSubstep *s) {
     JOX_ASSERT(s->only == (s->first && s->last));
-    JOX_ASSERT(s->dt > 0.0 && s->planning_time > 0.0 && s->end > 0.0);
+    JOX_ASSERT(s->step.timing.dt > 0.0 && s->step.timing.planning_time > 0.0 && s->end > 0.0);
 }
 
 void jox_stage_perceive(const JoxPerceiveStage *s) {
@@ -40,12 +40,12 @@ void jox_stage_think(const JoxThinkStage *s) {
 }
 
 void jox_stage_prefer(const JoxPreferStage *s) {
-    jox_machines_prefer(s->machines, s->pool);
+    const JoxStep *step = &s->substep->step;
+    jox_machines_prefer(s->machines, step->pool);
     if (s->machines->without_spot > s->statistics->most_without_spot)
         s->statistics->most_without_spot = s->machines->without_spot;
     if (!s->literal)
-        jox_nav_walk(s->nav, s->agents, s->neighbours, s->seed, s->substep->end - s->substep->dt,
-                     s->substep->interval, s->substep->plans, s->pool);
+        jox_nav_walk(s->nav, step);
 }
 
 /* Zeroes the external force, which is given for one step; keeps it in `last` for display. */
@@ -57,61 +57,46 @@ static void use_up_external(float *ext, float *last, uint32_t count) {
 }
 
 void jox_stage_push(const JoxPushStage *s) {
-    JoxForceStep step = {.agents = s->agents,
-                         .neighbours = s->neighbours,
-                         .objects = s->objects,
-                         .walls = jox_nav_touching_walls(s->nav, s->neighbours, s->agents,
-                                                         jox_force_passing_reach(s->forces_of)),
-                         .unhidden2 = jox_nav_unhidden2(s->nav),
-                         .pool = s->pool,
-                         .dt = s->substep->dt,
-                         .time = s->substep->end - s->substep->dt,
-                         .seed = s->seed,
-                         .turning = s->forces && !s->literal,
-                         .planning_time = s->substep->planning_time,
-                         .response = s->substep->response,
-                         .interval = s->substep->interval,
-                         .interval_response = s->substep->interval_response,
-                         .interval_forced = s->substep->interval_forced,
-                         .push_on = s->machines->push_on,
-                         .push_nearest = s->machines->push_nearest,
-                         .push_toward_x = s->machines->push_toward_x,
-                         .push_toward_y = s->machines->push_toward_y};
-    jox_force_begin(s->forces_of, &step);
+    const JoxStep *step = &s->substep->step;
+    JoxAgents *a = step->agents;
+    const JoxForceInputs inputs = {
+        .walls = jox_nav_touching_walls(s->nav, step->neighbours, a,
+                                        jox_force_passing_reach(s->forces_of)),
+        .unhidden2 = jox_nav_unhidden2(s->nav),
+        .turning = s->forces && !s->literal,
+        .push_on = s->machines->push_on,
+        .push_nearest = s->machines->push_nearest,
+        .push_toward_x = s->machines->push_toward_x,
+        .push_toward_y = s->machines->push_toward_y};
+    jox_force_begin(s->forces_of, step, &inputs);
     if (s->forces) {
         jox_force_push(s->forces_of);
         jox_force_contact(s->forces_of);
     }
     jox_force_sum(s->forces_of);
-    jox_inspect_after_push(s->inspection, s->agents, s->forces_of);
+    jox_inspect_after_push(s->inspection, a, s->forces_of);
     if (!s->substep->last)
         return;
-    use_up_external(s->agents->ext_x, s->agents->last_ext_x, s->agents->count);
-    use_up_external(s->agents->ext_y, s->agents->last_ext_y, s->agents->count);
+    use_up_external(a->ext_x, a->last_ext_x, a->count);
+    use_up_external(a->ext_y, a->last_ext_y, a->count);
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
+    const JoxStep *step = &s->substep->step;
     JoxForceTotals totals = jox_force_totals(s->forces_of);
-    jox_mem_fill(s->agents->index_drop, 0, s->agents->count * sizeof *s->agents->index_drop);
+    jox_mem_fill(step->agents->index_drop, 0,
+                 step->agents->count * sizeof *step->agents->index_drop);
     s->statistics->contact_passes += totals.passes;
     if (totals.residual > s->statistics->contact_residual)
         s->statistics->contact_residual = (double)totals.residual;
-    const JoxPlanTime planning = {.seed = s->seed,
-                                  .time = s->substep->end - s->substep->dt,
-                                  .planning_time = s->substep->planning_time,
-                                  .plans = s->substep->plans};
-    s->statistics->walls_relaxed +=
-        jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
-                      jox_force_contact_planes(s->forces_of), &planning, s->pool);
-    jox_inspect_after_solve(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
-                            jox_force_contact_planes(s->forces_of), s->substep->planning_time);
+    s->statistics->walls_relaxed += jox_nav_solve(s->nav, step);
+    jox_inspect_after_solve(s->inspection, s->nav, step);
 }
 
 void jox_stage_move(const JoxMoveStage *s) {
-    JoxAgents *a = s->agents;
+    const JoxAgents *a = s->substep->step.agents;
     JOX_ASSERT(s->substep->only || a->count == 0 || s->walked);
-    jox_nav_move(s->nav, a, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
-                 s->substep->dt, s->substep->response, s->substep->on_the_way, s->pool);
+    jox_nav_move(s->nav, &s->substep->step);
     for (uint32_t i = 0; !s->substep->only && i < a->count; i++) {
         JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
         s->walked[i] = s->substep->first ? way : jox_add(s->walked[i], way);

@@ -3,8 +3,7 @@
 #ifndef JOX_WORLD_STAGES_H
 #define JOX_WORLD_STAGES_H
 
-#include "agents/agents.h"
-#include "agents/neighbours.h"
+#include "agents/step.h"
 #include "body/body.h"
 #include "force/force.h"
 #include "geom/hands.h"
@@ -16,18 +15,13 @@
 #include "world/statistics.h"
 #include "world/step_events/step_events.h"
 
-/* A step longer than people plan ahead is done in equal substeps; think and observe run once. */
+/* A step longer than people plan ahead is done in equal substeps; think and observe run once. The
+   world fills it once a substep. */
 typedef struct JoxSubstep {
-    bool first, last, only;   /* only: the step is not divided */
-    double dt, planning_time; /* s: of the substep; how far ahead velocities are planned */
-    double response;          /* share of the way to the planned velocity gone in dt */
-    double on_the_way;        /* the mean of that share over dt */
-    uint32_t plan_every;      /* substeps, from plan to plan */
-    bool plans;               /* people plan anew; else they go on with what they planned */
-    double interval;          /* s, between plans */
-    double interval_response; /* the share gone in that time */
-    double interval_forced;   /* s: as in JoxForceStep */
-    double end;               /* s: simulated time at its end */
+    bool first, last, only; /* only: the step is not divided */
+    uint32_t plan_every;    /* substeps, from plan to plan */
+    double end;             /* s: simulated time at its end */
+    JoxStep step;           /* what nav and force are given; keeps the timing until the next */
 } JoxSubstep;
 
 typedef struct JoxPerceiveStage {
@@ -54,58 +48,40 @@ typedef struct JoxThinkStage {
 void jox_stage_think(const JoxThinkStage *stage);
 
 typedef struct JoxPreferStage {
-    const JoxSubstep *substep;
-    bool literal; /* then nobody walks by the law */
-    uint64_t seed;
-    JoxPool *pool;
-    const JoxNeighbours *neighbours;
-    JoxNav *nav;             /* its grid of walls */
-    JoxMachineRun *machines; /* which says what machines read and write */
-    JoxAgents *agents;       /* aim, walk, eager, course of those who walk by the law */
+    const JoxSubstep *substep; /* writes aim, walk, eager, course of those who walk by the law */
+    bool literal;              /* then nobody walks by the law */
+    JoxNav *nav;               /* its grid of walls */
+    JoxMachineRun *machines;   /* which says what machines read and write */
     JoxStatistics *statistics;
 } JoxPreferStage;
 void jox_stage_prefer(const JoxPreferStage *stage);
 
 typedef struct JoxPushStage {
+    /* Writes the agents' push, contact, force, plane, disc, compression, load, contacts; ext is
+       used up. */
     const JoxSubstep *substep;
-    bool literal; /* forces as the paper prints them */
-    uint64_t seed;
-    bool forces; /* else people feel none */
-    JoxPool *pool;
-    const JoxNeighbours *neighbours;
-    const JoxObjects *objects;
+    bool literal;                  /* forces as the paper prints them */
+    bool forces;                   /* else people feel none */
     JoxNav *nav;                   /* its grid of walls */
     const JoxMachineRun *machines; /* who pushes, and whereto */
     JoxForces *forces_of;
-    JoxAgents *
-        agents; /* push, contact, force, plane, disc, compression, load, contacts; ext is used up */
     JoxInspection *inspection;
 } JoxPushStage;
 void jox_stage_push(const JoxPushStage *stage);
 
 typedef struct JoxSolveStage {
-    const JoxSubstep *substep;
-    uint64_t seed;
-    JoxPool *pool;
-    const JoxNeighbours *neighbours;
-    const JoxObjects *objects;
-    const JoxForces *forces_of; /* half-planes of what is touched */
+    const JoxSubstep *substep;  /* writes the agents' next, failed */
+    const JoxForces *forces_of; /* totals of the contact solve */
     JoxNav *nav;
-    JoxAgents *agents; /* next, failed */
     JoxInspection *inspection;
     JoxStatistics *statistics;
 } JoxSolveStage;
 void jox_stage_solve(const JoxSolveStage *stage);
 
 typedef struct JoxMoveStage {
-    const JoxSubstep *substep;
-    JoxPool *pool;
-    const JoxNeighbours *neighbours;
-    const JoxObjects *objects;
-    const JoxForces *forces_of; /* who touches whom */
+    const JoxSubstep *substep; /* writes the agents' position, velocity, prev, still */
     JoxNav *nav;
-    JoxAgents *agents; /* position, velocity, prev, still */
-    JoxV2 *walked;     /* per agent, m: during the substeps so far; only where there are several */
+    JoxV2 *walked; /* per agent, m: during the substeps so far; only where there are several */
 } JoxMoveStage;
 void jox_stage_move(const JoxMoveStage *stage);
 

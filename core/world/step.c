@@ -69,12 +69,8 @@ static void think(JoWorld *w, const JoxSubstep *substep) {
 static void prefer(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_prefer(&(JoxPreferStage){.substep = substep,
                                        .literal = w->model.def.literal,
-                                       .seed = w->model.def.seed,
-                                       .pool = w->scratch.pool,
-                                       .neighbours = &w->scratch.neighbours,
                                        .nav = w->scratch.nav,
                                        .machines = &w->machines,
-                                       .agents = &w->state.agents,
                                        .statistics = &w->state.statistics});
 }
 
@@ -82,39 +78,23 @@ static void push(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_push(&(JoxPushStage){.substep = substep,
                                    .forces = w->model.def.forces,
                                    .literal = w->model.def.literal,
-                                   .seed = w->model.def.seed,
-                                   .pool = w->scratch.pool,
-                                   .neighbours = &w->scratch.neighbours,
-                                   .objects = &w->scratch.objects,
                                    .nav = w->scratch.nav,
                                    .machines = &w->machines,
                                    .forces_of = w->scratch.forces,
-                                   .agents = &w->state.agents,
                                    .inspection = &w->scratch.inspection});
 }
 
 static void solve(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_solve(&(JoxSolveStage){.substep = substep,
-                                     .seed = w->model.def.seed,
-                                     .pool = w->scratch.pool,
-                                     .neighbours = &w->scratch.neighbours,
-                                     .objects = &w->scratch.objects,
                                      .forces_of = w->scratch.forces,
                                      .nav = w->scratch.nav,
-                                     .agents = &w->state.agents,
                                      .inspection = &w->scratch.inspection,
                                      .statistics = &w->state.statistics});
 }
 
 static void move(JoWorld *w, const JoxSubstep *substep) {
-    jox_stage_move(&(JoxMoveStage){.substep = substep,
-                                   .pool = w->scratch.pool,
-                                   .neighbours = &w->scratch.neighbours,
-                                   .objects = &w->scratch.objects,
-                                   .forces_of = w->scratch.forces,
-                                   .nav = w->scratch.nav,
-                                   .agents = &w->state.agents,
-                                   .walked = w->scratch.walked});
+    jox_stage_move(
+        &(JoxMoveStage){.substep = substep, .nav = w->scratch.nav, .walked = w->scratch.walked});
 }
 
 static void bodies(JoWorld *w, const JoxSubstep *substep) {
@@ -190,33 +170,44 @@ static double forced_time(double dt, uint32_t steps) {
     return time;
 }
 
-/* What all substeps of a world have in common. */
-static JoxSubstep substep_of_length(const JoWorldDef *def, double dt) {
+/* Returns the times that all substeps of this length have in common, and how many substeps there
+   are from plan to plan. */
+static JoxTiming find_timing(const JoWorldDef *def, double dt, uint32_t *plan_every) {
     const double every = PLANNING_TIME / dt + 0.5;
-    const double response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / RESPONSE_TIME);
-    const uint32_t plan_every = def->literal || every < 2.0 ? 1 : (uint32_t)every;
-    return (JoxSubstep){.dt = dt,
-                        .planning_time = def->literal ? def->dt : PLANNING_TIME,
-                        .response = response,
-                        .on_the_way = def->literal ? 1.0 : 1.0 - response * RESPONSE_TIME / dt,
-                        .plan_every = plan_every,
-                        .interval = dt * plan_every,
-                        .interval_forced = forced_time(dt, plan_every),
-                        .interval_response =
-                            def->literal ? 1.0 : 1.0 - jox_exp(-dt * plan_every / RESPONSE_TIME)};
+    *plan_every = def->literal || every < 2.0 ? 1 : (uint32_t)every;
+    if (def->literal)
+        return jox_timing_at_once(dt);
+    const double response = 1.0 - jox_exp(-dt / RESPONSE_TIME);
+    return (JoxTiming){.dt = dt,
+                       .planning_time = PLANNING_TIME,
+                       .response = response,
+                       .on_the_way = 1.0 - response * RESPONSE_TIME / dt,
+                       .interval = dt * *plan_every,
+                       .interval_forced = forced_time(dt, *plan_every),
+                       .interval_response = 1.0 - jox_exp(-dt * *plan_every / RESPONSE_TIME)};
 }
 
-static JoxSubstep substep_of(JoWorld *w, uint32_t number, uint32_t substeps) {
+/* Fills the substep of that number. */
+static const JoxSubstep *begin_substep(JoWorld *w, uint32_t number, uint32_t substeps) {
     const JoWorldDef *def = &w->model.def;
     const double dt = def->dt / substeps;
-    if (w->scratch.substep.dt != dt)
-        w->scratch.substep = substep_of_length(def, dt);
-    JoxSubstep s = w->scratch.substep;
-    s.first = number == 0;
-    s.last = number + 1 == substeps;
-    s.only = substeps == 1;
-    s.plans = w->state.tick % s.plan_every == 0;
-    s.end = (double)w->state.tick * def->dt + (number + 1) * dt;
+    JoxSubstep *s = &w->scratch.substep;
+    JoxTiming timing = s->step.timing;
+    if (timing.dt != dt)
+        timing = find_timing(def, dt, &s->plan_every);
+    s->first = number == 0;
+    s->last = number + 1 == substeps;
+    s->only = substeps == 1;
+    s->end = (double)w->state.tick * def->dt + (number + 1) * dt;
+    timing.seed = def->seed;
+    timing.time = s->end - dt;
+    timing.plans = w->state.tick % s->plan_every == 0;
+    s->step = (JoxStep){.timing = timing,
+                        .agents = &w->state.agents,
+                        .neighbours = &w->scratch.neighbours,
+                        .objects = &w->scratch.objects,
+                        .touched = jox_force_contact_planes(w->scratch.forces),
+                        .pool = w->scratch.pool};
     return s;
 }
 
@@ -246,13 +237,13 @@ bool jox_world_step(JoWorld *w) {
     bool good = true;
     const uint32_t substeps = divide(w);
     for (uint32_t number = 0; number < substeps && good; number++) {
-        const JoxSubstep substep = substep_of(w, number, substeps);
+        const JoxSubstep *substep = begin_substep(w, number, substeps);
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
             if (stage == JOX_STAGE_OBSERVE && !jox_world_guard_numbers(w)) {
                 good = false;
                 break;
             }
-            STAGES[stage](w, &substep);
+            STAGES[stage](w, substep);
             if (!timed)
                 continue;
             const double now = jox_clock_wall();

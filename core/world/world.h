@@ -111,7 +111,7 @@ typedef struct JoxWorldScratch {
     JoxInspection inspection;
     JoxV2 *walked; /* per agent, m: during the substeps of the step so far; where it is divided */
     uint32_t walked_capacity;
-    JoxSubstep substep;       /* what all substeps have in common, of one of this length */
+    JoxSubstep substep;       /* the present one, or the last; all zero until one was done */
     JoxDepartures departures; /* who left in the last step */
     JoxDiscList discs;
     JoxHands hands;

@@ -82,16 +82,17 @@ static void open_find_crowd(Crowd *c, JoIsa isa, uint32_t number) {
         jox_nav_set_walls(c->nav, &c->walls);
     jox_nav_sort(c->nav, &c->agents, 0);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, NULL);
-    JoxForceStep step = {.agents = &c->agents,
-                         .neighbours = &c->neighbours,
-                         .walls = jox_nav_touching_walls(c->nav, &c->neighbours, &c->agents, 0.6f),
-                         .seed = 3,
-                         .turning = number % 3 != 0,
-                         .dt = number % 2 ? 0.05 : 0.01,
-                         .time = 7.3};
+    JoxStep step = {.timing = jox_timing_at_once(number % 2 ? 0.05 : 0.01),
+                    .agents = &c->agents,
+                    .neighbours = &c->neighbours};
+    step.timing.seed = 3;
+    step.timing.time = 7.3;
+    const JoxForceInputs inputs = {
+        .walls = jox_nav_touching_walls(c->nav, &c->neighbours, &c->agents, 0.6f),
+        .turning = number % 3 != 0};
     c->forces = jox_forces_create(NULL);
     jox_forces_set_isa(c->forces, isa);
-    jox_force_begin(c->forces, &step);
+    jox_force_begin(c->forces, &step, &inputs);
     jox_contacts_find(c->forces);
 }
 
@@ -121,8 +122,8 @@ static JoxFoundPair make_plain_pair(const JoxForces *f, uint32_t i, uint32_t j, 
         .other_id = a->id[j],
         .normal = normal,
         .squeeze = squeeze,
-        .target =
-            jox_contact_target(gap, speed, jox_minf(jox_at(e, i), jox_at(e, j)), (float)f->step.dt),
+        .target = jox_contact_target(gap, speed, jox_minf(jox_at(e, i), jox_at(e, j)),
+                                     (float)f->step.timing.dt),
         .mass = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j))};
 }
 
@@ -156,12 +157,12 @@ static bool find_plain_touch(JoxForces *f, uint32_t i, uint32_t other, bool wall
     float squeeze = JOX_SQUEEZE * jox_clampf(whole - distance, 0.0f, whole - sum);
     if (gap > JOX_TOUCH_LEAST && !(squeeze > 0.0f)) {
         JoxV2 towards = {a->vx[other] - a->vx[i], a->vy[other] - a->vy[i]};
-        float closing = jox_length(towards) * (float)f->step.dt;
+        float closing = jox_length(towards) * (float)f->step.timing.dt;
         if (gap > JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing))
             return false;
     }
     JoxV2 at = {a->x[i], a->y[i]};
-    if (walls && jox_wall_grid_has_wall_between(f->step.walls, at, jox_sub(at, offset)))
+    if (walls && jox_wall_grid_has_wall_between(f->in.walls, at, jox_sub(at, offset)))
         return false;
     f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += gap < 0.0f;
     *out = make_plain_pair(f, i, other, jox_unit(offset), gap, squeeze);
@@ -200,8 +201,8 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
     JoxFoundPair pairs[JOX_MOST_NEIGHBOURS];
     JoxFoundWall walls[JOX_CONTACT_MOST_WALLS];
     uint32_t edges = 0, count = 0;
-    if (f->step.walls)
-        jox_wall_grid_at(f->step.walls, jox_v2(a->x[i], a->y[i]), &edges);
+    if (f->in.walls)
+        jox_wall_grid_at(f->in.walls, jox_v2(a->x[i], a->y[i]), &edges);
     const JoxFoundPair *found =
         (const JoxFoundPair *)f->contacts->found.pairs.items + f->contacts->found.first_pair[i];
     assert_int_equal(f->contacts->found.pair_count[i], plain_contacts(f, i, edges > 0, pairs));

@@ -23,7 +23,8 @@ typedef struct Crowd {
     JoxAgents agents;
     JoxNeighbours near;
     JoxForces *forces;
-    JoxForceStep step;
+    JoxStep step;
+    JoxForceInputs in;
 } Crowd;
 
 static inline uint32_t add_agent(Crowd *c, float x, float y, float vx, float vy) {
@@ -85,7 +86,8 @@ static inline void find_crowd_neighbours(Crowd *c) {
 static inline void open_crowd(Crowd *c, double dt) {
     *c = (Crowd){0};
     c->forces = jox_forces_create(NULL);
-    c->step = (JoxForceStep){.agents = &c->agents, .neighbours = &c->near, .dt = dt};
+    c->step =
+        (JoxStep){.timing = jox_timing_at_once(dt), .agents = &c->agents, .neighbours = &c->near};
 }
 
 static inline void set_literal(Crowd *c) {
@@ -96,7 +98,7 @@ static inline void set_literal(Crowd *c) {
 
 static inline void begin_crowd_step(Crowd *c) {
     find_crowd_neighbours(c);
-    jox_force_begin(c->forces, &c->step);
+    jox_force_begin(c->forces, &c->step, &c->in);
 }
 
 static inline void close_crowd(Crowd *c) {

@@ -54,7 +54,7 @@ static void plain_bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 mo
 /* (10) to (12) for agent i. `decay`: cached from the agent before. */
 static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
+    const float dt = (float)f->step.timing.dt, mass = jox_param(a, JOX_PARAM_mass, i);
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
     a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
     JoxV2 force = plain_sum_terms(a, i);
@@ -65,7 +65,7 @@ static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass;
     if ((force.x == 0.0f && force.y == 0.0f) || !plain_is_felt(f, i, jox_length(force)))
         return;
-    const JoxPlanning plan = jox_planning(&f->step, jox_stands(a, i));
+    const JoxPlanning plan = jox_planning(&f->step.timing, jox_stands(a, i));
     const float worn = jox_decay(decay, jox_param(a, JOX_PARAM_damping, i), plan.interval);
     plain_bound_by_force(a, i, force, moving, worn, plan, dt);
 }
@@ -76,7 +76,7 @@ static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
    neither the step nor the length of a plan changes it. */
 static float plain_shortfall(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.dt, response = (float)f->step.response;
+    const float dt = (float)f->step.timing.dt, response = (float)f->step.timing.response;
     float inverse_mass = 1.0f / jox_param(a, JOX_PARAM_mass, i);
     float damping = jox_param(a, JOX_PARAM_damping, i);
     JoxV2 others = jox_sum_terms(a, i, JOX_FORCE_BRACED);
@@ -94,7 +94,7 @@ static bool plain_is_under_force(const JoxAgents *a, uint32_t i) {
 /* (8) Returns whether an agent under no force slowed down enough for others to feel. */
 static bool plain_slows_down(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    const float absorb = jox_param(a, JOX_PARAM_absorb, i), dt = (float)f->step.dt;
+    const float absorb = jox_param(a, JOX_PARAM_absorb, i), dt = (float)f->step.timing.dt;
     /* Only what the feet took counts: contacts and other forces have acted on others already. */
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     const JoxV2 old = jox_velocity_before(f, i);

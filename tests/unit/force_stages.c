@@ -27,12 +27,12 @@ static void push_is_shared_by_agents_ahead(void **state) {
     assert_near(c.agents.load[0], 2 * 50 * 0.45 / hypot(0.45, 0.1), 1e-2);
 
     uint8_t nearest[5] = {1, 1, 1, 1, 1}, off[5] = {0};
-    c.step.push_nearest = nearest;
+    c.in.push_nearest = nearest;
     begin_crowd_step(&c);
     jox_force_push(c.forces);
     assert_near(hypotf(x[1], y[1]), 100, 1e-3); /* the lesser id of two equally near ones */
     assert_true(x[2] == 0);
-    c.step.push_on = off;
+    c.in.push_on = off;
     begin_crowd_step(&c);
     jox_force_push(c.forces);
     assert_true(x[1] == 0 && jox_force_totals(c.forces).pushers == 0);
@@ -51,8 +51,8 @@ static void pushes_keep_to_tags_and_may_react(void **state) {
     c.agents.push_only[0] = 4;
     c.agents.tags[2] = 6;
     float toward_x[3] = {1, 0, 0}, toward_y[3] = {0, 0, 0};
-    c.step.push_toward_x = toward_x;
-    c.step.push_toward_y = toward_y;
+    c.in.push_toward_x = toward_x;
+    c.in.push_toward_y = toward_y;
     JoxForceOptions options = jox_force_default_options();
     options.react = true;
     jox_forces_set_options(c.forces, &options);

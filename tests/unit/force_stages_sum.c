@@ -114,14 +114,14 @@ static uint32_t compare_sum_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKerne
     jox_neighbours_reserve(&near, PEOPLE, 1);
     for (uint32_t i = 0; i < PEOPLE; i++)
         near.motions[i] = (JoxMotion){a.x[i], a.y[i], a.vx[i], a.vy[i]};
-    JoxForceStep step = {.agents = &a,
-                         .neighbours = &near,
-                         .dt = number % 3 ? 0.05 : 0.01,
-                         .planning_time = 0.05,
-                         .response = 0.6,
-                         .interval = 0.05,
-                         .interval_response = 0.7,
-                         .interval_forced = 0.04};
+    const JoxStep step = {.timing = {.dt = number % 3 ? 0.05 : 0.01,
+                                     .planning_time = 0.05,
+                                     .response = 0.6,
+                                     .interval = 0.05,
+                                     .interval_response = 0.7,
+                                     .interval_forced = 0.04},
+                          .agents = &a,
+                          .neighbours = &near};
     JoxForces *f = jox_forces_create(NULL);
     float *columns[COLUMNS], saved[3][PEOPLE];
     uint32_t felt = 0;
@@ -130,7 +130,7 @@ static uint32_t compare_sum_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKerne
     memcpy(saved[0], a.push_y, sizeof saved[0]);
     memcpy(saved[1], a.contact_x, sizeof saved[1]);
     memcpy(saved[2], a.contact_y, sizeof saved[2]);
-    jox_force_begin(f, &step);
+    jox_force_begin(f, &step, &(JoxForceInputs){0});
     memcpy(a.push_y, saved[0], sizeof saved[0]);
     memcpy(a.contact_x, saved[1], sizeof saved[1]);
     memcpy(a.contact_y, saved[2], sizeof saved[2]);

@@ -64,12 +64,10 @@ static void open_move_crowd(Crowd *c, uint32_t number) {
         a->still[i] = draw_move(number, &drawn, 0.0, 5.0);
         a->breadth[i] = 0.2f;
     }
-    c->move = (JoxMove){.nav = c->nav,
-                        .agents = a,
-                        .dt = 0.05f,
-                        .response = 0.6f,
-                        .on_the_way = 0.35f,
-                        .position = {c->at}};
+    c->move = (JoxMove){
+        .nav = c->nav,
+        .step = {.timing = {.dt = 0.05, .response = 0.6, .on_the_way = 0.35}, .agents = a},
+        .position = {c->at}};
 }
 
 static void close_move_crowd(Crowd *c) {
@@ -80,17 +78,19 @@ static void close_move_crowd(Crowd *c) {
 
 /* Moves the agents by plain loops. Returns their drift. */
 static JoxDrift move_by_loops(Crowd *c) {
-    const JoxMove *m = &c->move;
+    const JoxTiming *t = &c->move.step.timing;
+    const float dt = (float)t->dt, response = (float)t->response;
+    const float on_the_way = (float)t->on_the_way;
     JoxAgents *a = &c->agents;
     JoxDrift drift = {0.0f, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     for (uint32_t i = 0; i < PEOPLE; i++) {
         const JoxV2 from = {a->x[i], a->y[i]}, forced = {a->forced_x[i], a->forced_y[i]};
         const JoxV2 rest = jox_sub((JoxV2){a->next_x[i], a->next_y[i]}, forced);
-        JoxV2 to = jox_add(from, jox_scale(jox_add(forced, jox_scale(rest, m->on_the_way)), m->dt));
+        JoxV2 to = jox_add(from, jox_scale(jox_add(forced, jox_scale(rest, on_the_way)), dt));
         a->prev_x[i] = from.x;
         a->prev_y[i] = from.y;
-        a->vx[i] = forced.x + rest.x * m->response;
-        a->vy[i] = forced.y + rest.y * m->response;
+        a->vx[i] = forced.x + rest.x * response;
+        a->vy[i] = forced.y + rest.y * response;
         if (c->nav->grid.first)
             to = jox_way_by_walls(&c->nav->grid, from, to, a->breadth[i]);
         a->x[i] = to.x;
@@ -104,7 +104,7 @@ static JoxDrift move_by_loops(Crowd *c) {
                 drift.farthest = INFINITY;
         }
         const JoxV2 rests = {a->x[i] - a->still_x[i], a->y[i] - a->still_y[i]};
-        a->still[i] += m->dt;
+        a->still[i] += dt;
         if (jox_length2(rests) > JOX_STILL_REACH * JOX_STILL_REACH) {
             a->still[i] = 0.0f;
             a->still_x[i] = a->x[i];
@@ -158,16 +158,17 @@ static void test_move(void **state) {
 
 /* Returns the breadth by its definition: a share of `turn` that runs linearly in time between two
    random values. */
-static float compute_plain_breadth(const JoxForceStep *step, uint32_t i) {
-    const JoxAgents *a = step->agents;
+static float compute_plain_breadth(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    const uint64_t seed = f->step.timing.seed;
     const float radius = jox_param(a, JOX_PARAM_radius, i), turn = jox_param(a, JOX_PARAM_turn, i);
-    if (!step->turning || jox_stands(a, i))
+    if (!f->in.turning || jox_stands(a, i))
         return radius;
     const double own = (double)a->id[i] * 0.6180339887498949;
-    const double phase = step->time + (own - floor(own));
+    const double phase = f->step.timing.time + (own - floor(own));
     const uint64_t knot = (uint64_t)phase;
-    const uint64_t from = jox_random_bits(step->seed, a->id[i], knot, JOX_DRAW_TURN, 0);
-    const uint64_t to = jox_random_bits(step->seed, a->id[i], knot + 1, JOX_DRAW_TURN, 0);
+    const uint64_t from = jox_random_bits(seed, a->id[i], knot, JOX_DRAW_TURN, 0);
+    const uint64_t to = jox_random_bits(seed, a->id[i], knot + 1, JOX_DRAW_TURN, 0);
     const float first = (float)(from >> 40) * 0x1p-24f, second = (float)(to >> 40) * 0x1p-24f;
     return radius * (1.0f - turn * (first + (second - first) * (float)(phase - (double)knot)));
 }
@@ -190,14 +191,13 @@ static void test_breadth(void **state) {
                 a->id[i] = number % 2 ? UINT32_MAX - i : i * 7;
             }
             JoxForces *f = jox_forces_create(NULL);
-            f->step = (JoxForceStep){.agents = a,
-                                     .seed = number,
-                                     .turning = number != 5,
-                                     .dt = 0.05,
-                                     .time = number * number * 1234.567};
+            f->step = (JoxStep){.timing = jox_timing_at_once(0.05), .agents = a};
+            f->step.timing.seed = number;
+            f->step.timing.time = number * number * 1234.567;
+            f->in.turning = number != 5;
             KERNELS[isa](f, 0, PEOPLE);
             for (uint32_t i = 0; i < PEOPLE; i++) {
-                const float expected = compute_plain_breadth(&f->step, i);
+                const float expected = compute_plain_breadth(f, i);
                 assert_memory_equal(&a->breadth[i], &expected, sizeof expected);
                 turned += expected < jox_param(a, JOX_PARAM_radius, i);
             }

@@ -30,9 +30,11 @@ static void nearest_of_many_bodies_are_avoided(void **state) {
     uint32_t i = jox_agents_add(&agents);
     agents.ignore[i] = 2;
     JoxHalfPlane planes[JOX_MOST_NEAREST];
+    const JoxSolve solve = {
+        .nav = nav,
+        .step = {.timing = jox_timing_at_once(0.05), .agents = &agents, .objects = &objects}};
     for (uint32_t most = 1; most <= JOX_MOST_NEAREST; most++) {
-        uint32_t made = jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, most),
-                 at = most;
+        uint32_t made = jox_orca_objects(&solve, i, planes, most), at = most;
         assert_int_equal(made, most);
         for (int k = PILLARS - 1; at > 0; k--) { /* the nearest ones, which come last */
             if (k == 33 || k == 37 || k == 38)
@@ -69,9 +71,12 @@ static void approached_body_counts_even_if_its_kind_is_ignored(void **state) {
     agents.ignore[i] = 2;
     agents.approach[i] = 0;
     JoxHalfPlane planes[JOX_MOST_NEAREST];
-    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, 24), 0);
+    const JoxSolve solve = {
+        .nav = nav,
+        .step = {.timing = jox_timing_at_once(0.05), .agents = &agents, .objects = &objects}};
+    assert_int_equal(jox_orca_objects(&solve, i, planes, 24), 0);
     agents.approach[i] = jox_reference(1);
-    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, 24), 1);
+    assert_int_equal(jox_orca_objects(&solve, i, planes, 24), 1);
     assert_true(fabsf(planes[0].normal.y + 1.0f) < 1e-5f);
     assert_true(fabsf(planes[0].offset + 0.6f / 0.05f) < 1e-3f);
     jox_objects_free_grid(&objects);

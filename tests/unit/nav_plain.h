@@ -230,13 +230,14 @@ static inline JoxV2 plain_parting(uint32_t id, uint32_t other) {
 /* Returns ORCA's half-plane of agent i for j, which is at p from it. */
 static inline JoxHalfPlane plain_orca_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
                                             float radii) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     float share = s->nav->literal ? 0.5f : jox_param(a, JOX_PARAM_yield, i); /* (3) prints u/2 */
     JoxV2 velocity = {a->vx[i], a->vy[i]}, away = {1.0f, 0.0f};
     if (p.x == 0.0f && p.y == 0.0f)
         away = plain_parting(a->id[i], a->id[j]);
     return plain_orca(p, jox_v2(velocity.x - a->vx[j], velocity.y - a->vy[j]), radii,
-                      jox_param(a, JOX_PARAM_horizon, i), s->planning_time, velocity, share, away);
+                      jox_param(a, JOX_PARAM_horizon, i), (float)s->step.timing.planning_time,
+                      velocity, share, away);
 }
 
 /* Makes the half-plane of a walker, instead of ORCA's: it approaches agents that it minds no faster
@@ -244,7 +245,7 @@ static inline JoxHalfPlane plain_orca_plane(const JoxSolve *s, uint32_t i, uint3
    j. */
 static inline bool plain_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, JoxV2 p,
                                       JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const JoxWalkLaw *law = s->nav->walk;
     Minds minds = plain_minds(a, i, j, p);
     if (minds == MINDS_NOT)
@@ -263,12 +264,12 @@ static inline bool plain_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j,
 }
 
 static inline uint32_t plain_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const bool walker = jox_solve_walks(s, i);
     uint32_t made = 0;
-    for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
-        uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
+    for (uint32_t k = 0; k < s->step.neighbours->count[i]; k++) {
+        uint32_t j = s->step.neighbours->index[jox_neighbour_at(s->step.neighbours, i, k)];
         if (jox_solve_passes_over(s, i, j))
             continue;
         JoxV2 p = jox_offset(a, i, j);
@@ -286,7 +287,7 @@ static inline uint32_t plain_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPl
    wall itself stops. Then the forced velocity meets every hard half-plane. */
 static inline void plain_relax_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *walls,
                                      uint32_t count) {
-    JoxV2 carried = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    JoxV2 carried = {s->step.agents->forced_x[i], s->step.agents->forced_y[i]};
     for (uint32_t k = 0; k < count; k++)
         walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
 }
@@ -305,7 +306,7 @@ static inline float plain_wall_deviation(const JoxSolve *s, uint32_t i, const Jo
     bool relaxed;
     if (count == 0)
         return 0.0f;
-    plain_program(walls, count, count, s->agents->speed_limit[i], wanted, &nearest, &relaxed);
+    plain_program(walls, count, count, s->step.agents->speed_limit[i], wanted, &nearest, &relaxed);
     return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* covers rounding */
 }
 
@@ -318,7 +319,7 @@ static inline bool plain_keep_within_reach(const JoxSolve *s, uint32_t i,
                                            const JoxHalfPlaneCounts *made,
                                            JoxHalfPlane *half_planes, JoxV2 wanted,
                                            JoxV2 velocity) {
-    JoxV2 forced = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    JoxV2 forced = {s->step.agents->forced_x[i], s->step.agents->forced_y[i]};
     uint32_t hard = made->walls + made->contacts, n = 0;
     uint32_t all = hard + made->agents + made->objects + made->force;
     float reach2 = jox_length2(jox_sub(forced, wanted));
@@ -370,7 +371,7 @@ static inline bool plain_meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 
 
 static inline bool plain_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                                    JoxHalfPlane *half_planes, JoxV2 wanted) {
-    JoxAgents *a = s->agents;
+    JoxAgents *a = s->step.agents;
     const uint32_t hard = made->walls + made->contacts;
     const uint32_t count = hard + made->agents + made->objects + made->force;
     JoxV2 velocity;

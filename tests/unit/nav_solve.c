@@ -177,7 +177,7 @@ static JoxHalfPlaneCounts list_half_planes(const JoxSolve *s, uint32_t i, JoxHal
    pushes one straight ahead. */
 static JoxV2 find_plain_wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others,
                              uint32_t count) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     JoxV2 wanted = {a->pref_x[i], a->pref_y[i]}, velocity = {a->vx[i], a->vy[i]};
     if (jox_solve_walks(s, i))
         return (JoxV2){a->walk_x[i], a->walk_y[i]};
@@ -200,21 +200,22 @@ static uint32_t compare_solve_crowd(JoIsa isa, uint32_t number, bool plans) {
     Crowd c;
     open_solve_crowd(&c, isa, number);
     JoxAgents *a = &c.agents;
-    const JoxContactPlanes *touched = c.touched.agents ? &c.touched : NULL;
-    const JoxPlanTime planning = {6, 2.5, 0.05, plans};
-    uint32_t relaxed = jox_nav_solve(c.nav, a, &c.neighbours, NULL, &c.touched, &planning, NULL);
+    JoxStep step = {
+        .timing = {.seed = 6, .time = 2.5, .dt = 0.05, .planning_time = 0.05, .plans = plans},
+        .agents = a,
+        .neighbours = &c.neighbours,
+        .touched = &c.touched};
+    uint32_t relaxed = jox_nav_solve(c.nav, &step);
     memcpy(next_x, a->next_x, a->count * sizeof *next_x);
     memcpy(next_y, a->next_y, a->count * sizeof *next_y);
     memcpy(failed, a->failed, a->count);
     memset(a->next_x, 0, a->count * sizeof *next_x);
     memset(a->next_y, 0, a->count * sizeof *next_y);
     memset(a->failed, 0, a->count);
+    if (!c.touched.agents)
+        step.touched = NULL;
     const JoxSolve s = {.nav = c.nav,
-                        .agents = a,
-                        .neighbours = &c.neighbours,
-                        .touched = touched,
-                        .planning_time = 0.05f,
-                        .plans = plans,
+                        .step = step,
                         .stream = jox_random_stream(6),
                         .moment = jox_random_moment(2, JOX_DRAW_ASIDE)};
     uint32_t failures = 0;

@@ -98,14 +98,25 @@ static void make_walk_crowd(Crowd *c, Frame f, const JoxWalkLaw *law, float side
     add_crowd(c, side);
 }
 
+/* Returns a step in which all agents plan, at a time in seconds. */
+static JoxStep make_step(Crowd *c, uint64_t seed, double time, JoxPool *pool) {
+    JoxStep step = {.timing = jox_timing_at_once(0.05),
+                    .agents = &c->agents,
+                    .neighbours = &c->neighbours,
+                    .pool = pool};
+    step.timing.seed = seed;
+    step.timing.time = time;
+    return step;
+}
+
 static void plan_walks(Crowd *c, JoxPool *pool, bool walks) {
     jox_nav_sort(c->nav, &c->agents, 0);
     set_wishes(c);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, pool);
+    const JoxStep step = make_step(c, 3, 1.7, pool);
     if (walks)
-        jox_nav_walk(c->nav, &c->agents, &c->neighbours, 3, 1.7, 0.05, true, pool);
-    jox_nav_solve(c->nav, &c->agents, &c->neighbours, NULL, NULL,
-                  &(JoxPlanTime){3, 1.7, 0.05, true}, pool);
+        jox_nav_walk(c->nav, &step);
+    jox_nav_solve(c->nav, &step);
 }
 
 /* Returns how many agents want another velocity in the frame than outside of it: rounding decides
@@ -251,7 +262,8 @@ static void walk_from(Crowd *c, uint32_t step, uint64_t seed, double time, bool 
     jox_nav_sort(c->nav, &c->agents, 0);
     set_wishes(c);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, NULL);
-    jox_nav_walk(c->nav, &c->agents, &c->neighbours, seed, time, 0.05, true, NULL);
+    const JoxStep inputs = make_step(c, seed, time, NULL);
+    jox_nav_walk(c->nav, &inputs);
 }
 
 static void time_gaps_depend_on_no_earlier_draw(void **state) {

@@ -262,7 +262,10 @@ static double measure_error(uint32_t number, bool *aside) {
     open_law(&p, number);
     JoxAgents *a = &p.agents;
     double cx = (double)a->course_x[p.me], cy = (double)a->course_y[p.me];
-    jox_nav_walk(p.nav, a, &p.neighbours, 1, 0.0, INTERVAL, true, NULL);
+    JoxStep step = {
+        .timing = jox_timing_at_once(INTERVAL), .agents = a, .neighbours = &p.neighbours};
+    step.timing.seed = 1;
+    jox_nav_walk(p.nav, &step);
     double px = (double)a->pref_x[p.me], py = (double)a->pref_y[p.me];
     double speed = sqrt(px * px + py * py);
     if (speed > 0.0) {

@@ -52,8 +52,11 @@ static void run_walls_step(Fixture *f, const JoxV2 *goals, float speed, double d
         a->speed_limit[i] = jox_maxf(jox_param(a, JOX_PARAM_max_speed, i), speed);
         a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
     }
-    jox_nav_solve(f->nav, a, &f->neighbours, NULL, NULL, &(JoxPlanTime){1, 0.0, dt, true}, pool);
-    jox_nav_move(f->nav, a, &f->neighbours, NULL, NULL, dt, 1.0, 1.0, pool);
+    JoxStep step = {
+        .timing = jox_timing_at_once(dt), .agents = a, .neighbours = &f->neighbours, .pool = pool};
+    step.timing.seed = 1;
+    jox_nav_solve(f->nav, &step);
+    jox_nav_move(f->nav, &step);
     f->tick++;
 }
 

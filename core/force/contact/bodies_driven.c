@@ -33,7 +33,7 @@ static int find_drive(JoxForces *f, uint32_t row) {
     drives->items[drives->count] = (JoxDrive){
         .row = row,
         .speed = measure_level_speed(body->drive),
-        .most = body->force_limit > 0.0f ? body->force_limit * (float)f->step.dt : INFINITY};
+        .most = body->force_limit > 0.0f ? body->force_limit * (float)f->step.timing.dt : INFINITY};
     supports->motions[row].velocity = (JoxFour){body->drive.x, body->drive.y, body->drive.z, 0.0f};
     supports->motions[row].spin =
         (JoxFour){body->drive_spin.x, body->drive_spin.y, body->drive_spin.z, 0.0f};
@@ -100,7 +100,7 @@ static float find_way_share(const JoxForces *f, uint32_t drive) {
         if (t->drive != (int)drive || !(t->ahead > 0.0f && t->impulse > 0.0f))
             continue;
         const float gives = jox_dot(f->contacts->solve.velocities[t->agent], t->normal) +
-                            jox_maxf(0.0f, t->gap) / (float)f->step.dt;
+                            jox_maxf(0.0f, t->gap) / (float)f->step.timing.dt;
         share = jox_minf(share, gives / (t->ahead * f->contacts->drives.items[drive].speed));
     }
     return jox_clampf(share, 0.0f, 1.0f);
@@ -117,7 +117,7 @@ void jox_drives_finish(JoxForces *f) {
         const JoxDrive *drive = &drives->items[d];
         JoxDriveLoad *load = &drives->loads[d];
         *load = (JoxDriveLoad){.row = drive->row,
-                               .force = drive->pressed / (float)f->step.dt,
+                               .force = drive->pressed / (float)f->step.timing.dt,
                                .met = drive->pressed >= MET * drive->most,
                                .share = 1.0f,
                                .agent = JOX_NO_INDEX};
@@ -126,8 +126,8 @@ void jox_drives_finish(JoxForces *f) {
             if (t->drive != (int)d || !(t->ahead > 0.0f && t->impulse > 0.0f))
                 continue;
             load->people++;
-            if (t->impulse / (float)f->step.dt > load->hardest) {
-                load->hardest = t->impulse / (float)f->step.dt;
+            if (t->impulse / (float)f->step.timing.dt > load->hardest) {
+                load->hardest = t->impulse / (float)f->step.timing.dt;
                 load->agent = a->id[t->agent];
             }
         }

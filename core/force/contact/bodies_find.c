@@ -14,13 +14,12 @@ static bool find_touch(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *t
     const JoxObject *body = &f->step.objects->rows[row];
     JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
     JoxV2 towards = jox_sub(jox_v2(a->vx[i], a->vy[i]), jox_object_velocity_at(body, at.point));
-    float closing = jox_length(towards) * (float)f->step.dt;
+    float closing = jox_length(towards) * (float)f->step.timing.dt;
     float gap = at.gap - a->breadth[i];
     if (!(gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))
         return false;
     JoxV2 own = {a->x[i], a->y[i]};
-    if (at.gap > 0.0f && f->step.walls &&
-        jox_wall_grid_has_wall_between(f->step.walls, own, at.point))
+    if (at.gap > 0.0f && f->in.walls && jox_wall_grid_has_wall_between(f->in.walls, own, at.point))
         return false;
     JOX_ASSERT(jox_is_unit(at.normal));
     JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};

@@ -24,8 +24,8 @@ void jox_touches_begin(JoxForces *f) {
         float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
                       jox_touch_speed_before(f, t);
         t->mass = 1.0f / (1.0f / jox_param(a, JOX_PARAM_mass, t->agent) + give);
-        t->target =
-            jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution, (float)f->step.dt);
+        t->target = jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution,
+                                       (float)f->step.timing.dt);
         t->impulse = jox_kept_impulse(kept, &at, a->id[t->agent], t->object);
         JOX_ASSERT(t->mass > 0.0f);
     }

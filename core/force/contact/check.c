@@ -11,7 +11,7 @@ void jox_contacts_check(const JoxForces *f) {
     const JoxTouches *touches = &f->contacts->touches;
     const JoxWallContacts *walls = &f->contacts->walls;
     const JoxAgents *a = f->step.agents;
-    double x = 0.0, y = 0.0, size = 0.0, per_second = 1.0 / f->step.dt;
+    double x = 0.0, y = 0.0, size = 0.0, per_second = 1.0 / f->step.timing.dt;
     for (uint32_t k = 0; k < pairs->count; k++) {
         const JoxPair *pair = &pairs->items[k];
         JOX_ASSERT(pair->first < a->count && pair->second < a->count);

@@ -105,7 +105,7 @@ static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
     const JoxTouches *touches = &f->contacts->touches;
     const JoxFoundContacts *found = &f->contacts->found;
     const JoxPairs *pairs = &f->contacts->pairs;
-    const float per_second = 1.0f / (float)f->step.dt;
+    const float per_second = 1.0f / (float)f->step.timing.dt;
     out->count = 0;
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1] && has_room(out); k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];

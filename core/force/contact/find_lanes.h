@@ -84,7 +84,7 @@ static inline uint32_t jox_find_touching(const JoxForces *f, const JoxContactSel
     m->velocity = (JoxVector){self->vx - motion[2], self->vy - motion[3]};
     m->mass = build[2];
     JoxFloats closing = jf_sqrt(jv_dot(m->velocity, m->velocity));
-    closing *= (float)f->step.dt;
+    closing *= (float)f->step.timing.dt;
     const JoxFloats reach = least + jf_min(jf_set(JOX_TOUCH_MOST), closing);
     const JoxMask apart = jm_and(jf_lt(least, m->gap), jf_lt(reach, m->gap));
     return lanes & ~jm_bits(jm_without(apart, jf_lt(zero, m->squeeze)));
@@ -102,7 +102,7 @@ static inline JoxFloats jox_target_lanes(JoxFloats gap, JoxFloats speed, JoxFloa
 static inline JoxFloats jox_find_targets(const JoxForces *f, const JoxContactSelf *self,
                                          const uint32_t *others, const JoxContactCandidates *m,
                                          JoxVector normal) {
-    const float dt = (float)f->step.dt;
+    const float dt = (float)f->step.timing.dt;
     const JoxFloats zero = jf_set(0.0f);
     if (!jm_bits(jf_lt(zero, self->restitution)))
         return jox_target_lanes(m->gap, zero, zero, dt);
@@ -135,8 +135,8 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
         if (!(lanes >> lane & 1))
             continue;
         JoxV2 at = {a->x[i], a->y[i]};
-        if ((p->walls >> lane & 1) && jox_wall_grid_has_wall_between(
-                                          f->step.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
+        if ((p->walls >> lane & 1) &&
+            jox_wall_grid_has_wall_between(f->in.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
             continue;
         f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += gap[lane] < 0.0f;
         const JoxFoundPair pair = {.other = other[lane],

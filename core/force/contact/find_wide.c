@@ -82,13 +82,13 @@ static void find_packet(JoxFindPacket *p) {
     const JoxAgents *a = f->step.agents;
     const uint32_t seen = find_seen_lanes(p);
     p->walls = p->walled = 0;
-    if (f->step.walls) {
+    if (f->in.walls) {
         const JoxFloats touch = jf_set(JOX_TOUCH_LEAST + JOX_TOUCH_MOST);
         const JoxFloats reach = jf_load(a->breadth + p->first) + touch;
-        p->walls = jm_bits(jox_wall_grid_near_lanes(f->step.walls, jf_load(a->x + p->first),
+        p->walls = jm_bits(jox_wall_grid_near_lanes(f->in.walls, jf_load(a->x + p->first),
                                                     jf_load(a->y + p->first)));
         p->walled =
-            p->walls & ~jm_bits(jox_wall_grid_clear_lanes(f->step.unhidden2, p->first, reach));
+            p->walls & ~jm_bits(jox_wall_grid_clear_lanes(f->in.unhidden2, p->first, reach));
     }
     ji_store(p->count, ji_set(0));
     if (seen)

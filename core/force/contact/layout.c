@@ -159,7 +159,7 @@ static void lay_walls(JoxForces *f) {
     JoxWallContacts *walls = &f->contacts->walls;
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
-    const float dt = (float)f->step.dt;
+    const float dt = (float)f->step.timing.dt;
     size_t kept = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];

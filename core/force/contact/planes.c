@@ -15,8 +15,7 @@ static const float SLACK = 1e-3f;
 
 /* Returns how much of a speed the feet can take away by the end of the step, m/s; for a longer plan
    more, of which the step does a share. */
-static inline float find_braking(const JoxForceStep *step, uint32_t i, float speed,
-                                 JoxDecay *decay) {
+static inline float find_braking(const JoxStep *step, uint32_t i, float speed, JoxDecay *decay) {
     const JoxPlanning plan = jox_planning_of(step, i);
     float damping = jox_param(step->agents, JOX_PARAM_damping, i);
     float lost = 1.0f - jox_decay(decay, damping, plan.interval);
@@ -26,7 +25,7 @@ static inline float find_braking(const JoxForceStep *step, uint32_t i, float spe
 /* Returns the least normal speed of agent i, away from j, where both together move at `speed`, m/s.
    An agent that is pushed may brake; one that follows an agent that wants to be slower leaves room
    for that. */
-static float find_least_speed(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal,
+static float find_least_speed(const JoxStep *step, uint32_t i, uint32_t j, JoxV2 normal,
                               float speed, JoxDecay *decay) {
     const JoxAgents *a = step->agents;
     if (speed > 0.0f)
@@ -41,7 +40,7 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
                                    JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const JoxPairs *pairs = &f->contacts->pairs;
-    const float time = (float)f->step.planning_time;
+    const float time = (float)f->step.timing.planning_time;
     uint32_t n = 0;
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1]; k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
@@ -52,7 +51,7 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
         JoxV2 normal = {sign * p->normal.x, sign * p->normal.y};
         JoxV2 mean = {0.5f * (a->forced_x[i] + a->forced_x[j]),
                       0.5f * (a->forced_y[i] + a->forced_y[j])};
-        float gap = p->target < 0.0f ? -p->target * (float)f->step.dt : 0.0f;
+        float gap = p->target < 0.0f ? -p->target * (float)f->step.timing.dt : 0.0f;
         float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
         float both = jox_minf(jox_dot(mean, normal), own);
         float least = find_least_speed(&f->step, i, j, normal, both, decay) - SLACK;
@@ -66,7 +65,7 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
 static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
                                  JoxDecay *decay) {
     const JoxTouches *touches = &f->contacts->touches;
-    const float time = (float)f->step.planning_time;
+    const float time = (float)f->step.timing.planning_time;
     uint32_t n = 0;
     for (uint32_t k = 0; k < jox_touches_of(touches, i); k++) {
         const JoxTouch *t = &touches->items[touches->first[i] + k];

@@ -32,7 +32,7 @@ static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxContactSolve *solve = &f->contacts->solve;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
         const JoxPair *p = &f->contacts->pairs.items[k];
-        float impulse = p->impulse + p->squeeze * (float)f->step.dt;
+        float impulse = p->impulse + p->squeeze * (float)f->step.timing.dt;
         if (!(impulse > 0.0f))
             continue;
         add_along(&solve->velocities[p->first], p->normal, impulse * solve->inverse_mass[p->first]);
@@ -138,10 +138,10 @@ static void begin_solve(JoxForces *f) {
 void jox_contacts_solve(JoxForces *f) {
     begin_solve(f);
     f->totals.passes = 0;
-    float enough = f->options.tolerance * (float)f->step.dt, most = INFINITY;
+    float enough = f->options.tolerance * (float)f->step.timing.dt, most = INFINITY;
     while (most > enough && f->totals.passes < f->options.iterations) {
         most = run_pass(f);
         f->totals.passes++;
     }
-    f->totals.residual = most / (float)f->step.dt;
+    f->totals.residual = most / (float)f->step.timing.dt;
 }

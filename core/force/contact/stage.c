@@ -12,7 +12,7 @@ static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1]; k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
-        float size = p->impulse + p->squeeze * (float)f->step.dt;
+        float size = p->impulse + p->squeeze * (float)f->step.timing.dt;
         float impulse = p->first == i ? size : -size;
         sum = jox_add(sum, (JoxV2){p->normal.x * impulse, p->normal.y * impulse});
         *contacts += size > 0.0f || p->target >= 0.0f;
@@ -28,7 +28,7 @@ static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
 /* Writes the contact force and the number of contacts of agent i, and measures its load. */
 static void write_contact_force(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
-    const float per_second = 1.0f / (float)f->step.dt;
+    const float per_second = 1.0f / (float)f->step.timing.dt;
     uint32_t contacts = 0;
     JoxV2 sum = sum_received(f, i, &contacts);
     a->contacts[i] = (uint8_t)(contacts < UINT8_MAX ? contacts : UINT8_MAX);
@@ -53,7 +53,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
 static void finish_walls(JoxForces *f) {
     JoxWallContacts *walls = &f->contacts->walls;
     JoxAgents *a = f->step.agents;
-    float per_second = 1.0f / (float)f->step.dt;
+    float per_second = 1.0f / (float)f->step.timing.dt;
     for (uint32_t k = 0; k < walls->count; k++) {
         const JoxWallContact *w = &walls->items[k];
         a->contact_x[w->agent] += w->normal.x * w->impulse * per_second;

@@ -14,7 +14,7 @@ static inline JoxMask are_finite(JoxFloats x) {
 void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
     JoxContactSolve *solve = &f->contacts->solve;
     const JoxAgents *a = f->step.agents;
-    const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
+    const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.timing.dt);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxFloats inverse_mass = 1.0f / jox_param_lanes(a, JOX_PARAM_mass, i);
         const JoxVector force = jox_moving_lanes(a, i, jox_stands_lanes(a, i));

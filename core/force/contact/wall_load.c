@@ -48,7 +48,8 @@ void jox_wall_loads_measure(JoxForces *f) {
         float length = measure_edge(loads->walls, w->edge) / (float)n;
         uint32_t piece = length > 0.0f ? (uint32_t)(w->along / length) : 0;
         JOX_ASSERT(w->edge < loads->walls->count && n > 0);
-        loads->items[first + (piece < n ? piece : n - 1)].load += w->impulse / (float)f->step.dt;
+        loads->items[first + (piece < n ? piece : n - 1)].load +=
+            w->impulse / (float)f->step.timing.dt;
     }
 }
 

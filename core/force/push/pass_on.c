@@ -20,7 +20,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shor
     if (n == 0)
         return;
     const JoxV2 each = jox_resistance(unit, shortfall, jox_param(a, JOX_PARAM_absorb, i),
-                                      jox_param(a, JOX_PARAM_mass, i), n, (float)f->step.dt);
+                                      jox_param(a, JOX_PARAM_mass, i), n, (float)f->step.timing.dt);
     for (uint32_t k = 0; k < n; k++)
         jox_transfers_add(f, chunk, i, found[k], each);
 }
@@ -38,13 +38,13 @@ static float find_taken_share(const JoxForces *f, uint32_t to, JoxV2 force, floa
         jox_scale((JoxV2){a->inferred_x[to], a->inferred_y[to]}, f->options.filter / mass);
     float speed = jox_dot((JoxV2){a->vx[to], a->vy[to]}, direction) +
                   jox_maxf(0.0f, jox_dot(coming, direction));
-    return jox_share_within_energy(size * (float)f->step.dt, mass, speed, energy);
+    return jox_share_within_energy(size * (float)f->step.timing.dt, mass, speed, energy);
 }
 
 /* (8) Passes on the momentum of agent i, which slowed down under no force. */
 static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    float dt = (float)f->step.dt, mass = jox_param(a, JOX_PARAM_mass, i);
+    float dt = (float)f->step.timing.dt, mass = jox_param(a, JOX_PARAM_mass, i);
     float absorb = jox_param(a, JOX_PARAM_absorb, i);
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     JoxV2 change = jox_slowing(before, after);
@@ -57,8 +57,9 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     }
     if (n || jox_stands(a, i))
         return; /* an agent that wants to stand brakes as planned: nothing carries it on */
-    jox_transfers_add(f, chunk, i, i,
-                      jox_keep_from_reversing(given, after, mass, (float)f->step.planning_time));
+    jox_transfers_add(
+        f, chunk, i, i,
+        jox_keep_from_reversing(given, after, mass, (float)f->step.timing.planning_time));
 }
 
 static inline bool all_pass_nothing(const uint8_t kinds[8]) {
@@ -96,7 +97,7 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     JoxForces *f = context;
     JoxAgents *a = f->step.agents;
     float kept =
-        1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter));
+        1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.timing.dt, f->options.filter));
     const size_t size = (end - begin) * sizeof(float);
     if (jox_mem_is(a->inferred_x + begin, 0, size) && jox_mem_is(a->inferred_y + begin, 0, size))
         return;
@@ -113,7 +114,8 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
 static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    float share = f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter);
+    float share =
+        f->options.literal ? 1.0f : jox_filter_share(f->step.timing.dt, f->options.filter);
     JOX_ASSERT(share > 0.0f && share <= 1.0f);
     JoxTransfer *sorted = f->transfers.sorted;
     for (uint32_t i = f->transfers.starts[begin]; i < f->transfers.starts[end]; i++) {

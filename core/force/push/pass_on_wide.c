@@ -19,7 +19,7 @@ static inline JoxMask is_nonzero(JoxVector a) {
 static JoxFloats find_shortfall(const JoxForces *f, uint32_t i, JoxVector old, JoxVector unit,
                                 JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.dt, *damping = jox_params(a, JOX_PARAM_damping, i);
+    const float dt = (float)f->step.timing.dt, *damping = jox_params(a, JOX_PARAM_damping, i);
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats inverse_mass = one / jox_param_lanes(a, JOX_PARAM_mass, i);
     const JoxVector others = jox_sum_terms_lanes(a, i, JOX_FORCE_BRACED);
@@ -29,7 +29,7 @@ static JoxFloats find_shortfall(const JoxForces *f, uint32_t i, JoxVector old, J
     const JoxFloats along = jf_max(zero, jv_dot(old, unit));
     const JoxFloats worn = along * (one - jox_decay_lanes(damping, dt, decay));
     const JoxFloats holds = jv_dot(held, unit) * dt * inverse_mass;
-    const JoxFloats takes = jv_dot(taken, unit) * (float)f->step.response;
+    const JoxFloats takes = jv_dot(taken, unit) * (float)f->step.timing.response;
     return holds + takes - worn;
 }
 
@@ -38,7 +38,7 @@ static JoxFloats find_shortfall(const JoxForces *f, uint32_t i, JoxVector old, J
 static JoxMask find_slowing(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
-    const JoxFloats least = jf_set(f->options.least * (float)f->step.dt);
+    const JoxFloats least = jf_set(f->options.least * (float)f->step.timing.dt);
     const JoxFloats cosine = jox_param_lanes(a, JOX_PARAM_brace_angle, i);
     const JoxVector before = jv_load(a->forced_x, a->forced_y, i);
     const JoxVector after = jv_load(a->vx, a->vy, i);

@@ -19,10 +19,11 @@ enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_MOST_BODIES_TOUCHED };
 
 /* Returns the direction of agent i's push, a unit vector: `push_toward`, else that of the preferred
    velocity; (0, 0) without either. */
-static JoxV2 find_push_aim(const JoxForceStep *step, uint32_t i) {
-    const JoxAgents *a = step->agents;
-    if (step->push_toward_x && step->push_toward_y) {
-        JoxV2 toward = jox_unit(jox_v2(step->push_toward_x[i], step->push_toward_y[i]));
+static JoxV2 find_push_aim(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    const float *toward_x = f->in.push_toward_x, *toward_y = f->in.push_toward_y;
+    if (toward_x && toward_y) {
+        JoxV2 toward = jox_unit(jox_v2(toward_x[i], toward_y[i]));
         if (toward.x != 0.0f || toward.y != 0.0f)
             return toward;
     }
@@ -55,9 +56,9 @@ static uint32_t list_reachable(const JoxForces *f, uint32_t i, JoxV2 aim, uint32
    edge, at `offset`. */
 static bool is_target_hidden(const JoxForces *f, uint32_t i, uint32_t other, JoxV2 offset) {
     const JoxAgents *a = f->step.agents;
-    const float *unhidden2 = f->step.unhidden2, d2 = jox_length2(offset);
+    const float *unhidden2 = f->in.unhidden2, d2 = jox_length2(offset);
     const bool images = a->period.x > 0.0f || a->period.y > 0.0f;
-    if (!f->step.walls || (unhidden2 && !images && d2 < unhidden2[i] && d2 < unhidden2[other]))
+    if (!f->in.walls || (unhidden2 && !images && d2 < unhidden2[i] && d2 < unhidden2[other]))
         return false;
     const JoxV2 centre = {a->x[i], a->y[i]};
     return jox_force_is_walled_off(f, centre, jox_add(centre, offset));
@@ -160,7 +161,7 @@ static int64_t to_fixed(double momentum) {
 
 /* Applies the pushes of agent i to its targets, and the reaction to itself or the ground. */
 static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
-    JoxV2 aim = find_push_aim(&f->step, i);
+    JoxV2 aim = find_push_aim(f, i);
     if (aim.x == 0.0f && aim.y == 0.0f)
         return;
     Target targets[MOST_TARGETS];
@@ -170,7 +171,7 @@ static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
     JOX_ASSERT(n <= MOST_TARGETS);
     if (!n)
         return;
-    if (f->step.push_nearest && f->step.push_nearest[i])
+    if (f->in.push_nearest && f->in.push_nearest[i])
         n = keep_nearest(targets, n);
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < n; k++) {
@@ -188,8 +189,8 @@ static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
     if (f->options.react) {
         jox_transfers_add(f, chunk, i, i, jox_scale(sum, -1.0f));
     } else {
-        totals->ground_x += to_fixed(sum.x * f->step.dt);
-        totals->ground_y += to_fixed(sum.y * f->step.dt);
+        totals->ground_x += to_fixed(sum.x * f->step.timing.dt);
+        totals->ground_y += to_fixed(sum.y * f->step.timing.dt);
     }
 }
 
@@ -198,7 +199,7 @@ static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     const JoxParameterColumn push = f->step.agents->param[JOX_PARAM_push];
-    const uint8_t *on = f->step.push_on;
+    const uint8_t *on = f->in.push_on;
     jox_chunk_empty(&f->transfers.list, chunk);
     if (f->has_bodies)
         jox_chunk_empty(&f->pushes->on_bodies, chunk);
@@ -212,7 +213,7 @@ static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
 static void apply_body_pushes(JoxForces *f, uint32_t chunk) {
     const JoxChunkList *list = &f->pushes->on_bodies;
     const JoxBodyPush *pushes = (const JoxBodyPush *)list->items + (size_t)chunk * list->room;
-    const float dt = (float)f->step.dt;
+    const float dt = (float)f->step.timing.dt;
     for (uint32_t k = 0; k < list->counts[chunk]; k++) {
         const JoxBodyPush *push = &pushes[k];
         const JoxV3 impulse = {push->force.x * dt, push->force.y * dt, 0.0f};

@@ -56,14 +56,14 @@ static inline float compute_breadth(uint64_t stream, const Moments *m, uint32_t 
 
 void JOX_WIDE(jox_breadth_packets)(const JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxAgents *a = f->step.agents;
-    const uint64_t stream = jox_random_stream(f->step.seed);
-    const double time = f->step.time / TURNING;
+    const uint64_t stream = jox_random_stream(f->step.timing.seed);
+    const double time = f->step.timing.time / TURNING;
     const Moments moments = find_moments(time);
     const JoxFloats least2 = jf_set(JOX_STANDS * JOX_STANDS), zero = jf_set(0.0f);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxFloats x = jf_load(a->pref_x + i), y = jf_load(a->pref_y + i);
         const JoxMask stands = jf_lt(x * x + y * y, least2);
-        const JoxFloats turn = f->step.turning ? jox_param_lanes(a, JOX_PARAM_turn, i) : zero;
+        const JoxFloats turn = f->in.turning ? jox_param_lanes(a, JOX_PARAM_turn, i) : zero;
         float out[JOX_WIDTH], turned[JOX_WIDTH];
         jf_store(turned, jf_select(stands, zero, turn)); /* agents that stand do not turn */
         for (int lane = 0; lane < JOX_WIDTH; lane++)

@@ -98,17 +98,12 @@ static size_t measure_memory(size_t agents) {
            jox_stage_memory_bytes(agents + JOX_LANES, sizeof(float));
 }
 
-void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
-    JOX_ASSERT(step && step->agents && step->neighbours && step->dt > 0.0);
+void jox_force_begin(JoxForces *f, const JoxStep *step, const JoxForceInputs *inputs) {
+    const JoxTiming *timing = &step->timing;
+    JOX_ASSERT(step->agents && step->neighbours && timing->dt > 0.0 && timing->planning_time > 0.0);
+    JOX_ASSERT(timing->response > 0.0 && timing->interval > 0.0 && timing->interval_response > 0.0);
     f->step = *step;
-    if (!(f->step.planning_time > 0.0))
-        f->step.planning_time = step->dt;
-    if (!(f->step.response > 0.0))
-        f->step.response = 1.0;
-    if (!(f->step.interval > 0.0)) {
-        f->step.interval = step->dt;
-        f->step.interval_response = f->step.response;
-    }
+    f->in = *inputs;
     f->totals = (JoxForceTotals){0};
     f->impulses.count = f->impulses.sorted_count = 0;
     f->contacts->known = false;
@@ -124,7 +119,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = jox_param_greatest(a, JOX_PARAM_radius);
     if (n)
-        jox_decay(&f->decay, jox_param(a, JOX_PARAM_damping, 0), (float)step->dt);
+        jox_decay(&f->decay, jox_param(a, JOX_PARAM_damping, 0), (float)timing->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);
     f->has_bodies = n && step->objects && step->objects->grid.columns;
 }

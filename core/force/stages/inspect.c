@@ -9,13 +9,14 @@ JoxV2 jox_force_of_bodies(const JoxForces *f, uint32_t agent) {
     for (uint32_t k = 0; k < touches->count; k++)
         if (touches->items[k].agent == agent)
             sum = jox_add(sum, jox_scale(touches->items[k].normal, touches->items[k].impulse));
-    return jox_scale(sum, 1.0f / (float)f->step.dt);
+    return jox_scale(sum, 1.0f / (float)f->step.timing.dt);
 }
 
 JoxV2 jox_force_slowed(const JoxForces *f, uint32_t agent, float *kept) {
     const JoxAgents *a = f->step.agents;
     JoxV2 sum = {0.0f, 0.0f};
-    *kept = 1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter));
+    *kept =
+        1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.timing.dt, f->options.filter));
     if (!f->totals.passed)
         return sum;
     for (uint32_t k = f->transfers.starts[agent]; k < f->transfers.starts[agent + 1]; k++) {

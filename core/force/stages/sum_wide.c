@@ -36,10 +36,10 @@ typedef struct Planning {
     JoxFloats interval, response, forced, decay;
 } Planning;
 
-static Planning load_planning(const JoxForceStep *step, uint32_t i, JoxMask stands,
-                              JoxDecay decays[2]) {
+static Planning load_planning(const JoxStep *step, uint32_t i, JoxMask stands, JoxDecay decays[2]) {
     const float *damping = jox_params(step->agents, JOX_PARAM_damping, i);
-    const JoxPlanning own[2] = {jox_planning(step, false), jox_planning(step, true)};
+    const JoxPlanning own[2] = {jox_planning(&step->timing, false),
+                                jox_planning(&step->timing, true)};
     return (Planning){
         jf_select(stands, jf_set(own[1].interval), jf_set(own[0].interval)),
         jf_select(stands, jf_set(own[1].response), jf_set(own[0].response)),
@@ -53,7 +53,7 @@ static Planning load_planning(const JoxForceStep *step, uint32_t i, JoxMask stan
    agent i on. */
 static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     JoxAgents *a = f->step.agents;
-    const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
+    const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.timing.dt);
     const JoxFloats mass = jox_param_lanes(a, JOX_PARAM_mass, i);
     const JoxFloats most = jox_param_lanes(a, JOX_PARAM_max_speed, i);
     const JoxVector velocity = jv_load(a->vx, a->vy, i),

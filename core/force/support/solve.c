@@ -121,7 +121,7 @@ static inline bool is_settled(const JoxBodyMotion *first, const JoxBodyMotion *s
    N s. `whole`: solves all of them. */
 static float sweep_supports(JoxForces *f, bool whole) {
     JoxSupports *supports = f->supports;
-    const float little = LITTLE * f->options.tolerance * (float)f->step.dt;
+    const float little = LITTLE * f->options.tolerance * (float)f->step.timing.dt;
     float most = 0.0f;
     for (uint32_t k = 0; k < supports->count; k++) {
         JoxSupportWatch *w = &supports->watches[k];

@@ -142,7 +142,7 @@ static JoxSupportWatch make_watch(const JoxSupport *s) {
 /* Adds a contact that Bullet found, with the force that it had there as the first impulse. */
 static void add_support(JoxForces *f, const JoxObjectContact *c) {
     JoxSupports *supports = f->supports;
-    const float dt = (float)f->step.dt;
+    const float dt = (float)f->step.timing.dt;
     const uint32_t second = c->second == JOX_NO_OBJECT ? f->step.objects->count : c->second;
     JoxV3 across[2];
     JoxSupport *s = &supports->items[supports->count++];
@@ -166,7 +166,7 @@ void jox_supports_begin(JoxForces *f, const JoxTouch *touches, uint32_t count) {
     link_bodies(f, contacts);
     for (uint32_t row = 0; row < objects->count; row++)
         if (supports->motions[row].solved && objects->rows[row].inverse_mass > 0.0f)
-            supports->motions[row].velocity[2] -= objects->gravity * (float)f->step.dt;
+            supports->motions[row].velocity[2] -= objects->gravity * (float)f->step.timing.dt;
     supports->count = 0;
     JOX_RESERVE(supports->items, supports->capacity, contacts.count);
     JOX_RESERVE(supports->watches, supports->watch_capacity, contacts.count);

@@ -30,7 +30,7 @@ static void integrate_range(void *context, uint32_t begin, uint32_t end, uint32_
    `apart`: sum of their radii, m. */
 static inline JoxV2 find_overlap_shift(const JoxMove *m, const JoxV2 *from, uint32_t i, uint32_t j,
                                        float apart) {
-    const JoxAgents *a = m->agents;
+    const JoxAgents *a = m->step.agents;
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     JOX_ASSERT(j < a->count && j != i);
     JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
@@ -48,13 +48,13 @@ static inline JoxV2 find_overlap_shift(const JoxMove *m, const JoxV2 *from, uint
 static void sweep_neighbours(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxMove *m = context;
-    const JoxParameterColumn radius = m->agents->param[JOX_PARAM_radius];
+    const JoxParameterColumn radius = m->step.agents->param[JOX_PARAM_radius];
     const JoxV2 *from = m->position[m->from];
     JoxV2 *to = m->position[!m->from];
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 shift = {0.0f, 0.0f};
-        for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
-            uint32_t j = m->neighbours->index[jox_neighbour_at(m->neighbours, i, k)];
+        for (uint32_t k = 0; k < m->step.neighbours->count[i]; k++) {
+            uint32_t j = m->step.neighbours->index[jox_neighbour_at(m->step.neighbours, i, k)];
             shift = jox_add(
                 shift, find_overlap_shift(m, from, i, j, jox_at(radius, i) + jox_at(radius, j)));
         }
@@ -75,7 +75,7 @@ static inline bool touch_nothing_in_eight(const JoxContactPlanes *t, uint32_t be
 static void sweep_contacts(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxMove *m = context;
-    const JoxContactPlanes *t = m->touched;
+    const JoxContactPlanes *t = m->step.touched;
     const JoxV2 *from = m->position[m->from];
     JoxV2 *to = m->position[!m->from];
     memcpy(to + begin, from + begin, (end - begin) * sizeof *to);
@@ -90,9 +90,9 @@ static void sweep_contacts(void *context, uint32_t begin, uint32_t end, uint32_t
             shift =
                 jox_add(shift, find_overlap_shift(m, from, i, planes[k].other, planes[k].apart));
         for (uint32_t k = 0; k < t->bodies[i]; k++) {
-            const JoxObject *body = &m->objects->rows[planes[t->people[i] + k].other];
+            const JoxObject *body = &m->step.objects->rows[planes[t->people[i] + k].other];
             JoxFootprintPoint side = jox_footprint_nearest(body, from[i]);
-            float overlap = m->agents->breadth[i] - side.gap;
+            float overlap = m->step.agents->breadth[i] - side.gap;
             shift = jox_add(shift, jox_scale(side.normal, m->stiffness * jox_maxf(0.0f, overlap)));
         }
         to[i] = jox_add(from[i], shift);
@@ -118,33 +118,27 @@ static void add_step_drift(JoxNav *nav, uint32_t agents) {
     all->most = jox_add(jox_add(all->most, step.most), (JoxV2){slack, slack});
 }
 
-void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                  const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
-                  double response, double on_the_way, JoxPool *pool) {
-    JOX_ASSERT(dt > 0.0 && response > 0.0 && response <= 1.0);
-    JOX_ASSERT(on_the_way > 0.0 && on_the_way <= response);
+void jox_nav_move(JoxNav *nav, const JoxStep *step) {
+    JoxAgents *agents = step->agents;
+    const JoxTiming *timing = &step->timing;
+    JOX_ASSERT(timing->dt > 0.0 && timing->response > 0.0 && timing->response <= 1.0);
+    JOX_ASSERT(timing->on_the_way > 0.0 && timing->on_the_way <= timing->response);
     JoxMove move = {.nav = nav,
-                    .agents = agents,
-                    .neighbours = neighbours,
-                    .objects = objects,
-                    .touched = touched && touched->agents ? touched : NULL,
+                    .step = jox_nav_step(step),
                     .unhidden2 = jox_nav_unhidden2(nav),
-                    .served = jox_minf(nav->grid.reach, jox_wall_images_reach(agents->period)),
-                    .dt = (float)dt,
-                    .response = (float)response,
-                    .on_the_way = (float)on_the_way};
+                    .served = jox_minf(nav->grid.reach, jox_wall_images_reach(agents->period))};
     jox_stage_memory_begin(nav->memory, 2 * jox_stage_memory_bytes(agents->count, sizeof(JoxV2)));
     for (int i = 0; i < 2; i++)
         move.position[i] =
             jox_stage_memory_take(nav->memory, agents->count, sizeof *move.position[i]);
-    move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate_range, &move);
+    move.stiffness = STIFFNESS * jox_minf(1.0f, (float)timing->dt / STIFF_STEP);
+    jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN, integrate_range, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {
-        jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN,
-                         move.touched ? sweep_contacts : sweep_neighbours, &move);
+        jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN,
+                         move.step.touched ? sweep_contacts : sweep_neighbours, &move);
         move.from = !move.from;
     }
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle_range, &move);
+    jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN, settle_range, &move);
     nav->unhidden_reach = -1.0f;
     add_step_drift(nav, agents->count);
     jox_nav_place_strays(nav, agents);

@@ -8,18 +8,12 @@
 
 typedef struct JoxMove {
     JoxNav *nav;
-    JoxAgents *agents;
-    const JoxNeighbours *neighbours;
-    const JoxObjects *objects;
-    const JoxContactPlanes *touched; /* NULL: contacts were not searched for */
-    const float *unhidden2;          /* m2, at the agents' old positions; NULL: unknown */
-    float served;                    /* m: walls are known as far as this from the old positions */
-    float dt;                        /* s */
-    float response, on_the_way;      /* shares of the way to the planned velocity: at the end of the
-                                        step; mean over the step */
-    float stiffness;                 /* share of an overlap that one sweep removes */
-    JoxV2 *position[2];              /* m: before and after a sweep */
-    int from;                        /* index of the positions that a sweep reads */
+    JoxStep step;           /* with contact planes of this step or NULL */
+    const float *unhidden2; /* m2, at the agents' old positions; NULL: unknown */
+    float served;           /* m: walls are known as far as this from the old positions */
+    float stiffness;        /* share of an overlap that one sweep removes */
+    JoxV2 *position[2];     /* m: before and after a sweep */
+    int from;               /* index of the positions that a sweep reads */
 } JoxMove;
 
 /* Returns where walls let a disc of `radius` m get on its way to a point. A way longer than

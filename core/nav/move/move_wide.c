@@ -8,9 +8,10 @@
 #include "simd/vectors.h"
 
 void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end) {
-    JoxAgents *a = m->agents;
-    const JoxFloats on_the_way = jf_set(m->on_the_way), response = jf_set(m->response);
-    const JoxFloats dt = jf_set(m->dt);
+    JoxAgents *a = m->step.agents;
+    const JoxFloats on_the_way = jf_set((float)m->step.timing.on_the_way),
+                    response = jf_set((float)m->step.timing.response);
+    const JoxFloats dt = jf_set((float)m->step.timing.dt);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector at = jv_load(a->x, a->y, i);
         const JoxVector forced = jv_load(a->forced_x, a->forced_y, i);
@@ -28,11 +29,11 @@ void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end
 
 /* Adds dt to the time that agents have stood still; starts it anew for agents that have moved. */
 static inline void update_still_time(const JoxMove *m, uint32_t i, JoxVector at) {
-    JoxAgents *a = m->agents;
+    JoxAgents *a = m->step.agents;
     const JoxFloats zero = jf_set(0.0f), reach2 = jf_set(JOX_STILL_REACH * JOX_STILL_REACH);
     const JoxVector still = jv_load(a->still_x, a->still_y, i), away = jv_sub(at, still);
     const JoxMask moved = jf_lt(reach2, jv_dot(away, away));
-    const JoxFloats time = jf_load(a->still + i) + m->dt;
+    const JoxFloats time = jf_load(a->still + i) + (float)m->step.timing.dt;
     jf_store(a->still + i, jf_select(moved, zero, time));
     jv_store(a->still_x, a->still_y, i, jv_select(moved, at, still));
 }
@@ -53,7 +54,7 @@ static inline uint32_t find_near_walls(const JoxMove *m, uint32_t first, JoxVect
     if (!grid->first)
         return 0;
     const JoxFloats way2 = jv_dot(way, way), served = jf_set(m->served);
-    const JoxFloats reach = jf_sqrt(way2) + jf_load(m->agents->breadth + first);
+    const JoxFloats reach = jf_sqrt(way2) + jf_load(m->step.agents->breadth + first);
     const JoxMask far = jf_lt(served * served, way2);
     const JoxMask clear =
         jm_and(jf_le(reach, served), jox_wall_grid_clear_lanes(m->unhidden2, first, reach));
@@ -101,7 +102,7 @@ static inline JoxDrift reduce_ways(const Ways *w, uint32_t lanes) {
 }
 
 JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) {
-    JoxAgents *a = m->agents;
+    JoxAgents *a = m->step.agents;
     Ways ways = make_empty_ways();
     float farthest = 0.0f;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {

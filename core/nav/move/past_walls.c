@@ -16,7 +16,7 @@ JoxV2 jox_nav_move_past_walls(const JoxMove *m, JoxV2 from, JoxV2 to, float radi
     JoxV2 at = from;
     for (float n = 1.0f; n <= pieces; n++) {
         const JoxV2 piece = jox_sub(jox_add(from, jox_scale(way, n / pieces)), at);
-        const JoxV2 seen = jox_agents_wrapped(m->agents, at);
+        const JoxV2 seen = jox_agents_wrapped(m->step.agents, at);
         const JoxV2 aim = jox_add(seen, piece);
         const JoxV2 end = jox_way_by_walls(grid, seen, aim, radius);
         at = jox_add(at, jox_sub(end, seen));

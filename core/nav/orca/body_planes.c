@@ -116,9 +116,10 @@ static uint32_t list_rows(const JoxAgents *a, uint32_t i, const JoxObjects *obje
     return nearest->count;
 }
 
-uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
-                          const JoxObjects *objects, const JoxContactPlanes *touched,
-                          float planning_time, JoxHalfPlane *out, uint32_t most) {
+uint32_t jox_orca_objects(const JoxSolve *s, uint32_t i, JoxHalfPlane *out, uint32_t most) {
+    const JoxAgents *a = s->step.agents;
+    const JoxObjects *objects = s->step.objects;
+    const float planning_time = (float)s->step.timing.planning_time;
     JOX_ASSERT(most <= JOX_MOST_NEAREST);
     JoxNearest nearest;
     jox_nearest_begin(&nearest, most);
@@ -126,12 +127,12 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t row = nearest.rows[k];
         Minded minded = {.body = &objects->rows[row], .at = {a->x[i], a->y[i]}};
-        if (!needs_avoidance(touched, a, i, row, &minded))
+        if (!needs_avoidance(s->step.touched, a, i, row, &minded))
             continue;
         bool approached = jox_referred(a->approach[i]) == (int32_t)row;
         float tau = approached ? planning_time : jox_param(a, JOX_PARAM_horizon, i);
-        out[made++] = nav->literal ? make_sphere_plane(a, i, minded.body, planning_time, tau)
-                                   : make_body_plane(a, i, &minded, planning_time, tau);
+        out[made++] = s->nav->literal ? make_sphere_plane(a, i, minded.body, planning_time, tau)
+                                      : make_body_plane(a, i, &minded, planning_time, tau);
     }
     return made;
 }

@@ -18,7 +18,7 @@ static JoxV2 find_parting(uint32_t id, uint32_t other) {
 }
 
 uint32_t jox_solve_contacts(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
-    const JoxContactPlanes *t = s->touched;
+    const JoxContactPlanes *t = s->step.touched;
     uint32_t count = t ? t->people[i] + t->bodies[i] : 0;
     JOX_ASSERT(count <= JOX_MOST_CONTACTS);
     for (uint32_t k = 0; k < count; k++) {
@@ -41,16 +41,18 @@ static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
    neither avoids the other. */
 static bool is_hidden_by_wall(const JoxSolve *s, uint32_t i, JoxV2 offset, float radii) {
     const float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST, d2 = jox_length2(offset);
-    if (!s->touched || d2 > near * near || (s->unhidden2 && d2 < s->unhidden2[i]))
+    if (!s->step.touched || d2 > near * near || (s->unhidden2 && d2 < s->unhidden2[i]))
         return false;
-    return jox_nav_is_behind_wall(s->nav, (JoxV2){s->agents->x[i], s->agents->y[i]}, offset);
+    return jox_nav_is_behind_wall(s->nav, (JoxV2){s->step.agents->x[i], s->step.agents->y[i]},
+                                  offset);
 }
 
 bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     return (a->tags[j] & a->ignore[i]) ||
-           (s->touched && (jox_approaches_or_holds(a, i, j) || is_touched(s->touched, i, j))) ||
+           (s->step.touched &&
+            (jox_approaches_or_holds(a, i, j) || is_touched(s->step.touched, i, j))) ||
            is_hidden_by_wall(s, i, jox_offset(a, i, j), jox_at(radius, i) + jox_at(radius, j));
 }
 
@@ -58,7 +60,7 @@ bool jox_solve_passes_over(const JoxSolve *s, uint32_t i, uint32_t j) {
    false where the law gives none. */
 static bool find_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, const JoxSelf *self,
                               const JoxPair *q, JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const JoxVector velocity = {a->vx[j], a->vy[j]};
     const JoxFloats heading[4] = {a->aim_x[j], a->aim_y[j], a->way_left[j],
                                   jox_float_of((uint32_t)a->bound[j])};
@@ -79,22 +81,22 @@ static bool find_walker_plane(const JoxSolve *s, uint32_t i, uint32_t j, const J
 /* Makes the half-plane of agent i for agent j by ORCA; `q` is j relative to i. */
 static JoxHalfPlane find_orca_plane(const JoxSolve *s, uint32_t i, uint32_t j, const JoxSelf *self,
                                     const JoxPair *q) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const bool coincide = q->x == 0.0f && q->y == 0.0f;
     const JoxV2 away = coincide ? find_parting(a->id[i], a->id[j]) : (JoxV2){1.0f, 0.0f};
-    return jox_orca_half_plane((JoxV2){q->x, q->y}, (JoxV2){q->vx, q->vy}, q->radii,
-                               jox_param(a, JOX_PARAM_horizon, i), s->planning_time,
-                               (JoxV2){a->vx[i], a->vy[i]}, self->orca.share, away);
+    return jox_orca_half_plane(
+        (JoxV2){q->x, q->y}, (JoxV2){q->vx, q->vy}, q->radii, jox_param(a, JOX_PARAM_horizon, i),
+        (float)s->step.timing.planning_time, (JoxV2){a->vx[i], a->vy[i]}, self->orca.share, away);
 }
 
 uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const bool walks = jox_solve_walks(s, i);
     const JoxSelf self = jox_self_of(s, i, walks);
     uint32_t made = 0;
-    for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
-        uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
+    for (uint32_t k = 0; k < s->step.neighbours->count[i]; k++) {
+        uint32_t j = s->step.neighbours->index[jox_neighbour_at(s->step.neighbours, i, k)];
         if (jox_solve_passes_over(s, i, j))
             continue;
         const JoxV2 p = jox_offset(a, i, j);
@@ -109,7 +111,7 @@ uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) 
 }
 
 uint32_t jox_solve_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const float tau = jox_param(a, JOX_PARAM_wall_horizon, i), radius = a->breadth[i];
     const float range = tau * jox_param(a, JOX_PARAM_max_speed, i) + radius;
     if (!s->nav->grid.first || jox_wall_grid_is_clear(s->unhidden2, i, range))
@@ -119,14 +121,13 @@ uint32_t jox_solve_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
 }
 
 uint32_t jox_solve_objects(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
-    if (!s->objects || !s->objects->count)
+    if (!s->step.objects || !s->step.objects->count)
         return 0;
-    return jox_orca_objects(s->nav, s->agents, i, s->objects, s->touched, s->planning_time, out,
-                            JOX_MOST_OBJECTS);
+    return jox_orca_objects(s, i, out, JOX_MOST_OBJECTS);
 }
 
 uint32_t jox_solve_force(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     *out = (JoxHalfPlane){{a->half_plane_x[i], a->half_plane_y[i]}, a->half_plane_offset[i]};
     return out->normal.x != 0.0f || out->normal.y != 0.0f;
 }

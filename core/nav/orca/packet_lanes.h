@@ -76,7 +76,7 @@ typedef struct JoxTouched {
 
 /* Lists the agents that the lanes touch. */
 static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
-    const JoxContactPlanes *planes = p->s->touched;
+    const JoxContactPlanes *planes = p->s->step.touched;
     t->rows = 0;
     for (uint32_t lane = 0; p->touching >> lane; lane++) {
         const uint32_t i = p->first + lane;
@@ -126,7 +126,7 @@ typedef struct JoxNeighbourCounts {
 
 /* Counts the neighbours of the lanes. */
 static inline JoxNeighbourCounts jox_count_neighbours(const JoxPacket *p) {
-    const uint8_t *count = p->s->neighbours->count + p->first;
+    const uint8_t *count = p->s->step.neighbours->count + p->first;
     JoxNeighbourCounts n = {ji_select(jm_of_bits(p->lanes), ji_load_bytes(count), ji_set(0)),
                             JOX_MOST_NEIGHBOURS, 0};
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
@@ -155,8 +155,8 @@ typedef struct JoxNeighbour {
 static inline __attribute__((always_inline)) void
 jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const uint32_t walkers,
                 const bool periodic, JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
-    const JoxNeighbours *near = p->s->neighbours;
-    const JoxAgents *a = p->s->agents;
+    const JoxNeighbours *near = p->s->step.neighbours;
+    const JoxAgents *a = p->s->step.agents;
     const float *motions = &near->motions[0].x;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
@@ -184,7 +184,8 @@ static inline JoxPlaneLanes jox_walker_lanes(const JoxPacket *p, const JoxNeighb
     const JoxVector offset = {near->pair.x, near->pair.y};
     JoxFloats heading[4];
     jf_records(&nav->headings[0].aim_x, others, heading);
-    const JoxMindsLanes minds = jox_minds_lanes(p->s->agents, p->first, others, heading, offset);
+    const JoxMindsLanes minds =
+        jox_minds_lanes(p->s->step.agents, p->first, others, heading, offset);
     const JoxVector towards = jv_scale(offset, 1.0f / gap->distance);
     return jox_walker_plane(nav->walk, gap, &minds, towards, near->velocity, there);
 }
@@ -233,12 +234,12 @@ static inline void jox_put_whole_rows(JoxPacket *p, const JoxSelf *self,
 static inline __attribute__((always_inline)) uint32_t
 jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSolve *s = p->s;
-    const JoxNeighbours *near = s->neighbours;
+    const JoxNeighbours *near = s->step.neighbours;
     const JoxSelf self = jox_self_of(s, p->first, walkers);
     const uint32_t all = p->lanes;
     const JoxNeighbourCounts counts = jox_count_neighbours(p);
-    const uint32_t scalar_tested = jox_scalar_test_lanes(p->s->agents, p->first) & p->lanes,
-                   walled = s->touched ? p->near_walls : 0;
+    const uint32_t scalar_tested = jox_scalar_test_lanes(p->s->step.agents, p->first) & p->lanes,
+                   walled = s->step.touched ? p->near_walls : 0;
     uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);
@@ -246,8 +247,9 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
     jox_fetch_pairs(p, &self, counts.most, walkers, periodic, nearest);
     for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
-        nearest[k].half = jox_orca_begin(&nearest[k].pair, &self.orca, s->planning_time,
-                                         jox_have_more(&counts, k), &coincide);
+        nearest[k].half =
+            jox_orca_begin(&nearest[k].pair, &self.orca, (float)s->step.timing.planning_time,
+                           jox_have_more(&counts, k), &coincide);
     if (!walkers && !some_tested && counts.least == counts.most) {
         jox_put_whole_rows(p, &self, nearest, counts.most);
         return coincide;
@@ -289,7 +291,7 @@ static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
 
 /* Returns whether neighbours of a packet's agents may stand beyond a periodic edge. */
 static inline bool jox_sees_over_edges(const JoxPacket *p) {
-    const JoxAgents *a = p->s->agents;
+    const JoxAgents *a = p->s->step.agents;
     const JoxFloats margin = jf_set(1e-3f); /* m: more than the rounding of positions */
     const JoxFloats reach = jf_load(a->search_radius + p->first) + margin;
     JoxMask over = jm_of_bits(0);
@@ -318,7 +320,7 @@ static inline void jox_put_neighbours(JoxPacket *p) {
 
 /* Appends the row of the forces' half-planes, and sets `pressed`. */
 static inline void jox_put_force(JoxPacket *p) {
-    const JoxAgents *a = p->s->agents;
+    const JoxAgents *a = p->s->step.agents;
     const JoxFloats zero = jf_set(0.0f);
     JoxFloats x = jf_load(a->half_plane_x + p->first), y = jf_load(a->half_plane_y + p->first);
     JoxMask there = jm_and(jf_lt(zero, jf_max(jf_abs(x), jf_abs(y))), jm_of_bits(p->lanes));
@@ -350,7 +352,7 @@ static inline void jox_put_half_planes(JoxPacket *p) {
     p->hard = p->count;
     jox_put_neighbours(p);
     p->objects = p->count;
-    if (p->s->objects && p->s->objects->count)
+    if (p->s->step.objects && p->s->step.objects->count)
         JOX_PUT_LANE_BY_LANE(p, p->lanes, p->objects, jox_solve_objects, objects);
     jox_put_force(p);
 }

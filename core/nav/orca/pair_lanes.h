@@ -92,7 +92,7 @@ typedef struct JoxSelf {
 
 /* Loads it for the agents from `first` on. `walkers`: lanes (bits) that walk by the law. */
 static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t walkers) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     JoxFloats room = jf_set(1.0f);
     if (walkers)
         room -= (float)s->nav->walk->room_eager * jf_load(a->eager + first);

@@ -81,9 +81,9 @@ static inline JoxVector jox_snap_to_forced_lanes(const JoxPressed *p, JoxVector 
 /* Writes the planned velocity of an agent, m/s. */
 static inline void jox_write_plan(const JoxSolve *s, uint32_t agent, float x, float y,
                                   bool failed) {
-    s->agents->next_x[agent] = x;
-    s->agents->next_y[agent] = y;
-    s->agents->failed[agent] |= failed;
+    s->step.agents->next_x[agent] = x;
+    s->step.agents->next_y[agent] = y;
+    s->step.agents->failed[agent] |= failed;
 }
 
 /* ---- the gathered agents ---- */
@@ -103,7 +103,7 @@ typedef struct JoxRestLanes {
 
 /* Loads the gathered agents into lanes. */
 static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     uint32_t touching = 0, pressed = 0;
     uint32_t contacts[JOX_WIDTH] = {0}, failed_at[JOX_WIDTH] = {0};
     const uint32_t first = JOX_REST_HARD - r->hard;

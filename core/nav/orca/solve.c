@@ -19,11 +19,6 @@ static const struct Kernels {
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-/* Returns NULL for contact planes that were not made in this step. */
-static const JoxContactPlanes *use_made_planes(const JoxContactPlanes *touched) {
-    return touched && touched->agents ? touched : NULL;
-}
-
 /* Labels half-planes, which stand in the order of JoxConstraintKind, with their kinds. Returns how
    many. */
 static uint32_t label_half_planes(const JoxHalfPlane *half_planes, const JoxHalfPlaneCounts *made,
@@ -41,21 +36,13 @@ static uint32_t label_half_planes(const JoxHalfPlane *half_planes, const JoxHalf
     return count;
 }
 
-uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
-                             const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             const JoxContactPlanes *touched, double planning_time, uint32_t agent,
+uint32_t jox_nav_constraints(const JoxNav *nav, const JoxStep *step, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
     static_assert(JOX_MOST_WALLS + JOX_MOST_CONTACTS + JOX_MOST_NEIGHBOURS + JOX_MOST_OBJECTS + 1 ==
                       JOX_MOST_CONSTRAINTS,
                   "room for all");
-    JOX_ASSERT(agent < agents->count);
-    const JoxSolve solve = {.nav = (JoxNav *)nav,
-                            .agents = (JoxAgents *)agents,
-                            .neighbours = neighbours,
-                            .objects = objects,
-                            .touched = use_made_planes(touched),
-                            .planning_time = (float)planning_time,
-                            .plans = true};
+    JOX_ASSERT(agent < step->agents->count);
+    const JoxSolve solve = {.nav = (JoxNav *)nav, .step = jox_nav_step(step)};
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(&solve, agent, half_planes);
     return label_half_planes(half_planes, &made, out);
@@ -64,7 +51,7 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxSolve *s = context;
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     if (s->unhidden2 && s->nav->unhidden_reach != s->nav->grid.reach)
         KERNELS[s->nav->isa].unhidden(&s->nav->grid, a->x + begin, a->y + begin, end - begin,
                                       s->unhidden2 + begin);
@@ -100,23 +87,18 @@ static uint64_t pick_aside_moment(double time) {
     return jox_random_moment((uint64_t)time, JOX_DRAW_ASIDE);
 }
 
-uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, const JoxContactPlanes *touched,
-                       const JoxPlanTime *planning, JoxPool *pool) {
+uint32_t jox_nav_solve(JoxNav *nav, const JoxStep *step) {
+    const JoxTiming *timing = &step->timing;
+    const JoxAgents *agents = step->agents;
     JoxSolve solve = {.nav = nav,
-                      .agents = agents,
-                      .neighbours = neighbours,
-                      .objects = objects,
-                      .touched = use_made_planes(touched),
-                      .planning_time = (float)planning->planning_time,
-                      .plans = planning->plans,
+                      .step = jox_nav_step(step),
                       .unhidden2 = nav->grid.walls ? nav->unhidden2 : NULL,
-                      .stream = jox_random_stream(planning->seed),
-                      .moment = pick_aside_moment(planning->time)};
+                      .stream = jox_random_stream(timing->seed),
+                      .moment = pick_aside_moment(timing->time)};
     if (nav->grid.walls)
-        jox_wall_grid_fit(&nav->grid, find_wall_reach(agents, solve.planning_time));
-    JOX_CHECK(jox_motions_check(neighbours, agents));
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
+        jox_wall_grid_fit(&nav->grid, find_wall_reach(agents, (float)timing->planning_time));
+    JOX_CHECK(jox_motions_check(step->neighbours, agents));
+    jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
     if (solve.unhidden2)
         nav->unhidden_reach = nav->grid.reach;
     uint32_t relaxed = 0;
@@ -195,7 +177,7 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
 /* Returns the velocity that one agent wants: wish_lanes.h at width 1. */
 static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                                const JoxHalfPlane *planes) {
-    const JoxAgents *a = s->agents;
+    const JoxAgents *a = s->step.agents;
     const JoxWish wish = jox_wish_of(a, i);
     JoxVector wanted = wish.preferred;
     bool kept_off = false;
@@ -212,7 +194,7 @@ static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlane
 
 /* Solves for one agent and restores its columns. */
 static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
-    JoxAgents *a = s->agents;
+    JoxAgents *a = s->step.agents;
     const float x = a->next_x[i], y = a->next_y[i];
     const uint8_t failed = a->failed[i];
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
@@ -227,24 +209,20 @@ static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     a->failed[i] = failed;
 }
 
-void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *objects,
-                  const JoxContactPlanes *touched, const JoxPlanTime *planning, uint32_t agent,
-                  JoxPlan *out) {
+void jox_nav_plan(const JoxNav *nav, const JoxStep *step, uint32_t agent, JoxPlan *out) {
     JoxNeighbours neighbours = {0};
-    Touched *own = use_made_planes(touched) ? jox_alloc(1, sizeof *own) : NULL;
-    JOX_ASSERT(agent < agents->count);
-    find_neighbours(agents, agent, &neighbours);
-    if (own)
-        find_touched(agents, agent, &neighbours, touched, own);
-    const JoxSolve solve = {.nav = (JoxNav *)nav,
-                            .agents = (JoxAgents *)agents,
-                            .neighbours = &neighbours,
-                            .objects = objects,
-                            .touched = own ? &own->all : NULL,
-                            .planning_time = (float)planning->planning_time,
-                            .plans = true,
-                            .stream = jox_random_stream(planning->seed),
-                            .moment = pick_aside_moment(planning->time)};
+    JoxSolve solve = {.nav = (JoxNav *)nav,
+                      .step = jox_nav_step(step),
+                      .stream = jox_random_stream(step->timing.seed),
+                      .moment = pick_aside_moment(step->timing.time)};
+    Touched *own = solve.step.touched ? jox_alloc(1, sizeof *own) : NULL;
+    JOX_ASSERT(agent < step->agents->count);
+    find_neighbours(step->agents, agent, &neighbours);
+    solve.step.neighbours = &neighbours;
+    if (own) {
+        find_touched(step->agents, agent, &neighbours, step->touched, own);
+        solve.step.touched = &own->all;
+    }
     solve_alone(&solve, agent, out);
     jox_neighbours_free(&neighbours);
     if (own) {

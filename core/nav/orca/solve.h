@@ -23,12 +23,7 @@ enum {
 
 typedef struct JoxSolve {
     JoxNav *nav;
-    JoxAgents *agents;
-    const JoxNeighbours *neighbours;
-    const JoxObjects *objects;       /* NULL: none */
-    const JoxContactPlanes *touched; /* NULL: contacts were not searched for */
-    float planning_time;             /* s */
-    bool plans;                      /* false: agents that want to get on keep their plans */
+    JoxStep step;     /* with contact planes of this step or NULL */
     float *unhidden2; /* m2, nav's: no wall hides neighbours nearer than this; NULL: unknown */
     uint64_t stream, moment; /* random stream, and moment of the draws for turning aside */
 } JoxSolve;
@@ -37,10 +32,10 @@ typedef struct JoxSolve {
    without moving JOX_STILL_REACH, then drawn anew each second from a range that widens for four
    more seconds. Always zero in literal mode. */
 static inline float jox_turn_aside(const JoxSolve *s, uint32_t i) {
-    const float stood = 0.25f * (s->agents->still[i] - 1.0f);
+    const float stood = 0.25f * (s->step.agents->still[i] - 1.0f);
     if (!(stood > 0.0f) || s->nav->literal)
         return 0.0f;
-    const uint64_t bits = jox_random_of(s->stream, s->agents->id[i], 0, s->moment);
+    const uint64_t bits = jox_random_of(s->stream, s->step.agents->id[i], 0, s->moment);
     return jox_minf(stood, 1.0f) * (float)jox_random_share(bits);
 }
 /* Numbers of an agent's half-planes by kind, in the order of JoxConstraintKind and of the list. */
@@ -70,7 +65,7 @@ bool jox_solve_passes_over(const JoxSolve *solve, uint32_t agent, uint32_t other
 JoxHalfPlaneCounts jox_solve_half_planes(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
 /* Returns whether an agent walks by the walking law. */
 static inline bool jox_solve_walks(const JoxSolve *solve, uint32_t agent) {
-    return !solve->nav->literal && jox_walks(solve->agents, agent);
+    return !solve->nav->literal && jox_walks(solve->step.agents, agent);
 }
 /* Plans one agent with the half-planes given, which it may lower. Returns whether a hard one was
    relaxed. */
@@ -87,11 +82,9 @@ JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, floa
    horizon, s; range: m. */
 uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
                         float tau, float range, JoxHalfPlane *out, uint32_t most);
-/* Makes the half-planes of the bodies that agent i avoids, except those that it touches (`touched`,
-   NULL: none); returns how many, at most `most`. */
-uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
-                          const JoxObjects *objects, const JoxContactPlanes *touched,
-                          float planning_time, JoxHalfPlane *out, uint32_t most);
+/* Makes the half-planes of the bodies that an agent avoids, except those that it touches; returns
+   how many, at most `most`. */
+uint32_t jox_orca_objects(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out, uint32_t most);
 
 /* Finds the velocity of at most `speed_limit` that is nearest to `wanted` and meets all
    half-planes, of which the first `hard` are hard. Returns true if there is one. Otherwise

@@ -11,7 +11,7 @@
    carry it, as the contact with the wall itself stops it. Then the forced velocity meets every hard
    half-plane. */
 static void relax_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *walls, uint32_t count) {
-    JoxV2 carried = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    JoxV2 carried = {s->step.agents->forced_x[i], s->step.agents->forced_y[i]};
     for (uint32_t k = 0; k < count; k++)
         walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
 }
@@ -30,7 +30,7 @@ static float find_wall_deviation(const JoxSolve *s, uint32_t i, const JoxHalfPla
     bool relaxed;
     if (count == 0)
         return 0.0f;
-    jox_linear_program_solve(walls, count, count, s->agents->speed_limit[i], wanted, &nearest,
+    jox_linear_program_solve(walls, count, count, s->step.agents->speed_limit[i], wanted, &nearest,
                              &relaxed);
     return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* covers rounding */
 }
@@ -93,7 +93,7 @@ static JoxPressed find_pressed(const JoxAgents *a, uint32_t i, const JoxHalfPlan
 
 bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                    JoxHalfPlane *half_planes, JoxV2 wanted) {
-    JoxAgents *a = s->agents;
+    JoxAgents *a = s->step.agents;
     const uint32_t hard = made->walls + made->contacts;
     const uint32_t count = hard + made->agents + made->objects + made->force;
     JoxV2 velocity;

@@ -30,7 +30,7 @@ static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
 /* Returns the wanted velocities: preferred ones, some of them turned aside; those of walkers were
    chosen by jox_nav_walk. */
 static JoxVector find_wanted_lanes(const JoxPacket *p) {
-    const JoxAgents *a = p->s->agents;
+    const JoxAgents *a = p->s->step.agents;
     const JoxWish wish = jox_wish_of(a, p->first);
     JoxVector wanted = wish.preferred;
     uint32_t aside = p->lanes & jm_bits(wish.may_turn);
@@ -150,7 +150,7 @@ static uint32_t queue_unsolved(JoxPacket *p, const Plan *plan, uint32_t soft, ui
 
 /* Solves one packet; returns how many agents had a hard half-plane relaxed. */
 static uint32_t solve_packet(JoxPacket *p) {
-    JoxAgents *a = p->s->agents;
+    JoxAgents *a = p->s->step.agents;
     const uint32_t i = p->first;
     jox_put_half_planes(p);
     const JoxPressed pressed = {
@@ -195,13 +195,13 @@ static uint32_t solve_packet(JoxPacket *p) {
    touch something. */
 static void begin_solve_packet(JoxPacket *p, uint32_t first, uint32_t end) {
     const JoxSolve *s = p->s;
-    const JoxAgents *a = s->agents;
-    const JoxContactPlanes *t = s->touched;
+    const JoxAgents *a = s->step.agents;
+    const JoxContactPlanes *t = s->step.touched;
     const uint32_t there = jox_first_lanes(end - first);
     const JoxMask walks = jf_lt(jf_set(0.0f), jox_param_lanes(a, JOX_PARAM_time_gap, first));
     p->first = first;
     p->lanes = there;
-    for (uint32_t lane = 0; !s->plans && there >> lane; lane++)
+    for (uint32_t lane = 0; !s->step.timing.plans && there >> lane; lane++)
         if (jox_solve_walks(s, first + lane) || !jox_stands_pressed(a, first + lane))
             p->lanes &= ~(1u << lane);
     p->walkers = s->nav->literal ? 0 : p->lanes & jm_bits(walks);

@@ -35,7 +35,7 @@ static void aim_range(void *context, uint32_t begin, uint32_t end, uint32_t work
 static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxWalk *w = context;
-    const JoxAgents *a = w->agents;
+    const JoxAgents *a = w->step.agents;
     jox_interleave(&w->nav->headings[begin], a->aim_x + begin, a->aim_y + begin,
                    a->way_left + begin, a->bound + begin, end - begin);
     KERNELS[w->nav->isa].unhidden(&w->nav->grid, a->x + begin, a->y + begin, end - begin,
@@ -50,11 +50,11 @@ static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
 
 /* Computes the aims of all agents; *reach: how far walls matter, m. Returns whether any agent walks
    by the law. */
-static bool aim_agents(JoxWalk *w, float *reach, JoxPool *pool) {
+static bool aim_agents(JoxWalk *w, float *reach) {
     bool any = false;
     *reach = SIGHT;
-    jox_parallel_for(pool, w->agents->count, JOX_NAV_GRAIN, aim_range, w);
-    for (uint32_t i = 0; i < w->agents->count; i += JOX_NAV_GRAIN) {
+    jox_parallel_for(w->step.pool, w->step.agents->count, JOX_NAV_GRAIN, aim_range, w);
+    for (uint32_t i = 0; i < w->step.agents->count; i += JOX_NAV_GRAIN) {
         any |= w->nav->chunk_reach[i / JOX_NAV_GRAIN] >= 0.0f;
         *reach = jox_maxf(*reach, w->nav->chunk_reach[i / JOX_NAV_GRAIN]);
     }
@@ -64,7 +64,7 @@ static bool aim_agents(JoxWalk *w, float *reach, JoxPool *pool) {
 /* Discards the draws of time gaps if the random stream or the knots have changed. */
 static void refresh_gap_draws(const JoxWalk *w) {
     JoxNav *nav = w->nav;
-    const bool there = nav->gap_room >= w->agents->count;
+    const bool there = nav->gap_room >= w->step.agents->count;
     if (there && nav->gap_stream == w->stream && nav->gap_knots[0] == w->knots[0] &&
         nav->gap_knots[1] == w->knots[1])
         return;
@@ -89,19 +89,18 @@ static float compute_share(double interval, double time) {
     return (float)(1.0 - jox_exp(-interval / time));
 }
 
-void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, uint64_t seed,
-                  double time, double interval, bool plans, JoxPool *pool) {
+void jox_nav_walk(JoxNav *nav, const JoxStep *step) {
     const JoxWalkLaw *law = nav->walk;
+    const double time = step->timing.time, interval = step->timing.interval;
     float reach;
     const double knot = floor(time / KNOTS);
-    JoxWalk walk = {.nav = nav, .agents = agents, .neighbours = neighbours, .law = law};
-    JOX_ASSERT(nav->capacity >= agents->count);
-    if (!aim_agents(&walk, &reach, pool) || !plans)
+    JoxWalk walk = {.nav = nav, .step = *step, .law = law};
+    JOX_ASSERT(nav->capacity >= step->agents->count);
+    if (!aim_agents(&walk, &reach) || !step->timing.plans)
         return;
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, reach);
-    walk.interval = interval;
-    walk.stream = jox_random_stream(seed);
+    walk.stream = jox_random_stream(step->timing.seed);
     walk.knots[0] = jox_random_moment((uint64_t)knot, JOX_DRAW_GAP);
     walk.knots[1] = jox_random_moment((uint64_t)knot + 1, JOX_DRAW_GAP);
     walk.own = jox_random_moment(0, JOX_DRAW_GAP);
@@ -112,7 +111,7 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     walk.course = compute_share(interval, law->course_time);
     walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
     walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, head_range, &walk);
+    jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, head_range, &walk);
     nav->unhidden_reach = nav->grid.reach;
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, walk_range, &walk);
+    jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, walk_range, &walk);
 }

@@ -9,16 +9,14 @@
 /* Inputs of the walking law in a step (core/walking.md). */
 typedef struct JoxWalk {
     JoxNav *nav;
-    JoxAgents *agents;
-    const JoxNeighbours *neighbours;
+    JoxStep step;
     const JoxWalkLaw *law;
-    double interval; /* s: since agents planned last */
     /* Random walk of time gaps: the random stream, the moments of the knots before and after the
        present time and of the agents' own draws, and how far time is between the knots, 0 to 1. */
     uint64_t stream, knots[2], own;
     double between;
-    float rise, fall, course; /* shares covered in `interval`: eagerness up, down; course */
-    float start, stop;        /* shares covered in `interval`: speed up; slowing and turning */
+    float rise, fall, course; /* shares covered from plan to plan: eagerness up, down; course */
+    float start, stop;        /* shares covered from plan to plan: speed up; slowing and turning */
 } JoxWalk;
 
 /* Directions that are judged: straight on, and 15 to 75 degrees to the left and right. */

@@ -79,9 +79,9 @@ static inline JoxFloats jox_share_lanes(JoxFloats x) { /* clamped to 0 ... 1 */
 /* Returns the eagerness that the crowd would give agents, 0 to 1, within the bounds of their
    haste. */
 static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
-    const JoxNeighbours *n = w->neighbours;
+    const JoxNeighbours *n = w->step.neighbours;
     const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
-    const JoxFloats haste = jox_param_lanes(w->agents, JOX_PARAM_haste, first);
+    const JoxFloats haste = jox_param_lanes(w->step.agents, JOX_PARAM_haste, first);
     const JoxFloats twice = 2.0f * haste;
     const JoxFloats most = jf_set((float)w->law->eager_most);
     uint32_t crowded = 0;
@@ -100,7 +100,7 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
 
 /* Returns the eagerness at the end of the step: it approaches the wanted one. */
 static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first) {
-    const JoxFloats now = jf_load(w->agents->eager + first);
+    const JoxFloats now = jf_load(w->step.agents->eager + first);
     const JoxFloats wanted = jox_eagerness_wanted(w, first);
     const JoxFloats rate = jf_select(jf_lt(now, wanted), jf_set(w->rise), jf_set(w->fall));
     return now + (wanted - now) * rate;
@@ -116,13 +116,13 @@ static inline void jox_draw_gaps(const JoxWalk *w, uint32_t first, uint32_t lane
     JoxGapDraws *draws = &w->nav->gap_draws[first / JOX_LANES];
     for (; lanes; lanes &= lanes - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(lanes), at = first % JOX_LANES + lane;
-        const uint64_t id = (uint64_t)w->agents->id[first + lane]
+        const uint64_t id = (uint64_t)w->step.agents->id[first + lane]
                             << 32; /* as jox_random_of draws */
         const uint64_t bits = jox_random_mix(w->stream ^ id);
         draws->from[at] = jox_drawn(jox_random_mix(bits ^ w->knots[0]));
         draws->to[at] = jox_drawn(jox_random_mix(bits ^ w->knots[1]));
         draws->own[at] = jox_drawn(jox_random_mix(jox_random_mix(w->stream ^ (id | 1)) ^ w->own));
-        draws->id[at] = w->agents->id[first + lane];
+        draws->id[at] = w->step.agents->id[first + lane];
     }
 }
 
@@ -131,10 +131,10 @@ static inline void jox_draw_gaps(const JoxWalk *w, uint32_t first, uint32_t lane
 static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t lanes,
                                       JoxFloats eagerness) {
     const JoxWalkLaw *law = w->law;
-    const float *base = jox_params(w->agents, JOX_PARAM_time_gap, first);
+    const float *base = jox_params(w->step.agents, JOX_PARAM_time_gap, first);
     const JoxGapDraws *draws = &w->nav->gap_draws[first / JOX_LANES];
     const uint32_t at = first % JOX_LANES;
-    const JoxMask known = ji_equal(ji_load(w->agents->id + first), ji_load(draws->id + at));
+    const JoxMask known = ji_equal(ji_load(w->step.agents->id + first), ji_load(draws->id + at));
     if (lanes & ~jm_bits(known))
         jox_draw_gaps(w, first, lanes & ~jm_bits(known));
     float eager[JOX_WIDTH], gap[JOX_WIDTH];
@@ -156,7 +156,7 @@ static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t
    slowly, and slow down and turn fast; turning by up to 60 degrees costs no speed. */
 static inline JoxVector jox_approach(const JoxWalk *w, uint32_t first, JoxVector e,
                                      JoxFloats allowed) {
-    const JoxAgents *a = w->agents;
+    const JoxAgents *a = w->step.agents;
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     const JoxFloats stop = jf_set(w->stop), keeps = one - stop;
     const JoxFloats speed = jf_max(allowed, zero);
@@ -172,7 +172,7 @@ static inline JoxVector jox_approach(const JoxWalk *w, uint32_t first, JoxVector
 /* Returns the course after a step of turning it to the direction e; a course opposite to e becomes
    e. */
 static inline JoxVector jox_turn_course(const JoxWalk *w, uint32_t first, JoxVector e) {
-    const JoxAgents *a = w->agents;
+    const JoxAgents *a = w->step.agents;
     const JoxFloats share = jf_set(w->course), zero = jf_set(0.0f);
     JoxVector course = {jf_load(a->course_x + first), jf_load(a->course_y + first)};
     course.x += (e.x - course.x) * share;

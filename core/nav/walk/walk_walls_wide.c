@@ -81,7 +81,7 @@ static void limit_by_edge(Seeker *p, const JoxWallVertex *edge, JoxV2 to) {
 
 void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
                                    JoxWalkTable *table) {
-    const JoxAgents *a = w->agents;
+    const JoxAgents *a = w->step.agents;
     const JoxWallGrid *grid = &w->nav->grid;
     const JoxV2 aim = {a->aim_x[i], a->aim_y[i]};
     Seeker p = {.at = {a->x[i], a->y[i]},
@@ -108,7 +108,7 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
    walkers. */
 
 float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
-    JoxAgents *a = w->agents;
+    JoxAgents *a = w->step.agents;
     const JoxFloats zero = jf_set(0.0f), none = jf_set(-1.0f);
     JoxFloats reach = none;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {

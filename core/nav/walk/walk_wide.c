@@ -72,7 +72,7 @@ typedef struct Minded {
 /* Returns the offset from each lane's agent to a neighbour, m. */
 static inline __attribute__((always_inline)) JoxVector
 find_offset(const Packet *p, const JoxFloats *record, const bool periodic) {
-    const JoxAgents *a = p->w->agents;
+    const JoxAgents *a = p->w->step.agents;
     JoxVector offset = jv_sub((JoxVector){record[0], record[1]}, jv_load(a->x, a->y, p->first));
     if (periodic) {
         offset.x = jf_wrap(offset.x, a->period.x);
@@ -85,7 +85,7 @@ find_offset(const Packet *p, const JoxFloats *record, const bool periodic) {
    it. */
 static uint32_t find_passed_over(const Packet *p, uint32_t lanes, JoxInts others,
                                  JoxVector offset) {
-    const JoxAgents *a = p->w->agents;
+    const JoxAgents *a = p->w->step.agents;
     uint32_t index[JOX_WIDTH], passed = 0;
     float x[JOX_WIDTH], y[JOX_WIDTH];
     ji_store(index, others);
@@ -104,8 +104,8 @@ static uint32_t find_passed_over(const Packet *p, uint32_t lanes, JoxInts others
 /* Finds which neighbours each lane minds, and how. */
 static inline __attribute__((always_inline)) Minded find_minded(const Packet *p,
                                                                 const bool periodic) {
-    const JoxAgents *a = p->w->agents;
-    const JoxNeighbours *n = p->w->neighbours;
+    const JoxAgents *a = p->w->step.agents;
+    const JoxNeighbours *n = p->w->step.neighbours;
     const JoxInts none = ji_set(0);
     const uint32_t i = p->first;
     const JoxMask wants = jm_of_bits(p->lanes);
@@ -151,8 +151,8 @@ static JoxVector rotate_to_aim(const Packet *p, JoxVector v) {
    left. */
 static inline __attribute__((always_inline)) bool take_nearest(const Packet *p, JoxInts *left,
                                                                Next *next, const bool periodic) {
-    const JoxAgents *a = p->w->agents;
-    const JoxNeighbours *n = p->w->neighbours;
+    const JoxAgents *a = p->w->step.agents;
+    const JoxNeighbours *n = p->w->step.neighbours;
     const JoxInts none = ji_set(0), one = ji_set(1);
     next->there = ji_less(none, *left);
     if (!jm_bits(next->there))
@@ -320,7 +320,7 @@ typedef struct Taste {
 
 static Taste make_taste(const Packet *p) {
     const JoxWalkLaw *law = p->w->law;
-    const JoxAgents *a = p->w->agents;
+    const JoxAgents *a = p->w->step.agents;
     return (Taste){rotate_to_aim(p, jv_load(a->course_x, a->course_y, p->first)),
                    (float)law->turn_cost * p->speed, (float)law->right * p->speed};
 }
@@ -418,7 +418,7 @@ static Choice choose_direction(const Packet *p) {
 
 /* Chooses direction and speed of one packet's walkers, and writes their columns. */
 static void walk_packet(Packet *p) {
-    JoxAgents *a = p->w->agents;
+    JoxAgents *a = p->w->step.agents;
     const uint32_t i = p->first;
     p->aim = (JoxVector){jf_load(a->aim_x + i), jf_load(a->aim_y + i)};
     p->radius = jox_param_lanes(a, JOX_PARAM_radius, i);
@@ -446,7 +446,7 @@ static void walk_packet(Packet *p) {
 /* Finds the walkers of a packet that want to get on, and their tempers; walkers that only stand get
    velocity 0. */
 static void begin_walk_packet(Packet *p, uint32_t first, uint32_t end) {
-    JoxAgents *a = p->w->agents;
+    JoxAgents *a = p->w->step.agents;
     const JoxWalkLaw *law = p->w->law;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
     const JoxMask walk = jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, first));
