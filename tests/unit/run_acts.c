@@ -1,5 +1,5 @@
-/* What a program does to a running scene through jostle_act.h: each call does what it says, is
-   refused with a reason where it cannot, and is played back from the log to the same state. */
+/* Tests of jostle_act.h, by which a program acts on a running scene: each call has its effect, or
+ * is refused with a reason, and plays back from the input log to the same state. */
 #include <math.h>
 
 #include "unit/gate_ball_scene.h"
@@ -19,14 +19,14 @@ static JoScene *scene;
 static JoWorld *world;
 static JoError error;
 
-static void begin_scene(void) {
+static void load_acted_scene(void) {
     scene = load_scene_text(jox_bodies_available() ? WORLD PLACES WESTWARD : PLAIN PLACES WESTWARD,
                             OWN);
     world = jo_scene_world(scene);
     error = (JoError){0};
 }
 
-static JoAgent agent_of(uint32_t rank) {
+static JoAgent find_agent_by_rank(uint32_t rank) {
     JoAgent all[16];
     assert_true(rank < jo_world_agents(world, all, 16));
     return all[rank];
@@ -43,15 +43,16 @@ static JoAgent agent_of(uint32_t rank) {
         assert_true(refused_before == jo_world_hash(world));                                       \
     } while (0)
 
-static void people_are_added_and_moved(void **state) {
+static void adds_and_moves_people(void **state) {
     (void)state;
-    begin_scene();
+    load_acted_scene();
     JoAgent one = jo_world_spawn(world, "people", 5, 2, &error);
     assert_true(jo_agent_is_live(world, one));
     assert_int_equal(jo_agent_state(world, one).id, 4);
     assert_string_equal(jo_agent_state(world, one).state, "Walk");
     double mass;
-    assert_true(jo_agent_parameter(world, one, "mass", &mass) && mass == 80.0); /* of its group */
+    assert_true(jo_agent_parameter(world, one, "mass", &mass) &&
+                mass == 80.0); /* set by its group */
     JoAgent crowded = jo_world_spawn(world, "people", 5, 2, &error);
     step_scene(scene, 1);
     const JoAgentState a = jo_agent_state(world, one), b = jo_agent_state(world, crowded);
@@ -61,7 +62,7 @@ static void people_are_added_and_moved(void **state) {
     assert_true(jo_agent_teleport(world, crowded, 30, 0, &error)); /* in a wall: beside it */
     assert_true(fabs(jo_agent_state(world, crowded).x - 30.0) > 0.19);
     step_scene(scene, 20);
-    assert_true(jo_agent_state(world, one).x < 11.5); /* on its way to the west */
+    assert_true(jo_agent_state(world, one).x < 11.5); /* walks to the west */
     jo_world_remove_agent(world, one);
     assert_false(jo_agent_is_live(world, one));
     assert_int_equal(jo_world_agent_count(world), 5);
@@ -69,11 +70,12 @@ static void people_are_added_and_moved(void **state) {
     jo_scene_free(scene);
 }
 
-static void what_people_want_is_set(void **state) {
+static void sets_goals_parameters_memory_and_states(void **state) {
     (void)state;
-    begin_scene();
+    load_acted_scene();
     step_scene(scene, 10);
-    const JoAgent one = agent_of(0), two = agent_of(3); /* whom nobody follows */
+    const JoAgent one = find_agent_by_rank(0),
+                  two = find_agent_by_rank(3); /* agents without followers */
     double value;
     assert_true(jo_agent_state(world, one).vx < 0.0);
     assert_true(jo_agent_teleport(world, one, 0, -9, &error)); /* out of the others' way */
@@ -90,7 +92,7 @@ static void what_people_want_is_set(void **state) {
     assert_true(jo_agent_set_state(world, one, "Rest", &error));
     assert_string_equal(jo_agent_state(world, one).state, "Rest");
     assert_true(jo_agent_memory(world, one, "met", &value) && value == 0.0);
-    step_scene(scene, 1); /* what is done on entering, is done in the next step */
+    step_scene(scene, 1); /* on_enter runs in the next step */
     assert_true(jo_agent_memory(world, one, "met", &value) && value == 1.0);
     assert_true(jo_agent_set_state(world, one, "Left", &error));
     step_scene(scene, 1);
@@ -98,11 +100,11 @@ static void what_people_want_is_set(void **state) {
     jo_scene_free(scene);
 }
 
-static void mistakes_are_refused_and_change_nothing(void **state) {
+static void refused_calls_change_nothing(void **state) {
     (void)state;
-    begin_scene();
+    load_acted_scene();
     step_scene(scene, 2);
-    const JoAgent one = agent_of(0), gone = agent_of(3), none = {0};
+    const JoAgent one = find_agent_by_rank(0), gone = find_agent_by_rank(3), none = {0};
     jo_world_remove_agent(world, gone);
     REFUSED(jo_world_spawn(world, "peple", 1, 1, &error).generation, "Did you mean 'people'?");
     REFUSED(jo_world_spawn(world, "people", NAN, 1, &error).generation, "X of 'spawn'");
@@ -124,7 +126,7 @@ static void mistakes_are_refused_and_change_nothing(void **state) {
     REFUSED(jo_world_add_wall(world, "w", (double[]){0, 0, 1, 1, 1, 0, 0, 1}, 4, &error), "cross");
     REFUSED(jo_world_remove_wall(world, "gate", &error), "was added");
     REFUSED(jo_world_open_wall(world, "gat", true, &error), "Did you mean 'gate'?");
-    /* Of another scene, whose agent has the same slot. */
+    /* A handle from another scene, whose agent has the same slot. */
     JoWorldDef def = jo_default_world_def();
     JoWorld *other = jo_world_create(&def, NULL);
     REFUSED(jo_world_spawn(other, "people", 0, 0, &error).generation, "there is no group");
@@ -135,17 +137,18 @@ static void mistakes_are_refused_and_change_nothing(void **state) {
     jo_scene_free(scene);
 }
 
-static void bodies_are_pushed_and_placed(void **state) {
+static void pushes_and_places_bodies(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    begin_scene();
+    load_acted_scene();
     step_scene(scene, 1);
     const JoBody ball = jo_world_find_body(world, "ball"),
                  pillar = jo_world_find_body(world, "pillar");
     assert_true(jo_body_is_live(world, ball) && jo_body_is_live(world, pillar));
     assert_int_equal(jo_world_find_body(world, "bal").generation, 0);
-    assert_true(jo_body_impulse(world, ball, (double[]){3, 0, 0}, NULL, &error)); /* of 1 kg */
+    assert_true(
+        jo_body_impulse(world, ball, (double[]){3, 0, 0}, NULL, &error)); /* the ball has 1 kg */
     assert_true(fabs(jo_body_state(world, ball).vx - 3.0) < 1e-5);
     assert_true(jo_body_place(world, ball, (double[]){10, 4, 1}, NULL, &error));
     assert_true(jo_body_state(world, ball).x == 10.0 && jo_body_state(world, ball).vx == 0.0);
@@ -153,7 +156,7 @@ static void bodies_are_pushed_and_placed(void **state) {
     step_scene(scene, 2);
     assert_true(fabs(jo_body_state(world, ball).y - 4.2) < 0.02);
     assert_true(jo_body_place(world, pillar, (double[]){2, 9, 1}, (double[]){0, 0, 0.6, 0.8},
-                              &error)); /* static ones too */
+                              &error)); /* static bodies, too */
     assert_true(fabs(jo_body_state(world, pillar).qz - 0.6) < 1e-5);
     REFUSED(jo_body_impulse(world, pillar, (double[]){3, 0, 0}, NULL, &error), "static");
     REFUSED(jo_body_impulse(world, ball, (double[]){NAN, 0, 0}, NULL, &error), "IX");
@@ -167,11 +170,11 @@ static void bodies_are_pushed_and_placed(void **state) {
     jo_scene_free(scene);
 }
 
-static void walls_come_and_go(void **state) {
+static void adds_and_removes_walls(void **state) {
     (void)state;
-    begin_scene();
+    load_acted_scene();
     step_scene(scene, 5);
-    const JoAgent first = agent_of(0); /* goes west, from about x = 0 */
+    const JoAgent first = find_agent_by_rank(0); /* goes west, from about x = 0 */
     assert_true(jo_world_add_wall(world, "block", (double[]){-2, -9, -2, 9}, 2, &error));
     step_scene(scene, 80);
     assert_true(jo_agent_state(world, first).x > -2.0);
@@ -180,7 +183,7 @@ static void walls_come_and_go(void **state) {
     assert_true(jo_agent_state(world, first).x < -2.0);
     assert_true(
         jo_world_add_wall(world, "solid", (double[]){-60, -9, -4, -9, -4, 9, -60, 9}, 4, &error));
-    step_scene(scene, 1); /* who stood there is moved out */
+    step_scene(scene, 1); /* moves out the agent that stood there */
     assert_true(jo_agent_state(world, first).x > -4.0);
     assert_true(jo_world_remove_wall(world, "solid", &error) &&
                 jo_world_remove_wall(world, "block", &error));
@@ -189,8 +192,8 @@ static void walls_come_and_go(void **state) {
     jo_scene_free(scene);
 }
 
-/* A snapshot holds the walls that were added, and whether they are open. */
-static void added_walls_are_state(void **state) {
+/* A snapshot holds added walls, and whether gates are open. */
+static void snapshot_holds_added_walls(void **state) {
     (void)state;
     scene = load_scene_text(PLAIN PLACES WESTWARD, OWN);
     world = jo_scene_world(scene);
@@ -215,20 +218,20 @@ static void added_walls_are_state(void **state) {
     jo_scene_free(scene);
 }
 
-static void all_of_it_plays_back(void **state) {
+static void logged_calls_play_back_to_the_same_state(void **state) {
     (void)state;
     const char *log = test_path("acts.input");
-    begin_scene();
+    load_acted_scene();
     assert_true(jo_scene_log_input(scene, log, &error));
     step_scene(scene, 3);
     const JoAgent added = jo_world_spawn(world, "people", 4.1, 3.7, &error);
     assert_true(jo_agent_set_goal(world, added, "east", &error));
-    assert_true(jo_agent_teleport(world, agent_of(1), 9.3, 1.0 / 3.0, &error));
-    jo_agent_apply_force(world, agent_of(0), 120.5, -33);
+    assert_true(jo_agent_teleport(world, find_agent_by_rank(1), 9.3, 1.0 / 3.0, &error));
+    jo_agent_apply_force(world, find_agent_by_rank(0), 120.5, -33);
     step_scene(scene, 4);
     assert_true(jo_agent_set_parameter(world, added, "speed", 0.7, &error) &&
-                jo_agent_set_memory(world, agent_of(2), "hits", 3, &error) &&
-                jo_agent_set_state(world, agent_of(3), "Rest", &error) &&
+                jo_agent_set_memory(world, find_agent_by_rank(2), "hits", 3, &error) &&
+                jo_agent_set_state(world, find_agent_by_rank(3), "Rest", &error) &&
                 jo_world_add_wall(world, "a wall", (double[]){12, -4, 12, 4}, 2, &error) &&
                 jo_world_signal(world, "go", &error));
     if (jox_bodies_available()) {
@@ -239,7 +242,7 @@ static void all_of_it_plays_back(void **state) {
             jo_body_remove(world, jo_world_find_body(world, "pillar"), &error));
     }
     step_scene(scene, 20);
-    jo_world_remove_agent(world, agent_of(0));
+    jo_world_remove_agent(world, find_agent_by_rank(0));
     assert_true(jo_world_remove_wall(world, "a wall", &error));
     step_scene(scene, 10);
     const uint64_t hash = jo_world_hash(world);
@@ -257,13 +260,13 @@ static void all_of_it_plays_back(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(people_are_added_and_moved),
-        cmocka_unit_test(what_people_want_is_set),
-        cmocka_unit_test(mistakes_are_refused_and_change_nothing),
-        cmocka_unit_test(bodies_are_pushed_and_placed),
-        cmocka_unit_test(walls_come_and_go),
-        cmocka_unit_test(added_walls_are_state),
-        cmocka_unit_test(all_of_it_plays_back),
+        cmocka_unit_test(adds_and_moves_people),
+        cmocka_unit_test(sets_goals_parameters_memory_and_states),
+        cmocka_unit_test(refused_calls_change_nothing),
+        cmocka_unit_test(pushes_and_places_bodies),
+        cmocka_unit_test(adds_and_removes_walls),
+        cmocka_unit_test(snapshot_holds_added_walls),
+        cmocka_unit_test(logged_calls_play_back_to_the_same_state),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,8 +1,8 @@
-/* Arrivals: nobody leaves, queues or gets to a place through a wall or a closed gate, and whoever
-   has a way arrives. */
+/* Tests that people reach exits, queues and places by open ways alone, and not through walls and
+ * closed gates. */
 #include "unit/gate_ball_scene.h"
 
-/* A hall, x from 0 to 24, y from 0 to 8, that a wall may divide at x = 20. */
+/* A hall of 24 x 8 m, which a wall may divide at x = 20. */
 #define HALL(wall, place, more)                                                                    \
     "jostle: 1\nwalls:\n"                                                                          \
     "  - {line: [[0, 0], [24, 0], [24, 8], [0, 8]], closed: true}\n  - {" wall "}\n"               \
@@ -24,8 +24,8 @@
     HEAD "\"Go\", states = { Go = { steer = drift(1, 0), { to = \"Gone\", when = " when " } },\n"  \
          "  Gone = { removes = true } } }\n"
 
-/* How many of three people leave within 20 s, and how many have left 20 s after what is named gate
-   was opened. */
+/* Counts how many of three people leave within 20 s, and how many have left 20 s after `gate` was
+ * opened. */
 typedef struct Arrival {
     const char *name, *yaml, *behaviour;
     uint32_t first, later;

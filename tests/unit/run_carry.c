@@ -1,4 +1,4 @@
-/* What agents keep when another version of their behaviour takes over, and what is refused. */
+/* Tests what agents keep when a reload replaces their behaviour, and which reloads are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@ static const char ISTILAM[] =
     "    on_exit = function(me) me.left = me.left + 1 end, { to = \"Other\", when = after(0.5) } } "
     "} }\n";
 
-static double memory_of(const JoScene *scene, uint32_t agent, const char *name) {
+static double read_memory_value(const JoScene *scene, uint32_t agent, const char *name) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *m = scene->world->model.machines.items[a->machine[agent]];
     for (uint32_t s = 0; s < m->memory_count; s++)
@@ -34,32 +34,32 @@ static double memory_of(const JoScene *scene, uint32_t agent, const char *name) 
     return 0.0;
 }
 
-static const char *state_of(const JoScene *scene, uint32_t agent) {
+static const char *read_state_name(const JoScene *scene, uint32_t agent) {
     const JoxAgents *a = &scene->world->state.agents;
     return scene->world->model.machines.items[a->machine[agent]]->states[a->state[agent]].name;
 }
 
-static void a_renamed_state_goes_on_where_it_was(void **state) {
+static void renamed_state_keeps_its_people_and_time(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(PEOPLE(5), GREET);
     step_scene(scene, 8); /* 0.1 s in Enter, and some 0.25 s in Greet */
-    assert_string_equal(state_of(scene, 0), "Greet");
+    assert_string_equal(read_state_name(scene, 0), "Greet");
     uint32_t entered = scene->world->state.agents.entered[0];
     assert_true(reload_behaviour(scene, 0, ISTILAM));
-    assert_string_equal(state_of(scene, 0), "Istilam");
+    assert_string_equal(read_state_name(scene, 0), "Istilam");
     assert_int_equal(scene->world->state.agents.entered[0], entered);
     int steps = 0;
-    for (; strcmp(state_of(scene, 0), "Istilam") == 0 && steps < 100; steps++)
+    for (; strcmp(read_state_name(scene, 0), "Istilam") == 0 && steps < 100; steps++)
         step_scene(scene, 1);
     assert_in_range(steps, 3, 8); /* its time counts from when Greet was entered */
     for (uint32_t i = 0; i < 5; i++) {
-        assert_true(memory_of(scene, i, "met") == 1.0); /* not entered again */
-        assert_true(memory_of(scene, i, "left") == 1.0);
+        assert_true(read_memory_value(scene, i, "met") == 1.0); /* on_enter did not run again */
+        assert_true(read_memory_value(scene, i, "left") == 1.0);
     }
     jo_scene_free(scene);
 }
 
-static double own_of(const JoScene *scene, uint32_t agent, const char *name) {
+static double read_own_value(const JoScene *scene, uint32_t agent, const char *name) {
     const JoxMachine *m =
         scene->world->model.machines.items[scene->world->state.agents.machine[agent]];
     for (uint32_t s = 0; s < m->own_count; s++)
@@ -69,7 +69,7 @@ static double own_of(const JoScene *scene, uint32_t agent, const char *name) {
     return 0.0;
 }
 
-static void renamed_memory_and_own_values_are_kept(void **state) {
+static void renamed_memory_and_own_values_keep_their_numbers(void **state) {
     (void)state;
     static const char BEFORE[] =
         "local mine = memory { met = 0, other = 7 }\n" HEAD
@@ -83,19 +83,19 @@ static void renamed_memory_and_own_values_are_kept(void **state) {
     step_scene(scene, 2);
     double courage[4];
     for (uint32_t i = 0; i < 4; i++)
-        courage[i] = own_of(scene, i, "courage");
+        courage[i] = read_own_value(scene, i, "courage");
     assert_true(courage[0] != courage[1]);
     assert_true(reload_behaviour(scene, 0, AFTER));
     for (uint32_t i = 0; i < 4; i++) {
-        assert_true(own_of(scene, i, "bravery") == courage[i]);
-        assert_true(own_of(scene, i, "calm") == 5.0);
-        assert_true(memory_of(scene, i, "seen") == i + 1.0);
-        assert_true(memory_of(scene, i, "other") == 7.0);
+        assert_true(read_own_value(scene, i, "bravery") == courage[i]);
+        assert_true(read_own_value(scene, i, "calm") == 5.0);
+        assert_true(read_memory_value(scene, i, "seen") == i + 1.0);
+        assert_true(read_memory_value(scene, i, "other") == 7.0);
     }
     jo_scene_free(scene);
 }
 
-static void a_state_with_people_cannot_disappear(void **state) {
+static void removing_a_state_with_people_is_refused(void **state) {
     (void)state;
     static const char WITHOUT[] =
         HEAD "\"Enter\", states = { Enter = { steer = hold }, Istilam = { steer = hold, "
@@ -110,7 +110,7 @@ static void a_state_with_people_cannot_disappear(void **state) {
     assert_int_equal(jo_world_hash(scene->world), before);
     assert_int_equal(scene->world->model.machines.items[0]->reloads, 1);
     step_scene(scene, 8);
-    assert_string_equal(state_of(scene, 311), "Greet");
+    assert_string_equal(read_state_name(scene, 311), "Greet");
     jo_scene_free(scene);
     scene = load_scene_text(PEOPLE(312), GREET); /* nobody has got there yet */
     assert_true(reload_behaviour(scene, 0, WITHOUT));
@@ -128,16 +128,17 @@ static void memory_is_kept_by_name_and_type(void **state) {
         "\"A\", states = { A = { steer = hold, on_enter = function(me) me.laps = 99 end } } }\n";
     JoScene *scene = load_scene_text(PEOPLE(5), BEFORE);
     step_scene(scene, 2);
-    assert_true(memory_of(scene, 4, "seen") == 7.0 && memory_of(scene, 4, "tired") == 1.0);
+    assert_true(read_memory_value(scene, 4, "seen") == 7.0 &&
+                read_memory_value(scene, 4, "tired") == 1.0);
     assert_true(reload_behaviour(scene, 0, AFTER));
     for (uint32_t i = 0; i < 5; i++) {
-        assert_true(memory_of(scene, i, "laps") == 5.0);  /* kept; on_enter has not run */
-        assert_true(memory_of(scene, i, "tired") == 4.0); /* was a boolean */
-        assert_true(memory_of(scene, i, "seen") == 1.0);  /* was a number */
-        assert_true(memory_of(scene, i, "fresh") == 11.0);
+        assert_true(read_memory_value(scene, i, "laps") == 5.0);  /* kept; on_enter has not run */
+        assert_true(read_memory_value(scene, i, "tired") == 4.0); /* was a boolean */
+        assert_true(read_memory_value(scene, i, "seen") == 1.0);  /* was a number */
+        assert_true(read_memory_value(scene, i, "fresh") == 11.0);
     }
     step_scene(scene, 2);
-    assert_true(memory_of(scene, 4, "laps") == 5.0);
+    assert_true(read_memory_value(scene, 4, "laps") == 5.0);
     jo_scene_free(scene);
 }
 
@@ -146,7 +147,7 @@ static const char TWO_GROUPS[] =
           "  free: {behaviour: own.lua, count: 50, fill: grid, in: yard}\n"
           "  set: {behaviour: own.lua, count: 50, fill: grid, in: yard, set: {speed: 0.7}}\n");
 
-static void another_distribution_reaches_the_living(void **state) {
+static void new_distribution_applies_to_present_agents(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(TWO_GROUPS, FAST("uniform(1, 1.2)", ""));
     step_scene(scene, 3);
@@ -157,23 +158,23 @@ static void another_distribution_reaches_the_living(void **state) {
     for (uint32_t i = 0; i < a->count; i++) {
         double speed = read_wanted_speed(scene, i);
         if (a->group[i] == 1) {
-            assert_true(speed == (double)0.7f); /* what the scene sets stays */
+            assert_true(speed == (double)0.7f); /* the scene's value stays */
             continue;
         }
         assert_true(speed >= 1.4 && speed <= 1.6);
         low = speed < low ? speed : low;
         high = speed > high ? speed : high;
     }
-    assert_true(low < 1.45 && high > 1.55); /* each has its own */
+    assert_true(low < 1.45 && high > 1.55); /* each agent draws its own */
     assert_true(reload_behaviour(scene, 0, FAST("2", "")));
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(read_wanted_speed(scene, i) == (a->group[i] ? (double)0.7f : 2.0));
     assert_true(reload_behaviour(scene, 0, FAST("uniform(1, 1.2)", "")));
-    assert_int_equal(jo_world_hash(scene->world), before); /* and back: the same random numbers */
+    assert_int_equal(jo_world_hash(scene->world), before); /* back again: the same random numbers */
     assert_true(reload_behaviour(scene, 0, FAST("uniform(1, 1.2)", ", speed = 1.9")));
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(read_wanted_speed(scene, i) ==
-                    (double)1.9f); /* a state's value goes before both */
+                    (double)1.9f); /* the state's value overrides both */
     jo_scene_free(scene);
 }
 
@@ -206,8 +207,8 @@ static void own_values_are_kept_by_name(void **state) {
     jo_scene_free(scene);
 }
 
-/* A slot that stands elsewhere in the next version, and was given by the scene. */
-static void values_that_move_are_carried(void **state) {
+/* An own value that has another index in the next version, and a value from the scene. */
+static void values_at_another_index_are_kept(void **state) {
     (void)state;
 #define ZEAL(more) HEAD "\"A\", states = { A = { steer = hold, " more "push = 10 * own.zeal } } }\n"
     static const char *const TEXTS[] = {ZEAL("mass = 50 + own.zest, speed = own.pace, "), ZEAL(""),
@@ -236,16 +237,17 @@ static void values_that_move_are_carried(void **state) {
         step_scene(scene, 1);
         for (uint32_t i = 0; i < 40; i++)
             assert_true((double)jox_param(a, JOX_PARAM_push, i) == push[a->id[i]]);
-        for (uint32_t i = 0; i < 40 && ORDER[k] == 0; i++) /* as given, after it was away */
+        for (uint32_t i = 0; i < 40 && ORDER[k] == 0;
+             i++) /* as the scene gave it, after a version without it */
             assert_true(jox_param(a, JOX_PARAM_mass, i) == 53.0f);
     }
     assert_true(moved);
     jo_scene_free(scene);
 }
 
-/* A condition that has been true is not rolled for again, though the transitions stand elsewhere.
- */
-static void chances_are_not_rolled_again(void **state) {
+/* A chance is rolled once while its condition stays true, also if a reload reorders the
+ * transitions. */
+static void condition_that_stays_true_rolls_no_new_chance(void **state) {
     (void)state;
 #define ROLL(before)                                                                               \
     HEAD "\"A\", states = { A = { steer = hold, " before                                           \
@@ -270,8 +272,9 @@ static void chances_are_not_rolled_again(void **state) {
     jo_scene_free(scene);
 }
 
-/* Parameters that a new version no longer sets fall back to what holds without it. */
-static void a_parameter_taken_out_falls_back(void **state) {
+/* A parameter that a new version no longer sets falls back to the defaults or the engine's value.
+ */
+static void removed_parameter_falls_back_to_its_default(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(PEOPLE(5), FAST("1.5", ", push = 80, ignore = {}"));
     step_scene(scene, 2);
@@ -284,15 +287,15 @@ static void a_parameter_taken_out_falls_back(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_renamed_state_goes_on_where_it_was),
-        cmocka_unit_test(renamed_memory_and_own_values_are_kept),
-        cmocka_unit_test(a_state_with_people_cannot_disappear),
+        cmocka_unit_test(renamed_state_keeps_its_people_and_time),
+        cmocka_unit_test(renamed_memory_and_own_values_keep_their_numbers),
+        cmocka_unit_test(removing_a_state_with_people_is_refused),
         cmocka_unit_test(memory_is_kept_by_name_and_type),
-        cmocka_unit_test(another_distribution_reaches_the_living),
+        cmocka_unit_test(new_distribution_applies_to_present_agents),
         cmocka_unit_test(own_values_are_kept_by_name),
-        cmocka_unit_test(values_that_move_are_carried),
-        cmocka_unit_test(chances_are_not_rolled_again),
-        cmocka_unit_test(a_parameter_taken_out_falls_back),
+        cmocka_unit_test(values_at_another_index_are_kept),
+        cmocka_unit_test(condition_that_stays_true_rolls_no_new_chance),
+        cmocka_unit_test(removed_parameter_falls_back_to_its_default),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,5 +1,5 @@
-/* Ways round a crowd while a scene runs: they come, are renewed and go, for those who walk by the
-   walking law alone; the same for any number of threads, and after a state is restored. */
+/* Tests of routes round a crowd in a running scene: their fields are made, renewed and dropped, for
+ * agents of the walking law alone, and are equal for any number of threads and after a restore. */
 #include "unit/gate_ball_scene.h"
 
 /* A room with a narrow door (about y = 2) and a wide one (about y = 9) to the goal. */
@@ -19,85 +19,85 @@
          "Go = { steer = field \"goal\", { to = \"Gone\", when = inside \"goal\" } },\n"           \
          "Gone = { removes = true } } }\n"
 
-static const JoxField *crowd_field(const JoScene *scene) {
+static const JoxField *find_crowd_field(const JoScene *scene) {
     uint32_t goal = 1; /* in the order of the scene */
     return scene->world->machines.fields[goal * JOX_ROUTE_KINDS + JOX_ROUTE_CROWD];
 }
 
-/* How many people got out through the wide door. */
-static int run_out(JoScene *scene, int *seen, int *steps) {
+/* Counts the people who left through the wide door. */
+static int run_until_empty(JoScene *scene, int *seen, int *steps) {
     int wide = 0;
     const JoxAgents *a = &scene->world->state.agents;
     *seen = 0;
     for (*steps = 0; *steps < 2400 && a->count > 0; ++*steps) {
         step_scene(scene, 1);
-        *seen += crowd_field(scene) != NULL;
+        *seen += find_crowd_field(scene) != NULL;
         for (uint32_t i = 0; i < a->count; i++)
             wide += a->prev_x[i] < 6.0f && a->x[i] >= 6.0f && a->y[i] > 5.0f;
     }
     return wide;
 }
 
-static void a_way_round_the_crowd_comes_and_goes(void **state) {
+static void crowd_field_is_made_renewed_and_dropped(void **state) {
     (void)state;
     int seen, steps;
     JoScene *scene = load_scene_text(ROOM("2"), GOES("1"));
     step_scene(scene, 1);
-    assert_null(crowd_field(scene)); /* nobody is held up yet */
-    assert_true(run_out(scene, &seen, &steps) > 5);
+    assert_null(find_crowd_field(scene)); /* nobody is held up yet */
+    assert_true(run_until_empty(scene, &seen, &steps) > 5);
     assert_int_equal(scene->world->state.agents.count, 0);
-    assert_true(seen > 60 && seen < steps - 10); /* it went before the last had left */
+    assert_true(seen > 60 && seen < steps - 10); /* it was dropped before the last had left */
     jo_scene_free(scene);
 }
 
-static void those_who_keep_no_time_gap_ask_for_none(void **state) {
+static void agents_without_time_gap_request_no_crowd_field(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(ROOM("2"), GOES("0"));
     for (int n = 0; n < 200; n++) {
         step_scene(scene, 1);
-        assert_null(crowd_field(scene));
+        assert_null(find_crowd_field(scene));
     }
     for (uint32_t i = 0; i < scene->world->state.agents.count; i++)
         assert_int_equal(scene->world->state.agents.bound[i], 0);
     jo_scene_free(scene);
 }
 
-/* Where a crowd slows nobody down, nobody goes round it. */
-static void without_slowing_all_take_the_nearer_door(void **state) {
+/* A crowd that slows nobody down is not avoided. */
+static void crowd_that_slows_nobody_is_not_avoided(void **state) {
     (void)state;
     int seen, steps;
     JoScene *scene = load_scene_text(ROOM("0"), GOES("1"));
-    assert_int_equal(run_out(scene, &seen, &steps), 0);
+    assert_int_equal(run_until_empty(scene, &seen, &steps), 0);
     assert_int_equal(scene->world->state.agents.count, 0);
     jo_scene_free(scene);
 }
 
-/* The hashes of steps with a field that is in use and another one under way. */
+/* Records the hashes of steps with one field in use and the next being made. */
 enum { STEPS = 200 };
 
-static void hashes_of(JoScene *scene, uint64_t hashes[STEPS]) {
+static void record_step_hashes(JoScene *scene, uint64_t hashes[STEPS]) {
     for (int n = 0; n < STEPS; n++) {
         step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
     }
 }
 
-static void threads_change_nothing(void **state) {
+static void crowd_fields_are_equal_for_any_thread_count(void **state) {
     (void)state;
     uint64_t one[STEPS], more[STEPS];
     for (int threads = 1; threads <= 4; threads *= 2) {
         JoScene *scene = load_scene_text(ROOM("2"), GOES("1"));
         jox_pool_free(scene->world->scratch.pool);
         scene->world->scratch.pool = jox_pool_create(threads);
-        hashes_of(scene, threads == 1 ? one : more);
-        assert_non_null(crowd_field(scene));
+        record_step_hashes(scene, threads == 1 ? one : more);
+        assert_non_null(find_crowd_field(scene));
         if (threads > 1)
             assert_memory_equal(one, more, sizeof one);
         jo_scene_free(scene);
     }
 }
 
-static void a_restored_crowd_goes_on_to_the_bit(void **state) {
+static void restored_crowd_field_continues_exactly(void **state) {
     (void)state;
     for (int before = 60; before <= 72; before += 3) { /* between renewals, and while one is made */
         JoScene *scene = load_scene_text(ROOM("2"), GOES("1"));
@@ -113,15 +113,15 @@ static void a_restored_crowd_goes_on_to_the_bit(void **state) {
         JoxV2 course = {a->course_x[one], a->course_y[one]};
         assert_int_equal(bound, jox_reference(1));
         assert_true(eager > 0.0f && fabsf(jox_length(course) - 1.0f) < 1e-4f);
-        hashes_of(scene, first);
+        record_step_hashes(scene, first);
         assert_true(jox_world_restore(scene->world, saved.data, saved.length, &error));
         one = jox_agents_find(a, 7);
         assert_int_equal(a->bound[one], bound);
         assert_true(a->eager[one] == eager);
         assert_true(a->course_x[one] == course.x && a->course_y[one] == course.y);
-        hashes_of(scene, second);
+        record_step_hashes(scene, second);
         assert_memory_equal(first, second, sizeof first);
-        /* Each of them is state that the future depends on. */
+        /* Each of these values is hashed, as future steps depend on it. */
         uint64_t now = jo_world_hash(scene->world);
         a->eager[0] += 0.25f;
         assert_true(jo_world_hash(scene->world) != now);
@@ -138,11 +138,11 @@ static void a_restored_crowd_goes_on_to_the_bit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_way_round_the_crowd_comes_and_goes),
-        cmocka_unit_test(without_slowing_all_take_the_nearer_door),
-        cmocka_unit_test(those_who_keep_no_time_gap_ask_for_none),
-        cmocka_unit_test(threads_change_nothing),
-        cmocka_unit_test(a_restored_crowd_goes_on_to_the_bit),
+        cmocka_unit_test(crowd_field_is_made_renewed_and_dropped),
+        cmocka_unit_test(crowd_that_slows_nobody_is_not_avoided),
+        cmocka_unit_test(agents_without_time_gap_request_no_crowd_field),
+        cmocka_unit_test(crowd_fields_are_equal_for_any_thread_count),
+        cmocka_unit_test(restored_crowd_field_continues_exactly),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

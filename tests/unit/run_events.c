@@ -1,5 +1,5 @@
-/* Events of scenes: when they happen, what they do, and that an edited scene keeps what they did.
- */
+/* Tests of the events of scenes: their times, their effects, and that an edited scene keeps the
+ * effects. */
 #include <math.h>
 
 #include "unit/scene_loader.h"
@@ -10,17 +10,17 @@
     "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"                             \
     "events:\n" list
 
-static JoxStatistics *figures(JoScene *scene) {
+static JoxStatistics *read_event_counts(JoScene *scene) {
     return &scene->world->state.statistics;
 }
 
-static bool is_open(const JoScene *scene) {
+static bool is_gate_open(const JoScene *scene) {
     return scene->world->model.all_walls.rings[0].open;
 }
 
-/* ---- when ---- */
+/* ---- times ---- */
 
-static void at_their_times(void **state) {
+static void events_happen_at_their_times(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(EVENTS("  - {at: 0, signal: a}\n"
                                             "  - {at: 0.1, every: 0.1, until: 0.3, signal: b}\n"
@@ -29,34 +29,34 @@ static void at_their_times(void **state) {
     const uint64_t wanted[12] = {1, 1, 2, 3, 4, 4, 5, 5, 5, 5, 5, 5}; /* steps of 0.05 s */
     for (int n = 0; n < 12; n++) {
         step_scene(scene, 1);
-        assert_int_equal(figures(scene)->announced, wanted[n]);
+        assert_int_equal(read_event_counts(scene)->announced, wanted[n]);
     }
     jo_scene_free(scene);
 }
 
-static void faster_than_the_steps(void **state) {
+static void events_between_two_steps_all_happen(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(EVENTS("  - {at: 0, every: 0.01, until: 0.11, signal: a}\n"), STAY);
     const uint64_t wanted[5] = {1, 6, 11, 12, 12};
     for (int n = 0; n < 5; n++) {
         step_scene(scene, 1);
-        assert_int_equal(figures(scene)->announced, wanted[n]);
+        assert_int_equal(read_event_counts(scene)->announced, wanted[n]);
     }
     jo_scene_free(scene);
 }
 
-static void every_step_for_long(void **state) {
+static void event_in_every_step_happens_once_a_step(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(EVENTS("  - {at: 0.05, every: 0.05, signal: a}\n"
                                             "  - {at: 0.7, every: 0.3, signal: a}\n"),
                                      STAY);
     step_scene(scene, 2001); /* up to 100 s: sums of rounded times neither miss one nor repeat it */
-    assert_int_equal(figures(scene)->announced, 2000 + 332);
+    assert_int_equal(read_event_counts(scene)->announced, 2000 + 332);
     jo_scene_free(scene);
 }
 
-static void in_order_of_time_then_of_the_list(void **state) {
+static void events_are_ordered_by_time_then_by_list(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(EVENTS("  - {at: 0.04, close: gate}\n"
                                             "  - {at: 0.02, open: gate}\n"
@@ -64,16 +64,16 @@ static void in_order_of_time_then_of_the_list(void **state) {
                                             "  - {at: 0.2, open: gate}\n"),
                                      STAY);
     step_scene(scene, 2);
-    assert_int_equal(figures(scene)->opened + figures(scene)->closed, 2);
-    assert_false(is_open(scene));
+    assert_int_equal(read_event_counts(scene)->opened + read_event_counts(scene)->closed, 2);
+    assert_false(is_gate_open(scene));
     step_scene(scene, 3);
-    assert_true(is_open(scene));
+    assert_true(is_gate_open(scene));
     jo_scene_free(scene);
 }
 
 /* ---- signals ---- */
 
-static void everybody_hears(void **state) {
+static void signal_reaches_everybody(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(EVENTS("  - {at: 0.2, signal: alarm}\n"),
@@ -86,7 +86,7 @@ static void everybody_hears(void **state) {
     assert_int_equal(a->state[1], waits);
     step_scene(scene, 1); /* the step whose time is 0.2 s */
     assert_true(a->state[0] != waits && a->state[1] != waits);
-    step_scene(scene, 5); /* once: nobody hears it again */
+    step_scene(scene, 5); /* heard once, in one step */
     assert_true(a->state[0] != waits && a->state[1] != waits);
     assert_true(jo_scene_signal(scene, "alarm", NULL));
     step_scene(scene, 1);
@@ -94,7 +94,7 @@ static void everybody_hears(void **state) {
     jo_scene_free(scene);
 }
 
-static void signals_that_nobody_hears_are_named(void **state) {
+static void unheard_signals_are_warned_of(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(EVENTS("  - {at: 1, signal: alarms}\n"), HEAD
                                      "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
@@ -105,7 +105,7 @@ static void signals_that_nobody_hears_are_named(void **state) {
     scene = load_scene_text(EVENTS("  - {at: 1, signal: alarm}\n"),
                             HEAD "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
                                  "heard \"alarm\" } } } }\n");
-    assert_null(scene_messages.data); /* given by the scene, heard by a machine */
+    assert_null(scene_messages.data); /* a signal of the scene that a machine hears */
     jo_scene_free(scene);
 }
 
@@ -116,7 +116,7 @@ static void signals_that_nobody_hears_are_named(void **state) {
          "0) "                                                                                     \
          "} } }\n"
 
-static void nobody_passes_a_gate_that_is_shut(void **state) {
+static void closed_gate_is_not_passed(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(EVENTS("  - {at: 8, open: gate}\n"), WALK);
     const JoxAgents *a = &scene->world->state.agents;
@@ -142,7 +142,7 @@ static void walls_may_begin_open(void **state) {
     jo_scene_free(scene);
 }
 
-static void who_stands_where_a_wall_comes_is_moved(void **state) {
+static void agent_in_the_way_of_a_wall_is_moved(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         "jostle: 1\n"
@@ -153,9 +153,9 @@ static void who_stands_where_a_wall_comes_is_moved(void **state) {
         STAY);
     const JoxAgents *a = &scene->world->state.agents;
     step_scene(scene, 4);
-    assert_int_equal(figures(scene)->moved_out, 0);
+    assert_int_equal(read_event_counts(scene)->moved_out, 0);
     step_scene(scene, 1);
-    assert_int_equal(figures(scene)->moved_out, 3);
+    assert_int_equal(read_event_counts(scene)->moved_out, 3);
     for (uint32_t id = 0; id < 5; id++) {
         uint32_t i = jox_agents_find(a, id);
         float dx = fabsf(a->x[i] - 5.0f) - 1.0f, dy = fabsf(a->y[i]) - 2.0f;
@@ -167,8 +167,8 @@ static void who_stands_where_a_wall_comes_is_moved(void **state) {
     jo_scene_free(scene);
 }
 
-/* The order in memory follows in the same step: those beside the new spot see who came. */
-static void who_is_moved_is_seen_at_once(void **state) {
+/* Agents are sorted again in the same step, so that neighbours of the new spot see the agent. */
+static void moved_agent_is_seen_in_the_same_step(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         "jostle: 1\n"
@@ -181,13 +181,13 @@ static void who_is_moved_is_seen_at_once(void **state) {
     step_scene(scene, 5); /* every fourth step sorts anyway; the next does not */
     assert_int_equal(n->count[jox_agents_find(a, 1)] + n->count[jox_agents_find(a, 2)], 0);
     step_scene(scene, 1);
-    assert_int_equal(figures(scene)->moved_out, 1);
+    assert_int_equal(read_event_counts(scene)->moved_out, 1);
     assert_int_equal(n->count[jox_agents_find(a, 1)] + n->count[jox_agents_find(a, 2)], 1);
     jo_scene_free(scene);
 }
 
 /* A passage full of people: the nearest free spot would be outside of it. */
-static void nobody_is_moved_through_another_wall(void **state) {
+static void agents_are_not_moved_through_another_wall(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text("jostle: 1\n"
@@ -201,7 +201,7 @@ static void nobody_is_moved_through_another_wall(void **state) {
                         STAY);
     const JoxAgents *a = &scene->world->state.agents;
     step_scene(scene, 3);
-    assert_int_equal(figures(scene)->moved_out, 1);
+    assert_int_equal(read_event_counts(scene)->moved_out, 1);
     assert_true(fabsf(a->x[jox_agents_find(a, 0)] - 5.0f) > 1.0f);
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(fabsf(a->y[i]) < 0.1f);
@@ -214,7 +214,7 @@ static void nobody_is_moved_through_another_wall(void **state) {
     "velocity: [-1.5, 0, 0]},\n"                                                                   \
     "  {name: rock, shape: {box: {size: [1, 1, 1]}}, mass: 0, at: [20, 20, 0.5]}]\n"
 
-static void bodies_know_of_gates(void **state) {
+static void bodies_collide_with_gates(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -226,7 +226,7 @@ static void bodies_know_of_gates(void **state) {
         STAY);
     step_scene(scene, 100);
     assert_float_equal(find_body_pose(scene, "ball").centre.x, 5.22,
-                       0.05); /* it lies at the gate */
+                       0.05); /* it rests at the gate */
     step_scene(scene, 40);
     assert_true(find_body_pose(scene, "ball").centre.x < 3.0f);
     step_scene(scene, 60);
@@ -234,7 +234,7 @@ static void bodies_know_of_gates(void **state) {
     jo_scene_free(scene);
 }
 
-static void what_rests_on_a_wall_falls_with_it(void **state) {
+static void body_on_a_wall_falls_when_it_is_removed(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -254,7 +254,7 @@ static void what_rests_on_a_wall_falls_with_it(void **state) {
 
 /* ---- throws ---- */
 
-static void a_throw_does_what_it_says(void **state) {
+static void throw_sets_position_and_velocity(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -272,12 +272,12 @@ static void a_throw_does_what_it_says(void **state) {
     assert_true(jo_scene_throw(scene, "ball", NULL, NULL, NULL, NULL)); /* stopped in the air */
     assert_true(find_body_pose(scene, "ball").centre.x == pose.centre.x);
     assert_true(find_body_pose(scene, "ball").velocity.z == 0);
-    assert_int_equal(figures(scene)->throws, 2);
+    assert_int_equal(read_event_counts(scene)->throws, 2);
     jo_scene_free(scene);
 }
 
 /* Picking a body up is counted apart from throwing it. */
-static void who_picks_up_has_not_thrown(void **state) {
+static void picking_up_is_not_counted_as_a_throw(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -294,11 +294,11 @@ static void who_picks_up_has_not_thrown(void **state) {
                                      "at: [0.5, 0, 0.1], tags: [ball]}]\n",
                                      FETCH);
     step_scene(scene, 15);
-    assert_int_equal(figures(scene)->pickups, 1);
-    assert_int_equal(figures(scene)->throws, 0);
+    assert_int_equal(read_event_counts(scene)->pickups, 1);
+    assert_int_equal(read_event_counts(scene)->throws, 0);
     step_scene(scene, 60);
-    assert_int_equal(figures(scene)->pickups, 1);
-    assert_int_equal(figures(scene)->throws, 1);
+    assert_int_equal(read_event_counts(scene)->pickups, 1);
+    assert_int_equal(read_event_counts(scene)->throws, 1);
     JoFigures *told = jo_scene_figures(scene);
     assert_float_equal(jo_figure(told, "events.throws"), 1, 0);
     assert_float_equal(jo_figure(told, "events.pickups"), 1, 0);
@@ -306,7 +306,7 @@ static void who_picks_up_has_not_thrown(void **state) {
     jo_scene_free(scene);
 }
 
-static void a_throw_takes_it_from_the_hand(void **state) {
+static void throw_takes_the_body_from_its_carrier(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -326,7 +326,7 @@ static void a_throw_takes_it_from_the_hand(void **state) {
 
 /* ---- errors of the calls ---- */
 
-static void calls_say_what_is_wrong(void **state) {
+static void refused_calls_say_why(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(EVENTS("  - {at: 60, signal: a}\n"), STAY);
     JoError error = {0};
@@ -356,8 +356,8 @@ static void calls_say_what_is_wrong(void **state) {
     jo_scene_free(scene);
 }
 
-/* A body that is lost does not end the run. */
-static void what_cannot_happen_is_said(void **state) {
+/* A lost body does not end the run. */
+static void impossible_event_is_reported(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -376,13 +376,14 @@ static void what_cannot_happen_is_said(void **state) {
 
 /* ---- an edited scene ---- */
 
-static void an_edited_scene_keeps_what_events_did(void **state) {
+static void edited_scene_keeps_effects_of_events(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(EVENTS("  - {at: 0.5, open: gate}\n  - {at: 0.6, signal: a}\n"), STAY);
     step_scene(scene, 20); /* t = 1 s */
-    assert_true(is_open(scene));
-    /* Another wall, and a further event: the gate stays open, what was done is not done again. */
+    assert_true(is_gate_open(scene));
+    /* With another wall and another event the gate stays open, and past events do not happen again.
+     */
     edit_scene(scene, "jostle: 1\n"
                       "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
                       "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
@@ -394,11 +395,11 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
                       "  - {at: 1.5, close: gate}\n");
     assert_non_null(strstr(scene_messages.data, "walls, events changed, live from t = 1.00 s"));
     step_scene(scene, 1);
-    assert_true(is_open(scene));
+    assert_true(is_gate_open(scene));
     assert_int_equal(scene->world->scratch.walls.ring_count, 1);
-    assert_int_equal(figures(scene)->announced, 2);
-    assert_int_equal(figures(scene)->opened, 1);
-    /* Nothing but a title: nothing changes. */
+    assert_int_equal(read_event_counts(scene)->announced, 2);
+    assert_int_equal(read_event_counts(scene)->opened, 1);
+    /* An edited title changes nothing in the world. */
     edit_scene(scene, "jostle: 1\n"
                       "title: Another\n"
                       "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
@@ -406,24 +407,24 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
                       "events: [{at: 1.5, close: gate}]\n");
     assert_null(strstr(scene_messages.data, "walls"));
     step_scene(scene, 8);
-    assert_true(is_open(scene));
+    assert_true(is_gate_open(scene));
     step_scene(scene, 2);
-    assert_false(is_open(scene));
+    assert_false(is_gate_open(scene));
     assert_int_equal(scene->world->scratch.walls.ring_count, 2);
     jo_scene_free(scene);
 }
 
-/* A name without an event's touch follows the file. */
-static void an_edited_gate_follows_the_file(void **state) {
+/* A gate that no event has changed follows the file. */
+static void edited_gate_without_events_follows_the_file(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(EVENTS("  - {at: 50, open: gate}\n"), STAY);
     step_scene(scene, 1);
-    assert_false(is_open(scene));
+    assert_false(is_gate_open(scene));
     edit_scene(scene, "jostle: 1\n"
                       "walls: [{line: [[5, -5], [5, 5]], name: gate, open: true}]\n"
                       "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n");
     step_scene(scene, 1);
-    assert_true(is_open(scene));
+    assert_true(is_gate_open(scene));
     assert_int_equal(scene->world->scratch.walls.ring_count, 0);
     jo_scene_free(scene);
 }
@@ -444,26 +445,26 @@ static void steps_without_events_allocate_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_their_times),
-        cmocka_unit_test(faster_than_the_steps),
-        cmocka_unit_test(every_step_for_long),
-        cmocka_unit_test(in_order_of_time_then_of_the_list),
-        cmocka_unit_test(everybody_hears),
-        cmocka_unit_test(signals_that_nobody_hears_are_named),
-        cmocka_unit_test(nobody_passes_a_gate_that_is_shut),
+        cmocka_unit_test(events_happen_at_their_times),
+        cmocka_unit_test(events_between_two_steps_all_happen),
+        cmocka_unit_test(event_in_every_step_happens_once_a_step),
+        cmocka_unit_test(events_are_ordered_by_time_then_by_list),
+        cmocka_unit_test(signal_reaches_everybody),
+        cmocka_unit_test(unheard_signals_are_warned_of),
+        cmocka_unit_test(closed_gate_is_not_passed),
         cmocka_unit_test(walls_may_begin_open),
-        cmocka_unit_test(who_stands_where_a_wall_comes_is_moved),
-        cmocka_unit_test(who_is_moved_is_seen_at_once),
-        cmocka_unit_test(nobody_is_moved_through_another_wall),
-        cmocka_unit_test(bodies_know_of_gates),
-        cmocka_unit_test(what_rests_on_a_wall_falls_with_it),
-        cmocka_unit_test(a_throw_does_what_it_says),
-        cmocka_unit_test(who_picks_up_has_not_thrown),
-        cmocka_unit_test(a_throw_takes_it_from_the_hand),
-        cmocka_unit_test(calls_say_what_is_wrong),
-        cmocka_unit_test(what_cannot_happen_is_said),
-        cmocka_unit_test(an_edited_scene_keeps_what_events_did),
-        cmocka_unit_test(an_edited_gate_follows_the_file),
+        cmocka_unit_test(agent_in_the_way_of_a_wall_is_moved),
+        cmocka_unit_test(moved_agent_is_seen_in_the_same_step),
+        cmocka_unit_test(agents_are_not_moved_through_another_wall),
+        cmocka_unit_test(bodies_collide_with_gates),
+        cmocka_unit_test(body_on_a_wall_falls_when_it_is_removed),
+        cmocka_unit_test(throw_sets_position_and_velocity),
+        cmocka_unit_test(picking_up_is_not_counted_as_a_throw),
+        cmocka_unit_test(throw_takes_the_body_from_its_carrier),
+        cmocka_unit_test(refused_calls_say_why),
+        cmocka_unit_test(impossible_event_is_reported),
+        cmocka_unit_test(edited_scene_keeps_effects_of_events),
+        cmocka_unit_test(edited_gate_without_events_follows_the_file),
         cmocka_unit_test(steps_without_events_allocate_nothing),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);

@@ -1,5 +1,5 @@
-/* Every example of the scene reference runs, and what is wrong with a scene after it was read is
-   told with its line. Scenes lie in a folder beside the shipped behaviours. */
+/* Tests that every example of the scene reference runs, and that errors found after a scene was
+ * parsed name its line. The scenes are written beside links to the shipped behaviours. */
 #include "jostle_tools.h"
 #include "messages.h"
 #include "run/load_scene.h"
@@ -16,7 +16,8 @@ static void link_file(const char *from, const char *to) {
     free(whole);
 }
 
-/* Scenes take what they include from their own folder, links followed. */
+/* Includes must lie in the folder of the scene after links are resolved, so that these are copies.
+ */
 static void copy_file(const char *name) {
     char bytes[4096];
     FILE *from = fopen(name, "r"), *to = fopen(test_path(name), "w");
@@ -60,7 +61,7 @@ static void every_example_runs(void **state) {
         JoError error = {0};
         if (strncmp(example->yaml, "jostle:", 7) != 0 ||
             (!JOX_BULLET && strstr(example->yaml, "bodies:")))
-            continue; /* a mod's file; bodies in a build without them */
+            continue; /* a mod's file, or bodies in a build without Bullet */
         write_test_file("scenes/example.yaml", example->yaml);
         JoScene *scene = load_example("scenes/example.yaml", &said);
         bool ran = scene != NULL;
@@ -76,7 +77,7 @@ static void every_example_runs(void **state) {
     }
 }
 
-/* An `@` marks where the error must be reported; it is no part of the file. */
+/* A scene with an error; an `@`, which is removed, marks where the error must be reported. */
 typedef struct Case {
     const char *text, *code, *hint;
 } Case;
@@ -99,7 +100,7 @@ static const Case CASES[] = {
 #endif
 };
 
-/* Takes the mark out of `text`; line and column of what stood behind it. */
+/* Removes the mark from `text`, and returns its line, its column and the text of the line. */
 static void find_mark(char *text, int *line, int *column, char *source) {
     char *at = strchr(text, '@'), *begin = text;
     assert_non_null(at);
@@ -203,7 +204,7 @@ static int count_word(const char *text, const char *word) {
     return count;
 }
 
-static void a_check_of_many_files_keeps_the_errors_of_each(void **state) {
+static void check_limits_errors_for_each_file(void **state) {
     (void)state;
     JoxText said = {0}, text = {0};
     jox_text_add(&text, "jostle: 1\n" STANDER("at: [[0, 0]]"));
@@ -234,7 +235,7 @@ int main(void) {
         cmocka_unit_test(every_example_runs),
         cmocka_unit_test(errors_after_reading_show_their_line),
         cmocka_unit_test(errors_of_other_files_show_their_line),
-        cmocka_unit_test(a_check_of_many_files_keeps_the_errors_of_each),
+        cmocka_unit_test(check_limits_errors_for_each_file),
     };
     return cmocka_run_group_tests(tests, lay_out_folder, remove_test_folder);
 }

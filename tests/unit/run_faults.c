@@ -1,5 +1,5 @@
-/* What must not spoil a run: numbers that are not finite, agents without a machine, more sources
-   than usual, groups that begin empty. */
+/* Tests of faults that a run must survive or report: numbers that are not finite, agents without a
+ * machine, lost changes of memory, and many sources. */
 #include <math.h>
 
 #include "jostle_tools.h"
@@ -13,7 +13,7 @@
           "in: yard}\n"                                                                            \
           "  odd: {behaviour: own.lua, at: [[20, 20], [20.1, 20.1]], team: a}\n")
 
-static bool all_finite(const JoScene *scene) {
+static bool has_finite_agents(const JoScene *scene) {
     const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < a->count; i++)
         if (!isfinite(a->x[i]) || !isfinite(a->y[i]) || !isfinite(a->vx[i]) ||
@@ -22,8 +22,9 @@ static bool all_finite(const JoScene *scene) {
     return true;
 }
 
-/* Whether a scene whose behaviour steers so loads; the first error is in `refusal`. */
-static bool accepts(const char *steer) {
+/* Returns whether a scene loads whose behaviour has this steering; else `refusal` has the first
+ * error. */
+static bool load_steering(const char *steer) {
     char sheet[600];
     snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { steer = %s } } }\n", steer);
     write_test_file("own.lua", sheet);
@@ -35,7 +36,7 @@ static bool accepts(const char *steer) {
     return scene != NULL;
 }
 
-static void words_refuse_numbers_out_of_range(void **state) {
+static void steering_numbers_out_of_range_are_refused(void **state) {
     (void)state;
     const char *const wrong[] = {"together(-5)",
                                  "together(1e39)",
@@ -48,16 +49,17 @@ static void words_refuse_numbers_out_of_range(void **state) {
                                  "1e7 * drift(1, 0)",
                                  "(0 / 0) * drift(1, 0)"};
     for (size_t n = 0; n < sizeof wrong / sizeof *wrong; n++) {
-        if (accepts(wrong[n]))
+        if (load_steering(wrong[n]))
             fail_msg("%s was accepted", wrong[n]);
         if (!strstr(refusal, " must be from "))
             fail_msg("%s: %s", wrong[n], refusal);
     }
-    assert_true(accepts("100 * drift(100, -100) + together(0) + follow(nearest \"anyone\", 1000)"));
+    assert_true(
+        load_steering("100 * drift(100, -100) + together(0) + follow(nearest \"anyone\", 1000)"));
 }
 
-/* Weights and parameters that are computed become infinite, or no numbers at all. */
-static void computed_numbers_keep_everybody_finite(void **state) {
+/* Computed weights and parameters become infinite, or NaN. */
+static void computed_weights_never_make_positions_infinite(void **state) {
     (void)state;
     const char *const sheets[] = {
         "steer = together(0)",
@@ -74,14 +76,14 @@ static void computed_numbers_keep_everybody_finite(void **state) {
         snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { %s } } }\n", sheets[n]);
         JoScene *scene = load_scene_text(CROWD, sheet);
         step_scene(scene, 40);
-        if (!all_finite(scene))
+        if (!has_finite_agents(scene))
             fail_msg("%s", sheets[n]);
         jo_scene_free(scene);
     }
 }
 
-/* Said once for each place, of the first agent, with the line. */
-static void computed_parameters_that_are_no_values_are_told(void **state) {
+/* Each place in the file is reported once, for the first agent, with its line. */
+static void invalid_computed_parameters_are_reported(void **state) {
     (void)state;
     const struct {
         const char *sheet, *text;
@@ -105,14 +107,14 @@ static void computed_parameters_that_are_no_values_are_told(void **state) {
                                      : NULL;
         if (!line || !strstr(line, cases[n].text) || strstr(line + 1, "own.lua:"))
             fail_msg("%s: %s", cases[n].sheet,
-                     scene_messages.data ? scene_messages.data : "nothing was scene_messages");
+                     scene_messages.data ? scene_messages.data : "no message");
         assert_null(jo_world_failure(scene->world));
         jo_scene_free(scene);
     }
 }
 
-/* The engine's last line: a number that is not finite ends the run, and says whose it is. */
-static void a_number_that_is_not_finite_ends_the_run(void **state) {
+/* As a last defence, a number that is not finite ends the run, and the error names the agent. */
+static void number_that_is_not_finite_ends_the_run(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(CROWD, HEAD "\"Odd\", states = { Odd = { steer = hold } } }\n");
@@ -128,13 +130,13 @@ static void a_number_that_is_not_finite_ends_the_run(void **state) {
     assert_string_equal(error.text, jo_world_failure(scene->world));
     assert_non_null(strstr(error.text, "of agent 101 is not finite (machine m, state Odd)"));
     uint64_t tick = jo_world_tick(scene->world);
-    assert_false(jo_scene_step(scene, &error)); /* and it stays ended */
+    assert_false(jo_scene_step(scene, &error)); /* the world stays failed */
     jo_world_step(scene->world, 3);
     assert_int_equal(jo_world_tick(scene->world), tick);
     jo_scene_free(scene);
 }
 
-static void a_failed_world_names_agents_without_a_machine(void **state) {
+static void failed_world_names_agents_without_a_machine(void **state) {
     (void)state;
     JoWorldDef def = jo_default_world_def();
     JoWorld *world = jo_world_create(&def, NULL);
@@ -150,7 +152,7 @@ static void a_failed_world_names_agents_without_a_machine(void **state) {
 
 /* ---- agents without a machine ---- */
 
-static void lua_may_look_at_agents_without_a_machine(void **state) {
+static void lua_can_read_agents_without_a_machine(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         PEOPLE(4), "local mine = memory { hits = 0, seen = 0 }\n" HEAD
@@ -183,8 +185,8 @@ static void lua_may_look_at_agents_without_a_machine(void **state) {
 
 /* ---- changes of others' memory ---- */
 
-/* Each of three people adds one to the hits of the other two in each step, from what these were
-   before the step: of two such changes one is lost. */
+/* In each step, three people each add 1 to the hits of the other two, read before the step: of two
+ * changes to one memory, one is lost. */
 static void lost_changes_of_memory_are_counted(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
@@ -205,7 +207,8 @@ static void lost_changes_of_memory_are_counted(void **state) {
     step_scene(scene, 2);
     assert_int_equal(scene->world->machines.state->changes_lost, 3 * 6);
     assert_true(jox_world_restore(scene->world, kept.data, kept.length, NULL));
-    assert_int_equal(scene->world->machines.state->changes_lost, 3 * 4); /* as at a resume */
+    assert_int_equal(scene->world->machines.state->changes_lost,
+                     3 * 4); /* the count continues in a resumed run */
     jox_text_free(&kept);
     jo_free(summary);
     jo_free(closing);
@@ -214,7 +217,7 @@ static void lost_changes_of_memory_are_counted(void **state) {
 
 /* ---- sources ---- */
 
-static void each_of_three_hundred_sources_counts_for_itself(void **state) {
+static void three_hundred_sources_count_separately(void **state) {
     (void)state;
     enum { SOURCES = 300 };
     JoxText text = {0};
@@ -246,14 +249,14 @@ static void each_of_three_hundred_sources_counts_for_itself(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_refuse_numbers_out_of_range),
-        cmocka_unit_test(computed_numbers_keep_everybody_finite),
-        cmocka_unit_test(computed_parameters_that_are_no_values_are_told),
-        cmocka_unit_test(a_number_that_is_not_finite_ends_the_run),
-        cmocka_unit_test(a_failed_world_names_agents_without_a_machine),
-        cmocka_unit_test(lua_may_look_at_agents_without_a_machine),
+        cmocka_unit_test(steering_numbers_out_of_range_are_refused),
+        cmocka_unit_test(computed_weights_never_make_positions_infinite),
+        cmocka_unit_test(invalid_computed_parameters_are_reported),
+        cmocka_unit_test(number_that_is_not_finite_ends_the_run),
+        cmocka_unit_test(failed_world_names_agents_without_a_machine),
+        cmocka_unit_test(lua_can_read_agents_without_a_machine),
         cmocka_unit_test(lost_changes_of_memory_are_counted),
-        cmocka_unit_test(each_of_three_hundred_sources_counts_for_itself),
+        cmocka_unit_test(three_hundred_sources_count_separately),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

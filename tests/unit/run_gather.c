@@ -1,5 +1,5 @@
-/* People who wait in an area: they fill it from its front, spread, come to rest, and leave when
-   they are told to. Where there is no room for all, the others stand behind it. */
+/* Tests of people who wait in an area: they fill it from its front, spread, come to rest, and leave
+ * at a signal. People without room stand behind it. */
 #include <math.h>
 
 #include "unit/gate_ball_scene.h"
@@ -8,18 +8,18 @@ typedef struct Area {
     float x0, y0, x1, y1; /* m */
 } Area;
 
-/* How people stand in an area at present. */
+/* Measures of the people in an area. */
 typedef struct Stand {
-    int inside, rear, front; /* people; of them in the quarter at the least and the greatest y */
+    int inside, rear, front; /* people inside; in its quarters of least and of greatest y */
     double density, uneven;  /* 1/m2: the mean, and the coefficient of variation over 2 m cells */
-    double densest;          /* 1/m2, of a cell */
+    double densest;          /* 1/m2: greatest of a cell */
     double speed;            /* m/s, mean */
     double nearest;          /* m: mean distance to the nearest other */
 } Stand;
 
 enum { MOST_CELLS = 20 };
 
-static double nearest_to(const JoxAgents *a, uint32_t i) {
+static double find_nearest_distance(const JoxAgents *a, uint32_t i) {
     double least = INFINITY;
     for (uint32_t j = 0; j < a->count; j++)
         if (j != i)
@@ -27,7 +27,7 @@ static double nearest_to(const JoxAgents *a, uint32_t i) {
     return least;
 }
 
-static Stand look_at(const JoScene *scene, Area area) {
+static Stand measure_stand(const JoScene *scene, Area area) {
     const JoxAgents *a = &scene->world->state.agents;
     const int columns = (int)((area.x1 - area.x0) / 2), rows = (int)((area.y1 - area.y0) / 2);
     int cells[MOST_CELLS][MOST_CELLS] = {{0}};
@@ -41,7 +41,7 @@ static Stand look_at(const JoScene *scene, Area area) {
         s.rear += share < 0.25f;
         s.front += share > 0.75f;
         s.speed += hypot((double)a->vx[i], (double)a->vy[i]);
-        s.nearest += nearest_to(a, i);
+        s.nearest += find_nearest_distance(a, i);
         cells[(int)((a->y[i] - area.y0) / 2)][(int)((a->x[i] - area.x0) / 2)]++;
     }
     s.speed /= fmax(1, s.inside);
@@ -75,11 +75,11 @@ static JoScene *load_hall(int people) {
     return load_scene_text(text, "");
 }
 
-static void few_stand_in_front_and_apart(void **state) {
+static void few_people_stand_in_front_and_apart(void **state) {
     (void)state;
     JoScene *scene = load_hall(50);
     step_scene_seconds(scene, 59);
-    const Stand s = look_at(scene, FRONT);
+    const Stand s = measure_stand(scene, FRONT);
     assert_true(s.inside >= 49);
     assert_int_equal(s.rear, 0);
     assert_true(s.front > s.inside / 2);
@@ -88,12 +88,13 @@ static void few_stand_in_front_and_apart(void **state) {
     jo_scene_free(scene);
 }
 
-/* That many people stood at the entrance, 45 % of them in the rear quarter at up to 7 per m2. */
-static void many_fill_the_area_evenly(void **state) {
+/* A regression: this many people once stood at the entrance, 45 % in the rear quarter, at up to 7
+ * per m2. */
+static void many_people_fill_the_area_evenly(void **state) {
     (void)state;
     JoScene *scene = load_hall(300);
     step_scene_seconds(scene, 59);
-    const Stand s = look_at(scene, FRONT);
+    const Stand s = measure_stand(scene, FRONT);
     assert_true(s.inside >= 285);
     assert_true(s.rear < 0.3 * s.inside && s.front > 0.2 * s.inside);
     assert_true(s.uneven < 0.25 && s.densest < 5.0);
@@ -101,18 +102,18 @@ static void many_fill_the_area_evenly(void **state) {
     jo_scene_free(scene);
 }
 
-static void those_for_whom_there_is_no_room_stand_behind(void **state) {
+static void people_without_room_stand_behind_the_area(void **state) {
     (void)state;
     JoScene *scene = load_hall(460);
     step_scene_seconds(scene, 59);
-    const Stand s = look_at(scene, FRONT);
+    const Stand s = measure_stand(scene, FRONT);
     assert_in_range(s.inside, 370, 440);
     assert_true(s.density < 4.6 && s.densest < 6.0 && s.uneven < 0.25);
     assert_true(s.speed < 0.1);
     jo_scene_free(scene);
 }
 
-static void all_leave_at_the_signal(void **state) {
+static void all_people_leave_at_the_signal(void **state) {
     (void)state;
     JoScene *scene = load_hall(150);
     step_scene_seconds(scene, 150);
@@ -120,8 +121,8 @@ static void all_leave_at_the_signal(void **state) {
     jo_scene_free(scene);
 }
 
-/* The front lies where the scene says, and two groups fill the area together. */
-static void people_gather_before_what_they_look_at(void **state) {
+/* The front is where the scene sets it, and two groups fill the area together. */
+static void people_gather_in_front_of_their_focus(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text("jostle: 1\n"
@@ -146,7 +147,7 @@ static void people_gather_before_what_they_look_at(void **state) {
     jo_scene_free(scene);
 }
 
-/* Nobody's spot lies in a pillar, in a corner of an area that goes round one, or behind a wall. */
+/* No spot lies in a pillar, in a corner cut off by one, or behind a wall. */
 static void spots_are_clear_of_walls(void **state) {
     (void)state;
     JoScene *scene =
@@ -164,7 +165,7 @@ static void spots_are_clear_of_walls(void **state) {
     step_scene_seconds(scene, 70);
     int front = 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        assert_true(a->y[i] < 17.0f); /* the area goes on behind the wall */
+        assert_true(a->y[i] < 17.0f); /* the area continues behind the wall */
         front += a->y[i] > 13.0f;
         assert_true(hypotf(a->vx[i], a->vy[i]) < 0.5f);
     }
@@ -172,8 +173,8 @@ static void spots_are_clear_of_walls(void **state) {
     jo_scene_free(scene);
 }
 
-/* Turns are state: a run that is saved while people come goes on to the bit. */
-static void saved_crowds_go_on_to_the_bit(void **state) {
+/* The order of spots is state: a run saved while people arrive continues exactly. */
+static void saved_gathering_continues_exactly(void **state) {
     (void)state;
     JoScene *scene = load_hall(120);
     step_scene_seconds(scene, 12);
@@ -191,13 +192,13 @@ static void saved_crowds_go_on_to_the_bit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(few_stand_in_front_and_apart),
-        cmocka_unit_test(many_fill_the_area_evenly),
-        cmocka_unit_test(those_for_whom_there_is_no_room_stand_behind),
-        cmocka_unit_test(all_leave_at_the_signal),
-        cmocka_unit_test(people_gather_before_what_they_look_at),
+        cmocka_unit_test(few_people_stand_in_front_and_apart),
+        cmocka_unit_test(many_people_fill_the_area_evenly),
+        cmocka_unit_test(people_without_room_stand_behind_the_area),
+        cmocka_unit_test(all_people_leave_at_the_signal),
+        cmocka_unit_test(people_gather_in_front_of_their_focus),
         cmocka_unit_test(spots_are_clear_of_walls),
-        cmocka_unit_test(saved_crowds_go_on_to_the_bit),
+        cmocka_unit_test(saved_gathering_continues_exactly),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

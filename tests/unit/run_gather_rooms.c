@@ -1,12 +1,12 @@
-/* People who wait in areas that walls and bodies divide: they get to their spots by ways that lead
-   there, stand apart and come to rest, also where there is no room for all of them. */
+/* Tests of people who wait in areas that walls and bodies divide: they reach their spots by open
+ * ways, stand apart and come to rest, also if there is no room for all. */
 #include <math.h>
 
 #include "unit/gate_ball_scene.h"
 
 typedef struct Rest {
     uint32_t inside;  /* people in the place 'front' */
-    uint32_t densest; /* people within 0.56 m of one of them, who counts: so many per m2 */
+    uint32_t densest; /* most people within 0.56 m of a person, that one included: people per m2 */
     uint32_t moved;   /* people who moved by more than 0.25 m in the last 5 s */
 } Rest;
 
@@ -19,7 +19,7 @@ static uint32_t count_about(const JoxAgents *a, uint32_t i) {
     return count;
 }
 
-/* Runs for so many seconds, watches 5 s more, and ends the scene. */
+/* Runs for `seconds`, measures 5 s more, and frees the scene. */
 static Rest measure_rest(JoScene *scene, double seconds) {
     const JoxAgents *a = &scene->world->state.agents;
     JoxV2 before[MOST_PEOPLE];
@@ -54,7 +54,8 @@ static JoScene *load_room(const char *front, const char *walls, const char *peop
 
 #define JOURNEY "journey: [{to: front, until: end}, {exit: out}]}"
 
-/* Straight ways to many of the spots lead through walls: 6 people stood on a square metre. */
+/* Straight ways to many of the spots lead through walls. A regression: 6 people stood on a square
+ * metre. */
 static void people_go_round_walls_to_their_spots(void **state) {
     (void)state;
     const Rest rest = measure_rest(
@@ -88,7 +89,8 @@ static void people_go_round_pillars_to_their_spots(void **state) {
     assert_in_range(rest.moved, 0, 2);
 }
 
-/* All spots lay on one side of the wall; on the other 8 people stood on a square metre. */
+/* A regression: all spots were on one side of the wall, and on the other 8 people stood on a square
+ * metre. */
 static void both_sides_of_a_wall_are_filled(void **state) {
     (void)state;
     const Rest rest =
@@ -105,8 +107,9 @@ static void both_sides_of_a_wall_are_filled(void **state) {
     assert_in_range(rest.moved, 0, 3);
 }
 
-/* Four times as many people as the place has room for: they drifted about it for ever. */
-static void people_without_room_stand_still_about_the_place(void **state) {
+/* Four times as many people as the place has room for. A regression: they drifted round it for
+ * ever. */
+static void people_without_room_stand_still_round_the_area(void **state) {
     (void)state;
     JoScene *scene = load_room("[[5, 9], [7, 9], [7, 11], [5, 11]]",
                                "  - {line: [[0, 0.5], [0, 12], [12, 12], [12, 0], [0.6, 0]]}",
@@ -133,7 +136,7 @@ static void people_without_room_stand_still_about_the_place(void **state) {
     jo_scene_free(scene);
 }
 
-static void spots_keep_off_fixed_bodies(void **state) {
+static void spots_keep_clear_of_fixed_bodies(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -154,8 +157,8 @@ static void spots_keep_off_fixed_bodies(void **state) {
     assert_in_range(rest.moved, 0, 2);
 }
 
-/* `gather` leads there also from far away and from behind a wall. */
-static void people_far_away_come_by_routes(void **state) {
+/* `gather` leads to the area also from far away and from behind a wall. */
+static void distant_people_come_by_routes(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text("jostle: 1\nplaces:\n"
@@ -166,7 +169,7 @@ static void people_far_away_come_by_routes(void **state) {
                         HEAD "\"Wait\", defaults = { speed = 1.3, time_gap = 0.5, perception = 3 },"
                              " states = { Wait = { steer = gather(\"front\", 90) } } }\n");
     const Rest rest = measure_rest(scene, 50);
-    assert_true(rest.inside >= 19); /* people in front shift about on its edge */
+    assert_true(rest.inside >= 19); /* people in front move a little on its edge */
     assert_in_range(rest.moved, 0, 1);
 }
 
@@ -175,9 +178,9 @@ int main(void) {
         cmocka_unit_test(people_go_round_walls_to_their_spots),
         cmocka_unit_test(people_go_round_pillars_to_their_spots),
         cmocka_unit_test(both_sides_of_a_wall_are_filled),
-        cmocka_unit_test(people_without_room_stand_still_about_the_place),
-        cmocka_unit_test(spots_keep_off_fixed_bodies),
-        cmocka_unit_test(people_far_away_come_by_routes),
+        cmocka_unit_test(people_without_room_stand_still_round_the_area),
+        cmocka_unit_test(spots_keep_clear_of_fixed_bodies),
+        cmocka_unit_test(distant_people_come_by_routes),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,4 +1,4 @@
-/* Contact with people that is meant: approaching them, taking hold, being pulled, slipping. */
+/* Tests of intended contact between people: approaching, taking hold, pulling, slipping. */
 #include <math.h>
 
 #include "unit/scene_loader.h"
@@ -9,7 +9,7 @@
     "  one: {behaviour: own.lua, at: [[0, 0]], tags: [one]}\n"                                     \
     "  other: {behaviour: own.lua, at: [[" x ", 0]], tags: [other]}\n"
 
-/* "one" is id 0, "other" is id 1: of each, its steering and what else its state says. */
+/* Behaviour of two agents, "one" (id 0) and "other" (id 1): the content of each one's state. */
 #define TWO(own, one, other)                                                                       \
     HEAD "\"Wait\", defaults = { perception = 10, speed = 1.3, mass = 70 }, states = {\n"          \
          "  Wait = { steer = hold, { to = \"One\", when = sees(nearest \"other\") },\n"            \
@@ -35,18 +35,18 @@ static void step_pair(Pair *p, int steps) {
     p->other = jox_agents_find(p->a, 1);
 }
 
-static float gap(const Pair *p) {
+static float measure_gap(const Pair *p) {
     const JoxParameterColumn radius = p->a->param[JOX_PARAM_radius];
     return jox_length(jox_offset(p->a, p->one, p->other)) - jox_at(radius, p->one) -
            jox_at(radius, p->other);
 }
 
-static const char *state_of(const Pair *p, uint32_t i) {
+static const char *read_pair_state(const Pair *p, uint32_t i) {
     return p->scene->world->model.machines.items[p->a->machine[i]]->states[p->a->state[i]].name;
 }
 
-/* ORCA slows down before who stands; who approaches runs into them at full speed. */
-static void who_is_approached_is_run_into(void **state) {
+/* ORCA slows down before a standing agent; an approaching agent runs into it at full speed. */
+static void approaching_agent_runs_into_its_target(void **state) {
     (void)state;
     static const char *const STEERS[2] = {
         TWO("", "steer = seek(nearest \"other\"), push = 0", "steer = hold"),
@@ -63,7 +63,8 @@ static void who_is_approached_is_run_into(void **state) {
         }
         assert_int_equal(p.a->approached[p.one], approaches ? 2 : 0);
         assert_true(approaches ? least > 1.25f : least < 0.9f);
-        assert_true(p.a->x[p.other] > 2.5f && gap(&p) < 0.05f); /* who is shoved goes along */
+        assert_true(p.a->x[p.other] > 2.5f &&
+                    measure_gap(&p) < 0.05f); /* the shoved agent moves along */
         came[approaches] = p.a->x[p.one];
         jo_scene_free(p.scene);
     }
@@ -71,8 +72,8 @@ static void who_is_approached_is_run_into(void **state) {
 }
 
 #define HOLDS "steer = hold, grasp = nearest \"other\", grip = 200"
-/* What one is pulled by, the other is pulled by; never by more than the grip. */
-static void a_hold_pulls_both_alike(void **state) {
+/* Both agents are pulled by the same force, at most the grip. */
+static void hold_pulls_both_agents_alike(void **state) {
     (void)state;
     Pair p = load_pair(APART("0.7"), TWO("", HOLDS, "steer = seek \"end\""));
     float most = 0.0f;
@@ -81,7 +82,7 @@ static void a_hold_pulls_both_alike(void **state) {
         step_pair(&p, 1);
         assert_float_equal(p.a->last_ext_x[p.one] + p.a->last_ext_x[p.other], 0, 1e-4);
         assert_float_equal(p.a->last_ext_y[p.one] + p.a->last_ext_y[p.other], 0, 1e-4);
-        assert_true(p.a->last_ext_x[p.one] >= 0.0f); /* towards whom it holds */
+        assert_true(p.a->last_ext_x[p.one] >= 0.0f); /* towards the agent that it holds */
         most = jox_maxf(most, p.a->last_ext_x[p.one]);
         assert_int_equal(p.a->held[p.other], p.a->grasped[p.one] == 2);
         assert_int_equal(p.a->held[p.one], 0);
@@ -94,12 +95,12 @@ static void a_hold_pulls_both_alike(void **state) {
     assert_true(held > 55);
     assert_int_equal(told, 1); /* it took hold once */
     assert_true(most > 20.0f && most <= 200.0f);
-    assert_true(p.a->x[p.one] > 0.1f); /* dragged along */
+    assert_true(p.a->x[p.one] > 0.1f); /* it is dragged along */
     jo_scene_free(p.scene);
 }
 
-/* A grip of 1 N holds nobody who walks: at a gap of 1 m the hold is lost. */
-static void a_weak_hold_slips(void **state) {
+/* A grip of 1 N cannot hold a walking agent: at a gap of 1 m the hold is lost. */
+static void weak_hold_slips(void **state) {
     (void)state;
     Pair p = load_pair(APART("0.7"), TWO("steer = hold, grasp = nearest \"other\", grip = 1, "
                                          "{ to = \"Free\", when = ~has(nearest \"other\") }",
@@ -107,17 +108,17 @@ static void a_weak_hold_slips(void **state) {
                                          "{ to = \"Has\", when = has(nearest \"other\") }",
                                          "steer = seek \"end\""));
     step_pair(&p, 6);
-    assert_string_equal(state_of(&p, p.one), "Has");
+    assert_string_equal(read_pair_state(&p, p.one), "Has");
     step_pair(&p, 40);
-    assert_string_equal(state_of(&p, p.one), "Free");
+    assert_string_equal(read_pair_state(&p, p.one), "Free");
     assert_int_equal(p.a->grasped[p.one], 0);
     assert_int_equal(p.a->held[p.other], 0);
-    assert_true(gap(&p) > 1.0f);
+    assert_true(measure_gap(&p) > 1.0f);
     jo_scene_free(p.scene);
 }
 
-/* What a grip is computed to may be no number, less than nothing, or without end. */
-static void grips_are_within_bounds(void **state) {
+/* A computed grip may be NaN, negative or infinite. */
+static void computed_grips_are_clamped(void **state) {
     (void)state;
     static const char *const GRIPS[3] = {
         TWO("", "steer = hold, grasp = nearest \"other\", grip = 0 - 100 * now.time",
@@ -137,7 +138,7 @@ static void grips_are_within_bounds(void **state) {
     }
 }
 
-static void who_is_out_of_reach_is_not_held(void **state) {
+static void agent_out_of_reach_is_not_held(void **state) {
     (void)state;
     Pair p = load_pair(APART("2"), TWO("", HOLDS, "steer = hold"));
     step_pair(&p, 10);
@@ -146,14 +147,14 @@ static void who_is_out_of_reach_is_not_held(void **state) {
     jo_scene_free(p.scene);
 }
 
-static void whoever_is_held_knows_and_may_be_let_go(void **state) {
+static void held_agent_knows_and_can_be_released(void **state) {
     (void)state;
     Pair p = load_pair(APART("0.7"), TWO("", HOLDS ", { to = \"Free\", when = after(1) }",
                                          "steer = hold, { to = \"Has\", when = holders:is(1) }"));
     step_pair(&p, 5);
-    assert_string_equal(state_of(&p, p.other), "Has");
+    assert_string_equal(read_pair_state(&p, p.other), "Has");
     step_pair(&p, 25);
-    assert_string_equal(state_of(&p, p.one), "Free");
+    assert_string_equal(read_pair_state(&p, p.one), "Free");
     assert_int_equal(p.a->grasped[p.one], 0);
     assert_int_equal(p.a->held[p.other], 0);
     jo_scene_free(p.scene);
@@ -161,12 +162,12 @@ static void whoever_is_held_knows_and_may_be_let_go(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(who_is_approached_is_run_into),
-        cmocka_unit_test(a_hold_pulls_both_alike),
-        cmocka_unit_test(a_weak_hold_slips),
-        cmocka_unit_test(grips_are_within_bounds),
-        cmocka_unit_test(who_is_out_of_reach_is_not_held),
-        cmocka_unit_test(whoever_is_held_knows_and_may_be_let_go),
+        cmocka_unit_test(approaching_agent_runs_into_its_target),
+        cmocka_unit_test(hold_pulls_both_agents_alike),
+        cmocka_unit_test(weak_hold_slips),
+        cmocka_unit_test(computed_grips_are_clamped),
+        cmocka_unit_test(agent_out_of_reach_is_not_held),
+        cmocka_unit_test(held_agent_knows_and_can_be_released),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,26 +1,27 @@
-/* Hands stop at walls and at bodies that stand fast: what is picked up, carried, thrown and kicked
-   stays on its carrier's side. */
+/* Tests that walls and fixed bodies block hands: bodies that are picked up, carried, thrown or
+ * kicked stay on the agent's side. */
 #include <math.h>
 
 #include "geom/wall_grid.h"
 #include "jostle_tools.h"
 #include "unit/scene_loader.h"
 
-static const JoxStatistics *figures(const JoScene *scene) {
+static const JoxStatistics *read_hand_counts(const JoScene *scene) {
     return &scene->world->state.statistics;
 }
 
-static uint32_t row_of(const JoScene *scene, const char *name) {
+static uint32_t find_body_row(const JoScene *scene, const char *name) {
     return jox_bodies_find_name(scene->world->state.bodies, name);
 }
 
 static bool is_held(const JoScene *scene, const char *name) {
     JoxObjects *objects = &scene->world->scratch.objects;
     jox_bodies_objects(scene->world->state.bodies, objects);
-    return objects->rows[row_of(scene, name)].held;
+    return objects->rows[find_body_row(scene, name)].held;
 }
 
-/* Fetches what is tagged, walks towards the place `out` and throws at it after so long. */
+/* Behaviour that fetches the tagged body, walks towards the place `out`, and throws the body at it
+ * after a time. */
 #define CARRIER(take, walk)                                                                        \
     "local thing = nearest \"thing\"\n" HEAD "\"Fetch\", defaults = { speed = 1.3, "               \
     "perception = 10 },\n"                                                                         \
@@ -40,7 +41,7 @@ static bool is_held(const JoScene *scene, const char *name) {
 #define BALL(at)                                                                                   \
     "bodies: [{name: b, shape: {sphere: {radius: 0.11}}, mass: 0.4, at: " at ", tags: [thing]}]\n"
 
-static void what_is_carried_and_thrown_stays_in_a_sealed_room(void **state) {
+static void carried_and_thrown_bodies_stay_in_a_sealed_room(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -52,14 +53,14 @@ static void what_is_carried_and_thrown_stays_in_a_sealed_room(void **state) {
         held += now;
         assert_true(find_body_pose(scene, "b").centre.x < (now ? 4.0f - 0.11f : 4.0f));
     }
-    assert_int_equal(figures(scene)->throws, 1);
-    assert_int_equal(figures(scene)->dropped, 0);
+    assert_int_equal(read_hand_counts(scene)->throws, 1);
+    assert_int_equal(read_hand_counts(scene)->dropped, 0);
     assert_true(held > 70);
     jo_scene_free(scene);
 }
 
 /* A carried ball's lowest point is at 1.09 m. */
-static void hands_reach_over_what_is_lower_than_the_body(void **state) {
+static void hands_reach_over_walls_lower_than_the_body(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -78,13 +79,13 @@ static void hands_reach_over_what_is_lower_than_the_body(void **state) {
 static uint64_t pickups_from(const char *text) {
     JoScene *scene = load_scene_text(text, STANDS);
     step_scene(scene, 20);
-    const uint64_t pickups = figures(scene)->pickups;
+    const uint64_t pickups = read_hand_counts(scene)->pickups;
     jo_scene_free(scene);
     return pickups;
 }
 
-/* A wall of 1.2 m is looked over, and the ball is seen. */
-static void nothing_is_picked_up_through_a_wall(void **state) {
+/* The ball is seen over a wall of 1.2 m. */
+static void body_behind_a_wall_is_not_picked_up(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -107,8 +108,8 @@ static void nothing_is_picked_up_through_a_wall(void **state) {
     "  - {name: crate, shape: {box: {size: [0.2, 2, " size "]}}, mass: " mass ", at: [-0.6, 0, " z \
     "]}\n"
 
-/* Crates of less than 1.3 m, over which the ball is seen. */
-static void bodies_that_stand_fast_are_in_the_way_of_hands(void **state) {
+/* Crates lower than 1.3 m, over which the ball is seen. */
+static void fixed_bodies_block_hands(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -118,7 +119,7 @@ static void bodies_that_stand_fast_are_in_the_way_of_hands(void **state) {
     assert_int_equal(pickups_from(ROOM("3", "") BESIDE("20", "1.25", "0.625")), 1);
 }
 
-static void a_kick_stops_at_any_wall(void **state) {
+static void kick_stops_at_any_wall(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -129,16 +130,16 @@ static void a_kick_stops_at_any_wall(void **state) {
                                          BALL("[-0.66, 0, 0.11]"),
                                      KICK);
     step_scene(scene, 10);
-    assert_int_equal(figures(scene)->kicks, 0);
+    assert_int_equal(read_hand_counts(scene)->kicks, 0);
     jo_scene_free(scene);
     scene = load_scene_text(ROOM("3", "") BALL("[-0.66, 0, 0.11]"), KICK);
     step_scene(scene, 10);
-    assert_true(figures(scene)->kicks > 0);
+    assert_true(read_hand_counts(scene)->kicks > 0);
     jo_scene_free(scene);
 }
 
-/* A plank of 2 m fits along a passage of 1 m, and not across it. */
-static void what_has_no_room_is_dropped_and_told(void **state) {
+/* A plank 2 m long fits along a passage 1 m wide, and not across it. */
+static void carried_body_without_room_is_dropped_and_reported(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -152,7 +153,7 @@ static void what_has_no_room_is_dropped_and_told(void **state) {
     snprintf(text, sizeof text, PASSAGE, "0.2, 2");
     JoScene *scene = load_scene_text(text, FETCHES);
     step_scene(scene, 100);
-    assert_int_equal(figures(scene)->dropped, 1);
+    assert_int_equal(read_hand_counts(scene)->dropped, 1);
     assert_true(find_body_pose(scene, "b").centre.x < 2.0f);
     char *closing = jo_scene_closing(scene);
     assert_non_null(strstr(closing, "1 body dropped for want of room"));
@@ -164,12 +165,12 @@ static void what_has_no_room_is_dropped_and_told(void **state) {
     snprintf(text, sizeof text, PASSAGE, "2, 0.2");
     scene = load_scene_text(text, FETCHES);
     step_scene(scene, 100);
-    assert_int_equal(figures(scene)->dropped, 0);
+    assert_int_equal(read_hand_counts(scene)->dropped, 0);
     assert_true(find_body_pose(scene, "b").centre.x > 3.0f);
     jo_scene_free(scene);
 }
 
-/* Whether a wall crosses the way from the first agent to a corner of the body that it carries. */
+/* Returns whether a wall lies between the first agent and a corner of the body that it carries. */
 static bool is_across_a_wall(const JoScene *scene, const JoxObject *body) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxWalls *walls = &scene->world->model.all_walls;
@@ -183,7 +184,7 @@ static bool is_across_a_wall(const JoScene *scene, const JoxObject *body) {
     return false;
 }
 
-static void nothing_carried_crosses_walls_however_its_carrier_turns(void **state) {
+static void carried_body_crosses_no_wall_when_its_carrier_turns(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -213,13 +214,13 @@ static void nothing_carried_crosses_walls_however_its_carrier_turns(void **state
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_carried_and_thrown_stays_in_a_sealed_room),
-        cmocka_unit_test(hands_reach_over_what_is_lower_than_the_body),
-        cmocka_unit_test(nothing_is_picked_up_through_a_wall),
-        cmocka_unit_test(bodies_that_stand_fast_are_in_the_way_of_hands),
-        cmocka_unit_test(a_kick_stops_at_any_wall),
-        cmocka_unit_test(what_has_no_room_is_dropped_and_told),
-        cmocka_unit_test(nothing_carried_crosses_walls_however_its_carrier_turns),
+        cmocka_unit_test(carried_and_thrown_bodies_stay_in_a_sealed_room),
+        cmocka_unit_test(hands_reach_over_walls_lower_than_the_body),
+        cmocka_unit_test(body_behind_a_wall_is_not_picked_up),
+        cmocka_unit_test(fixed_bodies_block_hands),
+        cmocka_unit_test(kick_stops_at_any_wall),
+        cmocka_unit_test(carried_body_without_room_is_dropped_and_reported),
+        cmocka_unit_test(carried_body_crosses_no_wall_when_its_carrier_turns),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,4 +1,4 @@
-/* What a program may give the engine: files in memory, threads, and memory before all else. */
+/* Tests of what a program can provide to the engine: files in memory, threads, an allocator. */
 #include "jostle_host.h"
 #include "unit/scene_loader.h"
 
@@ -38,7 +38,7 @@ static void scenes_are_read_from_memory(void **state) {
     }
 }
 
-static void what_is_not_among_the_files_is_missed(void **state) {
+static void missing_file_is_reported(void **state) {
     (void)state;
     const JoFile files[] = {FILE_OF("nowhere/scenes/hall.yaml", HALL),
                             FILE_OF("nowhere/behaviours/walk.lua", WALK_ON)};
@@ -52,8 +52,8 @@ static void what_is_not_among_the_files_is_missed(void **state) {
     assert_non_null(strstr(error.text, "hall.yaml"));
 }
 
-/* A file of the disk is not read where only those given count. */
-static void the_disk_is_left_out(void **state) {
+/* With `files_only` no file is read from the disk. */
+static void files_only_reads_nothing_from_the_disk(void **state) {
     (void)state;
     JoError error;
     JoSceneDef def = jo_default_scene_def();
@@ -72,8 +72,9 @@ static void the_disk_is_left_out(void **state) {
 
 static uint32_t rounds, most;
 
-/* In turn, and from the last to the first: none waits for another. */
-static void in_turn(void *context, uint32_t count, void (*job)(void *, uint32_t), void *data) {
+/* Runs jobs one after another, from the last to the first, as no job may wait for another. */
+static void run_jobs_in_turn(void *context, uint32_t count, void (*job)(void *, uint32_t),
+                             void *data) {
     assert_ptr_equal(context, &rounds);
     rounds++;
     most = count > most ? count : most;
@@ -81,9 +82,9 @@ static void in_turn(void *context, uint32_t count, void (*job)(void *, uint32_t)
         job(data, count);
 }
 
-static void loops_run_on_the_programs_threads(void **state) {
+static void loops_run_on_the_threads_of_the_program(void **state) {
     (void)state;
-    const JoJobs jobs = {in_turn, &rounds};
+    const JoJobs jobs = {run_jobs_in_turn, &rounds};
     uint64_t hashes[2];
     for (int own = 0; own < 2; own++) {
         JoWorldDef def = jo_default_world_def();
@@ -107,27 +108,27 @@ static void loops_run_on_the_programs_threads(void **state) {
 
 /* ---- memory ---- */
 
-static void *no_memory(void *context, size_t bytes) {
+static void *fail_allocation(void *context, size_t bytes) {
     (void)context;
     (void)bytes;
     return NULL;
 }
-static void *no_more(void *context, void *memory, size_t bytes) {
+static void *fail_reallocation(void *context, void *memory, size_t bytes) {
     (void)context;
     (void)memory;
     (void)bytes;
     return NULL;
 }
-static void never(void *context, void *memory) {
+static void fail_release(void *context, void *memory) {
     (void)context;
     (void)memory;
     fail();
 }
 
-/* That it works from the start on is shown by tests/install/host.c. */
-static void an_allocator_comes_first(void **state) {
+/* tests/install/host.c tests an allocator that is set first. */
+static void allocator_must_be_set_before_other_calls(void **state) {
     (void)state;
-    const JoAllocator late = {no_memory, no_more, never, NULL};
+    const JoAllocator late = {fail_allocation, fail_reallocation, fail_release, NULL};
     JoError error = {0};
     JoWorldDef def = jo_default_world_def();
     jo_world_free(jo_world_create(&def, NULL));
@@ -135,17 +136,17 @@ static void an_allocator_comes_first(void **state) {
     assert_int_equal(error.code, JO_USAGE);
     assert_non_null(strstr(error.text, "before all else"));
     JoWorld *world = jo_world_create(&def, NULL);
-    assert_non_null(world); /* the old one stays */
+    assert_non_null(world); /* the first allocator stays */
     jo_world_free(world);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_are_read_from_memory),
-        cmocka_unit_test(what_is_not_among_the_files_is_missed),
-        cmocka_unit_test(the_disk_is_left_out),
-        cmocka_unit_test(loops_run_on_the_programs_threads),
-        cmocka_unit_test(an_allocator_comes_first),
+        cmocka_unit_test(missing_file_is_reported),
+        cmocka_unit_test(files_only_reads_nothing_from_the_disk),
+        cmocka_unit_test(loops_run_on_the_threads_of_the_program),
+        cmocka_unit_test(allocator_must_be_set_before_other_calls),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

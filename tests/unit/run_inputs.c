@@ -1,12 +1,12 @@
-/* What people do to a running scene: done in the next step, written to a log, and played back to
-   the same state. */
+/* Tests of inputs to a running scene: they act in the next step, are written to a log, and play
+ * back to the same state. */
 #include <math.h>
 
 #include "jostle_tools.h"
 #include "live/inspect.h"
 #include "unit/gate_ball_scene.h"
 
-/* The same scene, that plays a log. */
+/* Loads the same scene with a log to play. */
 static JoScene *play_log(const char *log, uint32_t threads) {
     JoSceneDef def = define_scene(test_path("scene.yaml"));
     def.input_log = log;
@@ -31,7 +31,7 @@ static char *read_input_log(const char *path) {
 
 /* ---- the log ---- */
 
-static void a_session_plays_back(void **state) {
+static void logged_session_plays_back_to_the_same_state(void **state) {
     (void)state;
     const char *first = test_path("first.input"), *second = test_path("second.input");
     JoError error = {0};
@@ -68,7 +68,7 @@ static void a_session_plays_back(void **state) {
     for (uint32_t threads = 1; threads <= 4; threads *= 2) {
         JoScene *replay = play_log(first, threads);
         scene_messages.length = 0;
-        if (threads == 1) { /* what is played is logged too */
+        if (threads == 1) { /* inputs of a played log are logged, too */
             assert_false(jo_scene_log_input(replay, first, &error));
             assert_non_null(strstr(error.text, "write the new one to another file"));
             assert_true(jo_scene_log_input(replay, second, &error));
@@ -91,7 +91,7 @@ static void a_session_plays_back(void **state) {
     jo_scene_free(without);
 }
 
-static void what_cannot_be_done_is_not_logged(void **state) {
+static void refused_inputs_are_not_logged(void **state) {
     (void)state;
     const char *path = test_path("bad.input");
     JoError error = {0};
@@ -119,12 +119,12 @@ static void what_cannot_be_done_is_not_logged(void **state) {
     assert_false(jo_scene_signal(scene, "a\nb", &error));
     jo_scene_free(scene);
     char *text = read_input_log(path);
-    assert_null(strstr(text, "\n1 ")); /* what it is made of alone */
+    assert_null(strstr(text, "\n1 ")); /* it only lists the files of the scene */
     assert_non_null(strstr(text, "\n0 began 1 0.05\n0 made "));
     jox_free(text);
 }
 
-static void half_the_step_knows_nothing_of_it(void **state) {
+static void half_step_run_refuses_scenes_that_people_acted_on(void **state) {
     (void)state;
     JoError error = {0};
     JoScene *scene = load_gate_and_ball();
@@ -138,7 +138,7 @@ static void half_the_step_knows_nothing_of_it(void **state) {
     jo_scene_free(scene);
 }
 
-static void a_log_that_cannot_be_written(void **state) {
+static void log_that_cannot_be_written_is_an_error(void **state) {
     (void)state;
     JoError error = {0};
     JoScene *scene = load_gate_and_ball();
@@ -155,7 +155,7 @@ static void a_log_that_cannot_be_written(void **state) {
 
 /* ---- pushes ---- */
 
-static void a_push_acts_for_one_step(void **state) {
+static void push_acts_for_one_step(void **state) {
     (void)state;
     JoScene *pushed = load_gate_and_ball(), *pair = load_gate_and_ball();
     step_scene(pushed, 20);
@@ -173,52 +173,52 @@ static void a_push_acts_for_one_step(void **state) {
 
 /* ---- parameters ---- */
 
-static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
+static double read_parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
     const JoxAgents *a = &scene->world->state.agents;
     return (double)jox_param(a, p, jox_agents_find(a, id));
 }
 
-static void a_parameter_is_set_for_all(void **state) {
+static void parameter_is_set_for_all_agents_of_a_state(void **state) {
     (void)state;
     JoScene *scene = load_gate_and_ball();
     step_scene(scene, 2);
-    assert_false(parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
-    apply_input(scene, "set m Walk speed 0.9"); /* an expression before */
+    assert_false(read_parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
+    apply_input(scene, "set m Walk speed 0.9"); /* it was an expression */
     for (uint32_t id = 0; id < 4; id++)
-        assert_true((float)parameter(scene, id, JOX_PARAM_speed) == 0.9f);
+        assert_true((float)read_parameter(scene, id, JOX_PARAM_speed) == 0.9f);
     step_scene(scene, 5);
-    assert_true((float)parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
-    apply_input(scene, "set m Wait max_speed 0.7"); /* who is not there yet */
+    assert_true((float)read_parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
+    apply_input(scene, "set m Wait max_speed 0.7"); /* a state without agents */
     apply_input(scene, "set m Wait push_angle 30");
-    assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 1.8f);
+    assert_true((float)read_parameter(scene, 0, JOX_PARAM_max_speed) == 1.8f);
     apply_input(scene, "signal stop");
     step_scene(scene, 2);
-    assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 0.7f);
-    assert_true(fabs(parameter(scene, 0, JOX_PARAM_push_angle) - 0.8660254) < 1e-6);
-    uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f); /* and who comes later */
+    assert_true((float)read_parameter(scene, 0, JOX_PARAM_max_speed) == 0.7f);
+    assert_true(fabs(read_parameter(scene, 0, JOX_PARAM_push_angle) - 0.8660254) < 1e-6);
+    uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f); /* also for later agents */
     jox_machines_spawn(&scene->world->machines, i, 0, NULL, NULL);
-    assert_true((float)parameter(scene, 4, JOX_PARAM_speed) == 0.9f);
+    assert_true((float)read_parameter(scene, 4, JOX_PARAM_speed) == 0.9f);
     jo_scene_free(scene);
 }
 
-static void defaults_reach_what_follows_them(void **state) {
+static void set_default_reaches_states_without_a_value(void **state) {
     (void)state;
     JoScene *scene = load_gate_and_ball();
     apply_input(scene, "signal stop");
     step_scene(scene, 2);
     apply_input(scene, "set m defaults speed 1.7");
     for (uint32_t id = 0; id < 4; id++) {
-        assert_true((float)parameter(scene, id, JOX_PARAM_speed) == 1.7f);
-        assert_true((float)parameter(scene, id, JOX_PARAM_push) == 1.7f); /* own.speed */
+        assert_true((float)read_parameter(scene, id, JOX_PARAM_speed) == 1.7f);
+        assert_true((float)read_parameter(scene, id, JOX_PARAM_push) == 1.7f); /* own.speed */
     }
-    apply_input(scene, "set m defaults mass 60"); /* given by the scene: set all the same */
-    assert_true((float)parameter(scene, 0, JOX_PARAM_mass) == 60.0f);
-    apply_input(scene, "set m defaults max_speed 0.5"); /* the state says otherwise */
-    assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 1.0f);
+    apply_input(scene, "set m defaults mass 60"); /* overrides the scene's value */
+    assert_true((float)read_parameter(scene, 0, JOX_PARAM_mass) == 60.0f);
+    apply_input(scene, "set m defaults max_speed 0.5"); /* the state sets its own value */
+    assert_true((float)read_parameter(scene, 0, JOX_PARAM_max_speed) == 1.0f);
     jo_scene_free(scene);
 }
 
-static void a_reload_takes_it_back(void **state) {
+static void reload_restores_the_written_parameters(void **state) {
     (void)state;
     JoScene *scene = load_gate_and_ball(), *other = load_gate_and_ball();
     step_scene(scene, 2);
@@ -233,13 +233,13 @@ static void a_reload_takes_it_back(void **state) {
     for (uint32_t id = 0; id < 4; id++)
         for (int p = 0; p < JOX_PARAM_COUNT; p++)
             if (p != JOX_PARAM_speed) /* follows the present speed */
-                assert_true(parameter(scene, id, (JoxParameter)p) ==
-                            parameter(other, id, (JoxParameter)p));
+                assert_true(read_parameter(scene, id, (JoxParameter)p) ==
+                            read_parameter(other, id, (JoxParameter)p));
     jo_scene_free(scene);
     jo_scene_free(other);
 }
 
-static void the_graph_says_who_set_what(void **state) {
+static void graph_names_the_source_of_each_value(void **state) {
     (void)state;
     JoScene *scene = load_gate_and_ball();
     JoxText text = {0};
@@ -289,7 +289,7 @@ static JoxPose read_body_pose(const JoScene *scene, uint32_t row) {
     return pose;
 }
 
-static void a_body_is_pulled(void **state) {
+static void held_body_is_pulled_to_the_target(void **state) {
     (void)state;
     if (!jox_bodies_available())
         return;
@@ -303,7 +303,7 @@ static void a_body_is_pulled(void **state) {
     }
     JoxPose pose = read_body_pose(scene, 0);
     assert_true(fabsf(pose.centre.x - 9) < 0.05f && fabsf(pose.centre.y - 3) < 0.05f);
-    assert_true(fabsf(pose.centre.z - 1.5f) < 0.05f); /* its weight is borne */
+    assert_true(fabsf(pose.centre.z - 1.5f) < 0.05f); /* the pull bears its weight */
     assert_true(fastest < 6.1f);
     apply_input(scene, "drag 0 9 4 1.5");
     step_scene(scene, 60);
@@ -311,13 +311,13 @@ static void a_body_is_pulled(void **state) {
     apply_input(scene, "release 0");
     step_scene(scene, 40);
     assert_true(read_body_pose(scene, 0).centre.z < 0.2f);
-    apply_input(scene, "grab 0 9 4 -60"); /* into the ground: it stays above */
+    apply_input(scene, "grab 0 9 4 -60"); /* towards a point below the ground: it stays above */
     step_scene(scene, 20);
     assert_true(read_body_pose(scene, 0).centre.z > 0.0f);
     jo_scene_free(scene);
 }
 
-static void the_oldest_box_goes(void **state) {
+static void oldest_box_is_removed_for_a_new_one(void **state) {
     (void)state;
     if (!jox_bodies_available())
         return;
@@ -332,13 +332,13 @@ static void the_oldest_box_goes(void **state) {
             step_scene(scene, 1);
     }
     assert_int_equal(jo_world_body_count(world), before + JOX_MOST_BOXES);
-    assert_int_equal(world->state.drags.boxes[0], before + 7); /* ids are not used again */
+    assert_int_equal(world->state.drags.boxes[0], before + 7); /* ids are not reused */
     assert_int_equal(jox_bodies_find(world->state.bodies, before + 6), JOX_NO_BODY);
     step_scene(scene, 3);
     JoxPose pose = read_body_pose(scene, jox_bodies_find(world->state.bodies, before + 7));
     assert_true(fabsf(pose.centre.z - 0.15f) < 0.02f); /* lifted out of the ground */
     for (uint32_t o = 0; o < 2; o++)
-        assert_true(world->scratch.objects.rows[o].live); /* those of the scene stay */
+        assert_true(world->scratch.objects.rows[o].live); /* the scene's own bodies stay */
     jo_scene_free(scene);
 }
 
@@ -347,8 +347,7 @@ static void the_oldest_box_goes(void **state) {
 static void files_of_a_log_go_live(void **state) {
     (void)state;
     char text[4000];
-    JoScene *scene =
-        load_scene_text(PEOPLE(20), FAST("1.5", "")); /* what lies on the disk at the end */
+    JoScene *scene = load_scene_text(PEOPLE(20), FAST("1.5", "")); /* the text on the disk */
     jo_scene_free(scene);
     static const char BEGAN[] = FAST("0.7", ""), LIVE[] = FAST("0.9", ""), BAD[] = "return 7\n";
     snprintf(text, sizeof text,
@@ -375,7 +374,7 @@ static void files_of_a_log_go_live(void **state) {
     jo_scene_free(scene);
 }
 
-static void a_log_of_something_else(void **state) {
+static void log_of_another_run_is_warned_of(void **state) {
     (void)state;
     char text[1000];
     jo_scene_free(load_gate_and_ball());
@@ -391,7 +390,7 @@ static void a_log_of_something_else(void **state) {
         strstr(scene_messages.data, "else.input:3: the log was begun 5 steps into the run"));
 }
 
-static void a_wrong_log_is_an_error_of_its_file(void **state) {
+static void invalid_log_is_an_error_with_file_and_line(void **state) {
     (void)state;
     jo_scene_free(load_gate_and_ball());
     const char *log = write_test_file("wrong.input", "# x\n2 push 0 1 1\n3 shove 0\n");
@@ -406,20 +405,20 @@ static void a_wrong_log_is_an_error_of_its_file(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_session_plays_back),
-        cmocka_unit_test(what_cannot_be_done_is_not_logged),
-        cmocka_unit_test(half_the_step_knows_nothing_of_it),
-        cmocka_unit_test(a_log_that_cannot_be_written),
-        cmocka_unit_test(a_push_acts_for_one_step),
-        cmocka_unit_test(a_parameter_is_set_for_all),
-        cmocka_unit_test(defaults_reach_what_follows_them),
-        cmocka_unit_test(a_reload_takes_it_back),
-        cmocka_unit_test(the_graph_says_who_set_what),
-        cmocka_unit_test(a_body_is_pulled),
-        cmocka_unit_test(the_oldest_box_goes),
+        cmocka_unit_test(logged_session_plays_back_to_the_same_state),
+        cmocka_unit_test(refused_inputs_are_not_logged),
+        cmocka_unit_test(half_step_run_refuses_scenes_that_people_acted_on),
+        cmocka_unit_test(log_that_cannot_be_written_is_an_error),
+        cmocka_unit_test(push_acts_for_one_step),
+        cmocka_unit_test(parameter_is_set_for_all_agents_of_a_state),
+        cmocka_unit_test(set_default_reaches_states_without_a_value),
+        cmocka_unit_test(reload_restores_the_written_parameters),
+        cmocka_unit_test(graph_names_the_source_of_each_value),
+        cmocka_unit_test(held_body_is_pulled_to_the_target),
+        cmocka_unit_test(oldest_box_is_removed_for_a_new_one),
         cmocka_unit_test(files_of_a_log_go_live),
-        cmocka_unit_test(a_log_of_something_else),
-        cmocka_unit_test(a_wrong_log_is_an_error_of_its_file),
+        cmocka_unit_test(log_of_another_run_is_warned_of),
+        cmocka_unit_test(invalid_log_is_an_error_with_file_and_line),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,4 +1,4 @@
-/* Walls at joined (periodic) edges: they stand on both sides. */
+/* Tests of walls at joined (periodic) edges of a world: they act on both sides. */
 #include <math.h>
 
 #include "machine/internal.h"
@@ -25,7 +25,7 @@ static const JoxAgents *agents_of(const JoScene *scene) {
     return &scene->world->state.agents;
 }
 
-/* Steps, and counts how often somebody comes over the joined edges. */
+/* Steps, and counts crossings of the joined edges. */
 static int count_laps(JoScene *scene, int steps) {
     const JoxAgents *a = agents_of(scene);
     float before[64];
@@ -41,7 +41,7 @@ static int count_laps(JoScene *scene, int steps) {
     return laps;
 }
 
-/* ---- nobody passes ---- */
+/* ---- no crossing ---- */
 
 static void gate_at_joined_edges_is_passed_only_while_it_is_open(void **state) {
     static const char *const GATES[] = {
@@ -130,16 +130,16 @@ static void people_fill_places_beside_walls_beyond_joined_edges(void **state) {
         "groups: {people: {behaviour: own.lua, density: 1, in: all, fill: random}}\n",
         STAY);
     const JoxAgents *a = agents_of(scene);
-    assert_in_range(a->count, 29, 32); /* on 8 m x 4 m, less what is near the solid */
+    assert_in_range(a->count, 29, 32); /* on 8 m x 4 m, without the surroundings of the solid */
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(a->x[i] > 1.15f && a->x[i] < 8.85f);
     jo_scene_free(scene);
 }
 
-/* ---- a wall that goes on is not felt ---- */
+/* ---- ends of walls at joined edges ---- */
 
-/* The same crowd where the walls end at the joined edges, where they are drawn beyond, and where
-   they are drawn in pieces that meet there. */
+/* Runs one crowd with walls that end at the joined edges, that extend beyond them, and that are
+ * drawn in pieces that meet there. */
 static void ends_of_walls_at_joined_edges_are_not_felt(void **state) {
     static const char *const WALLS[] = {
         "[{line: [[-15, 0], [25, 0]]}, {line: [[-15, 1.5], [25, 1.5]]}]",
@@ -175,9 +175,9 @@ static void ends_of_walls_at_joined_edges_are_not_felt(void **state) {
     }
 }
 
-/* ---- what is seen, borne and told ---- */
+/* ---- sight, loads, densities ---- */
 
-static void walls_beyond_joined_edges_hide_and_bear_loads_and_are_told_once(void **state) {
+static void walls_beyond_joined_edges_hide_bear_loads_and_are_reported_once(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(RING "  - {line: [[0, 0], [0, 4]], name: gate}\n" TWELVE,
@@ -229,7 +229,7 @@ static void people_beyond_a_wall_at_joined_edges_do_not_count_in_densities(void 
 #define WALK                                                                                       \
     HEAD "\"A\", states = { A = { steer = field(own.goal) } }, own = { goal = \"goal\" } }\n"
 
-static void routes_lead_over_joined_edges_where_that_is_the_way(void **state) {
+static void routes_cross_joined_edges_where_that_is_shorter(void **state) {
     static const struct {
         const char *scene;
         bool over;
@@ -262,7 +262,7 @@ static void routes_lead_over_joined_edges_where_that_is_the_way(void **state) {
     }
 }
 
-static void goals_that_walls_at_joined_edges_keep_people_from_are_told(void **state) {
+static void unreachable_goals_at_joined_edges_are_reported(void **state) {
     static const char *const SCENES[] = {
         RING
         "  - {line: [[5, 0], [5, 4]]}\n  - {line: [[10, 0], [10, 4]]}\n" GO("[4, 2]", "[6, 2]"),
@@ -290,9 +290,9 @@ int main(void) {
         cmocka_unit_test(people_are_born_beside_walls_beyond_joined_edges),
         cmocka_unit_test(people_fill_places_beside_walls_beyond_joined_edges),
         cmocka_unit_test(ends_of_walls_at_joined_edges_are_not_felt),
-        cmocka_unit_test(walls_beyond_joined_edges_hide_and_bear_loads_and_are_told_once),
-        cmocka_unit_test(routes_lead_over_joined_edges_where_that_is_the_way),
-        cmocka_unit_test(goals_that_walls_at_joined_edges_keep_people_from_are_told),
+        cmocka_unit_test(walls_beyond_joined_edges_hide_bear_loads_and_are_reported_once),
+        cmocka_unit_test(routes_cross_joined_edges_where_that_is_shorter),
+        cmocka_unit_test(unreachable_goals_at_joined_edges_are_reported),
         cmocka_unit_test(people_beyond_a_wall_at_joined_edges_do_not_count_in_densities),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);

@@ -1,6 +1,6 @@
-/* Random small scenes of people and bodies of any mass, size and speed that definitions allow: they
-   run without a broken assertion, and their numbers stay finite. JOSTLE_MASSES: how many scenes;
-   JOSTLE_MASSES_FROM: number of the first one. */
+/* Runs random small scenes of people and bodies of any mass, size and speed that definitions allow:
+ * no assertion fails, and all numbers stay finite. JOSTLE_MASSES: count of scenes;
+ * JOSTLE_MASSES_FROM: number of the first one. */
 #include <math.h>
 
 #include "base/number/random.h"
@@ -15,42 +15,43 @@ typedef struct Mix {
     JoxText yaml, lua;
 } Mix;
 
-/* Number of the scene that runs, for the message of a broken assertion. */
+/* Number of the running scene, for the message of a failed assertion. */
 static uint64_t running;
 
-static double draw_in_range(Mix *m, double low, double high) {
+static double draw_uniform_number(Mix *m, double low, double high) {
     return low + (high - low) * jox_random_unit(m->number, m->drawn++, 0, JOX_DRAW_FILL, 0);
 }
 
-/* Each magnitude between two numbers is as likely. */
+/* Draws a number whose logarithm is uniform between two bounds. */
 static double draw_magnitude(Mix *m, double low, double high) {
-    return exp(draw_in_range(m, log(low), log(high)));
+    return exp(draw_uniform_number(m, log(low), log(high)));
 }
 
-static bool chance(Mix *m, double share) {
-    return draw_in_range(m, 0.0, 1.0) < share;
+static bool draw_chance(Mix *m, double share) {
+    return draw_uniform_number(m, 0.0, 1.0) < share;
 }
 
 /* ---- scenes ---- */
 
-/* A speed along an axis, m/s: mostly that of throws and vehicles, at times the greatest. */
+/* Draws a speed along an axis, m/s: mostly up to that of throws and vehicles, sometimes the
+ * greatest. */
 static double draw_speed(Mix *m) {
-    const double most = chance(m, 0.2) ? 100.0 : chance(m, 0.5) ? 10.0 : 1.0;
-    return draw_in_range(m, -most, most);
+    const double most = draw_chance(m, 0.2) ? 100.0 : draw_chance(m, 0.5) ? 10.0 : 1.0;
+    return draw_uniform_number(m, -most, most);
 }
 
-/* m: up to so many times a size, and down to a tenth of it. */
+/* Draws a length, m: from a tenth of a size to `most` times it. */
 static double draw_length(Mix *m, double size, double most) {
     return fmax(0.02, size * draw_magnitude(m, 0.1, most));
 }
 
-/* Adds one number. The order in which the arguments of a call are drawn is the compiler's. */
+/* Adds one number; one a call, as compilers choose the order in which arguments are evaluated. */
 static void add_drawn_number(Mix *m, const char *format, double number) {
     jox_text_printf(&m->yaml, format, number);
 }
 
 static void write_solid(Mix *m, double size) {
-    switch ((int)draw_in_range(m, 0.0, 4.0)) {
+    switch ((int)draw_uniform_number(m, 0.0, 4.0)) {
     case 0:
         add_drawn_number(m, "{sphere: {radius: %.4g}}", size / 2.0);
         break;
@@ -72,13 +73,13 @@ static void write_solid(Mix *m, double size) {
 }
 
 static void write_shape(Mix *m, double size) {
-    const double kind = draw_in_range(m, 0.0, 1.0);
+    const double kind = draw_uniform_number(m, 0.0, 1.0);
     jox_text_add(&m->yaml, "shape: ");
     if (kind < 0.2) {
         add_drawn_number(m, "{blocks: {size: [%.4g, ", size);
         add_drawn_number(m, "%.4g, ", size);
         add_drawn_number(m, "%.4g], ", draw_length(m, size, 1.0));
-        add_drawn_number(m, "count: [%.0f, 1, 3], ", ceil(draw_in_range(m, 0.0, 4.0)));
+        add_drawn_number(m, "count: [%.0f, 1, 3], ", ceil(draw_uniform_number(m, 0.0, 4.0)));
         add_drawn_number(m, "bond: %.4g}}", draw_magnitude(m, 1e-3, 1e9));
     } else if (kind < 0.3) {
         jox_text_add(&m->yaml, "{compound: [{shape: ");
@@ -95,10 +96,10 @@ static void write_shape(Mix *m, double size) {
 static void write_driven(Mix *m) {
     add_drawn_number(m, ", kinematic: true, force_limit: %.4g, path: {through: [",
                      draw_magnitude(m, 1.0, 1e6));
-    add_drawn_number(m, "[%.3f, ", draw_in_range(m, -4.0, 4.0));
-    add_drawn_number(m, "%.3f, 1], [0, 0, 1]], end: round, ", draw_in_range(m, -4.0, 4.0));
+    add_drawn_number(m, "[%.3f, ", draw_uniform_number(m, -4.0, 4.0));
+    add_drawn_number(m, "%.3f, 1], [0, 0, 1]], end: round, ", draw_uniform_number(m, -4.0, 4.0));
     add_drawn_number(m, "speed: %.4g, ", draw_magnitude(m, 1e-2, 100.0));
-    jox_text_printf(&m->yaml, "reopens: %s}", chance(m, 0.3) ? "true" : "false");
+    jox_text_printf(&m->yaml, "reopens: %s}", draw_chance(m, 0.3) ? "true" : "false");
 }
 
 static void write_free(Mix *m) {
@@ -111,21 +112,22 @@ static void write_free(Mix *m) {
     add_drawn_number(m, "%.4g]", draw_speed(m));
 }
 
-/* Bodies have cells of their own, so that none begins in another. */
+/* Places bodies in cells of their own, so that none overlaps another at the start. */
 static void write_body(Mix *m, int cell) {
     jox_text_printf(&m->yaml, "  - {name: b%d, tags: [thing], at: [%d, %d, 1.2], ", cell,
                     3 * (cell % 3) - 3, 3 * (cell / 3) - 3);
     write_shape(m, draw_magnitude(m, 0.041, 0.6));
-    add_drawn_number(m, ", friction: %.3g", draw_in_range(m, 0.0, 3.0));
-    add_drawn_number(m, ", restitution: %.3g", chance(m, 0.5) ? 0.0 : draw_in_range(m, 0.0, 1.0));
-    if (chance(m, 0.2))
+    add_drawn_number(m, ", friction: %.3g", draw_uniform_number(m, 0.0, 3.0));
+    add_drawn_number(m, ", restitution: %.3g",
+                     draw_chance(m, 0.5) ? 0.0 : draw_uniform_number(m, 0.0, 1.0));
+    if (draw_chance(m, 0.2))
         write_driven(m);
     else
         write_free(m);
     jox_text_add(&m->yaml, "}\n");
 }
 
-static void write_scene(Mix *m) {
+static void write_mix_scene(Mix *m) {
     static const double TIMES[] = {0.01, 0.05, 0.1};
     m->yaml.length = 0;
     jox_text_printf(&m->yaml,
@@ -134,7 +136,7 @@ static void write_scene(Mix *m) {
                     "walls: [{line: [[-5, -5], [5, -5], [5, 5], [-5, 5]], closed: true}]\n"
                     "bodies:\n",
                     TIMES[m->number % 3]);
-    const int count = 1 + (int)draw_in_range(m, 0.0, MOST_BODIES);
+    const int count = 1 + (int)draw_uniform_number(m, 0.0, MOST_BODIES);
     for (int cell = 0; cell < count; cell++)
         write_body(m, cell);
     jox_text_add(&m->yaml, "groups: {people: {behaviour: own.lua, at: [[-4.5, -4.5]");
@@ -143,11 +145,12 @@ static void write_scene(Mix *m) {
     jox_text_add(&m->yaml, "]}}\n");
 }
 
-/* Agents take and throw the bodies that they reach, and hold on to others at times. */
-static void write_behaviour(Mix *m) {
-    const double speed = draw_in_range(m, 0.5, 8.0), push = draw_magnitude(m, 1.0, 5e3);
-    const double spread = draw_in_range(m, 0.0, 1.5), kick = draw_in_range(m, 0.0, 30.0),
-                 thrown = draw_in_range(m, 0.1, 40.0);
+/* Writes a behaviour that takes and throws bodies in reach, and sometimes holds other agents. */
+static void write_mix_behaviour(Mix *m) {
+    const double speed = draw_uniform_number(m, 0.5, 8.0), push = draw_magnitude(m, 1.0, 5e3);
+    const double spread = draw_uniform_number(m, 0.0, 1.5),
+                 kick = draw_uniform_number(m, 0.0, 30.0),
+                 thrown = draw_uniform_number(m, 0.1, 40.0);
     m->lua.length = 0;
     jox_text_printf(
         &m->lua,
@@ -166,22 +169,23 @@ static void write_behaviour(Mix *m) {
         speed, 1.2 * speed, push, spread, kick, thrown);
 }
 
-/* Bodies heavier than scenes allow, which calls add. */
-static void add_bodies(Mix *m, JoWorld *world) {
-    const int count = (int)draw_in_range(m, 0.0, 4.0);
+/* Adds bodies heavier than scenes allow, by calls. */
+static void add_heavy_bodies(Mix *m, JoWorld *world) {
+    const int count = (int)draw_uniform_number(m, 0.0, 4.0);
     for (int n = 0; n < count; n++) {
         JoError error = {0};
         JoBodyDef def = jo_default_body_def();
-        def.shape = (JoShape)draw_in_range(m, 0.0, 3.0);
+        def.shape = (JoShape)draw_uniform_number(m, 0.0, 3.0);
         for (int k = 0; k < 3; k++)
             def.size[k] = draw_magnitude(m, 0.02, 0.8);
-        def.mass = chance(m, 0.5) ? draw_magnitude(m, 1e7, 1e9) : draw_magnitude(m, 1e-9, 1e-3);
+        def.mass =
+            draw_chance(m, 0.5) ? draw_magnitude(m, 1e7, 1e9) : draw_magnitude(m, 1e-9, 1e-3);
         def.x = 2.0 * n - 3.0;
         def.y = n % 2 ? 4.2 : -4.2;
         def.z = 0.5;
         def.vx = draw_speed(m);
         def.vy = draw_speed(m);
-        jo_world_add_body(world, &def, &error); /* refused where moments are no floats */
+        jo_world_add_body(world, &def, &error); /* refused if moments of inertia overflow a float */
     }
 }
 
@@ -192,7 +196,7 @@ static void end_at_assertion(const char *condition, const char *file, int line) 
     abort();
 }
 
-static void check_bodies(const Mix *m, const JoWorld *world) {
+static void check_body_motion(const Mix *m, const JoWorld *world) {
     for (uint32_t slot = 0; slot < jo_world_body_count(world); slot++) {
         const JoBodyState b = jo_body_state(world, jo_world_body_at(world, slot));
         if (!isfinite(b.x + b.y + b.z) || !isfinite(b.vx + b.vy + b.vz))
@@ -219,16 +223,16 @@ static void add_figures(Sums *all, const JoxStatistics *s) {
 static void run_mix(Mix *m, Sums *all) {
     running = m->number;
     m->drawn = 0;
-    write_scene(m);
-    write_behaviour(m);
+    write_mix_scene(m);
+    write_mix_behaviour(m);
     JoScene *scene = load_scene_text(m->yaml.data, m->lua.data);
-    add_bodies(m, scene->world);
+    add_heavy_bodies(m, scene->world);
     for (int n = 0; n < STEPS; n++) {
         step_scene(scene, 1);
         const char *fault = jox_world_find_fault(scene->world);
         if (fault)
             fail_msg("scene %llu, step %d: %s", (unsigned long long)m->number, n, fault);
-        check_bodies(m, scene->world);
+        check_body_motion(m, scene->world);
     }
     add_figures(all, &scene->world->state.statistics);
     jo_scene_free(scene);

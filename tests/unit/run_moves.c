@@ -1,4 +1,4 @@
-/* Events that set the velocity of kinematic bodies. */
+/* Tests of events that set the velocity of kinematic bodies. */
 #include <math.h>
 
 #include "unit/scene_loader.h"
@@ -7,7 +7,7 @@
 #define EVENTS(list)                                                                               \
     "jostle: 1\ngroups: {people: {behaviour: own.lua, at: [[0, 0]]}}\nevents:\n" list
 
-static void a_kinematic_body_is_moved(void **state) {
+static void event_sets_velocity_of_kinematic_body(void **state) {
     (void)state;
     if (!jox_bodies_available())
         return;
@@ -27,7 +27,7 @@ static void a_kinematic_body_is_moved(void **state) {
     jox_bodies_pose(scene->world->state.bodies, 0, &pose);
     assert_float_equal(pose.position.z, 1.5, 1e-3);
     assert_float_equal(pose.velocity.z, 0.5, 1e-6);
-    step_scene(scene, 60); /* it left its path, and stands at 3 s */
+    step_scene(scene, 60); /* it left its path, and stands still from 3 s on */
     jox_bodies_pose(scene->world->state.bodies, 0, &pose);
     assert_float_equal(pose.position.z, 2.0, 1e-3);
     assert_float_equal(pose.position.y, 9.0, 1e-4);
@@ -36,6 +36,6 @@ static void a_kinematic_body_is_moved(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_kinematic_body_is_moved)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(event_sets_velocity_of_kinematic_body)};
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

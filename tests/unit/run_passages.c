@@ -1,5 +1,5 @@
-/* No person passes a wall: random scenes with gates, doors, walls that come, sources, births and
-   reloads, a third of them with joined edges. JOSTLE_PASSAGES: how many scenes. */
+/* Checks that no person passes a wall, in random scenes with gates, doors, added walls, sources,
+ * births and reloads, a third of them with joined edges. JOSTLE_PASSAGES: count of scenes. */
 #include <math.h>
 
 #include "base/number/random.h"
@@ -9,10 +9,10 @@
 
 enum { SCENES = 500, MOST_PEOPLE = 512, MOST_RINGS = 256 };
 
-/* A hall of 12 x 8 m, sealed where its edges are not joined; nothing is built where x is below 3 m,
-   but at joined edges. */
+/* A hall of 12 x 8 m, sealed at edges that are not joined; no walls at x < 3 m, except at joined
+ * edges. */
 static const JoxV2 SIZE = {12, 8};
-static const double FAR = 3.5; /* m: over joined edges, a longer step may have gone the other way */
+static const double FAR = 3.5; /* m: a longer step over joined edges has an ambiguous direction */
 static const double STEPS[] = {0.01, 0.02, 0.05, 0.1, 0.2};
 
 typedef struct Passage {
@@ -22,12 +22,12 @@ typedef struct Passage {
     JoScene *scene;
     double dt;
     JoxV2 period;
-    uint32_t made; /* walls added live */
-    /* Of the agents before the step, by id. */
+    uint32_t made; /* walls added during the run */
+    /* State of agents before the step, by id. */
     struct Before {
         bool there;
         JoxV2 at;
-        bool inside[MOST_RINGS]; /* of the solids that stand in the step */
+        bool inside[MOST_RINGS]; /* whether it was inside each solid of the step */
     } before[MOST_PEOPLE];
     uint64_t crossings, checked;
 } Passage;
@@ -36,19 +36,19 @@ static double draw_number(Passage *p, double low, double high) {
     return low + (high - low) * jox_random_unit(p->number, p->drawn++, 0, JOX_DRAW_FILL, 0);
 }
 
-static bool chance(Passage *p, double share) {
+static bool roll_chance(Passage *p, double share) {
     return draw_number(p, 0.0, 1.0) < share;
 }
 
 /* ---- scenes ---- */
 
-/* A thin wall of up to three points, or a solid quadrangle. */
+/* Adds a thin wall of two or three points, or a solid quadrangle. */
 static void add_random_wall(Passage *p, const char *more) {
     const double x = draw_number(p, 3.5, 11.0), y = draw_number(p, 0.5, 7.5);
-    if (chance(p, 0.6)) {
+    if (roll_chance(p, 0.6)) {
         jox_text_printf(&p->yaml, "  - {line: [[%.3f, %.3f], [%.3f, %.3f]", x, y,
                         draw_number(p, 3.2, 11.8), draw_number(p, 0.0, 8.0));
-        if (chance(p, 0.5))
+        if (roll_chance(p, 0.5))
             jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw_number(p, 3.2, 11.8),
                             draw_number(p, 0.0, 8.0));
         jox_text_printf(&p->yaml, "]%s}\n", more);
@@ -64,7 +64,7 @@ static void add_random_wall(Passage *p, const char *more) {
 /* Adds a line or solid at a joined edge or across it. */
 static void add_wall_at_edges(Passage *p, bool x, const char *more) {
     static const double OFF[] = {0.0, 0.0, 0.2, -0.4};
-    const double edge = (x ? SIZE.x : SIZE.y) * (chance(p, 0.5) ? 1.0 : 0.0);
+    const double edge = (x ? SIZE.x : SIZE.y) * (roll_chance(p, 0.5) ? 1.0 : 0.0);
     const double from = edge + OFF[(int)draw_number(p, 0.0, 4.0)], other = x ? SIZE.y : SIZE.x;
     const double a = draw_number(p, 0.0, other), b = draw_number(p, 0.0, other),
                  slant = draw_number(p, -0.5, 0.5);
@@ -97,7 +97,8 @@ static void write_edges(Passage *p) {
         add_wall_at_edges(p, false, k ? ", name: door, open: true" : "");
 }
 
-/* The same walls for the same `seed`, of which the last `others` are others in each version. */
+/* Adds the same walls for the same `seed`, except the last `others`, which differ in each version.
+ */
 static void write_walls(Passage *p, uint32_t seed, uint32_t count, uint32_t others) {
     const uint32_t drawn = p->drawn;
     jox_text_add(&p->yaml, "walls:\n");
@@ -116,7 +117,7 @@ static void write_walls(Passage *p, uint32_t seed, uint32_t count, uint32_t othe
     p->drawn = drawn + 100;
 }
 
-static void write_scene(Passage *p, uint32_t walls, uint32_t others) {
+static void write_passage_scene(Passage *p, uint32_t walls, uint32_t others) {
     const uint32_t people = 12 + (uint32_t)(p->number % 17);
     p->yaml.length = 0;
     jox_text_printf(&p->yaml,
@@ -158,7 +159,7 @@ static void write_scene(Passage *p, uint32_t walls, uint32_t others) {
                     draw_number(p, 0.0, 0.7));
 }
 
-static void write_behaviour(Passage *p) {
+static void write_passage_behaviour(Passage *p) {
     static const double FAST[] = {1.5, 1.5, 5.0, 16.0};
     const double speed = FAST[p->number % 4];
     p->lua.length = 0;
@@ -166,17 +167,18 @@ static void write_behaviour(Passage *p) {
                     HEAD "\"A\",\n  defaults = { speed = %g, max_speed = %g, push = %g, "
                          "radius = uniform(0.12, 0.3), perception = 2, time_gap = %g },\n"
                          "  states = { A = { steer = %s } }, own = { goal = \"east\" } }\n",
-                    speed, 1.2 * speed, chance(p, 0.5) ? 800.0 : 0.0, chance(p, 0.5) ? 1.0 : 0.0,
+                    speed, 1.2 * speed, roll_chance(p, 0.5) ? 800.0 : 0.0,
+                    roll_chance(p, 0.5) ? 1.0 : 0.0,
                     p->period.y > 0.0f   ? "drift(-1, -0.7)"
                     : p->period.x > 0.0f ? "drift(1, 0.1)"
                                          : "seek(own.goal)");
 }
 
-/* ---- what people do to it ---- */
+/* ---- inputs and edits ---- */
 
 static void edit_walls(Passage *p, uint32_t walls) {
     JoxDiagnostics diagnostics = {0};
-    write_scene(p, walls, 2);
+    write_passage_scene(p, walls, 2);
     write_test_file("scene.yaml", p->yaml.data);
     JoxSceneSpec *spec = jox_run_load_spec(&p->scene->def, p->scene->mods, 0, &diagnostics);
     if (spec) { /* a wall may cross itself */
@@ -186,7 +188,7 @@ static void edit_walls(Passage *p, uint32_t walls) {
     jox_diag_free(&diagnostics);
 }
 
-/* Some line of an input log; what cannot be done is refused. */
+/* Applies a random line of input, which may be refused. */
 static void apply_random_line(Passage *p) {
     char line[200];
     JoError error = {0};
@@ -209,7 +211,7 @@ static void apply_random_line(Passage *p) {
         snprintf(line, sizeof line, "spawn people %.3f %.3f", draw_number(p, 0.2, 11.8), y);
         break;
     case 4:
-        snprintf(line, sizeof line, "%s gate", chance(p, 0.5) ? "open" : "close");
+        snprintf(line, sizeof line, "%s gate", roll_chance(p, 0.5) ? "open" : "close");
         break;
     default:
         snprintf(line, sizeof line, "push %d %.0f %.0f", (int)draw_number(p, 0.0, 20.0),
@@ -218,7 +220,7 @@ static void apply_random_line(Passage *p) {
     jo_scene_input(p->scene, line, &error);
 }
 
-/* ---- what is watched ---- */
+/* ---- checks ---- */
 
 static void note_before(Passage *p) {
     const JoxAgents *a = &p->scene->world->state.agents;
@@ -228,12 +230,13 @@ static void note_before(Passage *p) {
             p->before[a->id[i]] = (struct Before){.there = true, .at = {a->x[i], a->y[i]}};
 }
 
-/* Shift of the n-th of nine images of the walls, m; zero along an axis that is not joined. */
+/* Returns the shift of the n-th of nine images of the walls, m; zero along an axis that is not
+ * joined. */
 static JoxV2 shift_of(const Passage *p, int n) {
     return (JoxV2){(float)(n % 3 - 1) * p->period.x, (float)(n / 3 - 1) * p->period.y};
 }
 
-/* The solids that hold a point: whoever stood in one when it came may leave it. */
+/* Notes the solids that contain a point: an agent may leave a solid that was put over it. */
 static void note_solids(const Passage *p, const JoxWalls *walls, JoxV2 at,
                         bool inside[MOST_RINGS]) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
@@ -243,24 +246,25 @@ static void note_solids(const Passage *p, const JoxWalls *walls, JoxV2 at,
     }
 }
 
-/* m: from one point to another round the end of an edge. */
-static double way_round(const JoxWallVertex *v, JoxV2 from, JoxV2 to) {
+/* Returns the length of the way from one point to another round the end of an edge, m. */
+static double measure_detour(const JoxWallVertex *v, JoxV2 from, JoxV2 to) {
     return (double)(jox_length(jox_sub(v->point, from)) + jox_length(jox_sub(to, v->point)));
 }
 
-/* A step longer than 0.05 s is done in parts, and its way may bend round an end of a wall. */
-static bool bends_round(const Passage *p, const JoxWalls *walls, uint32_t ring, JoxV2 from,
-                        JoxV2 to, double most) {
+/* Returns whether a step longer than 0.05 s, which is done in parts, may have led round the end of
+ * a wall. */
+static bool may_bend_round(const Passage *p, const JoxWalls *walls, uint32_t ring, JoxV2 from,
+                           JoxV2 to, double most) {
     const struct JoxWallRing *r = &walls->rings[ring];
     for (uint32_t i = 0; p->dt > 0.05 && i < r->count; i++)
-        if (way_round(&walls->vertices[r->first + i], from, to) < most)
+        if (measure_detour(&walls->vertices[r->first + i], from, to) < most)
             return true;
     return false;
 }
 
-/* Checks a way against the walls as they are drawn; false if it leads through one. */
-static bool watch_way_by_own(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
-                             double most, const char *what) {
+/* Checks a way against the walls as drawn; false if it leads through one. */
+static bool check_way_as_drawn(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
+                               double most, const char *what) {
     const bool *inside = p->before[id].inside;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
@@ -268,7 +272,7 @@ static bool watch_way_by_own(Passage *p, const JoxWalls *walls, uint32_t id, Jox
             const JoxWallVertex *v = &walls->vertices[ring->first + i];
             const JoxV2 end = walls->vertices[v->next].point;
             if (!jox_edge_lies_between(v->point, end, from, to) ||
-                bends_round(p, walls, r, from, to, most))
+                may_bend_round(p, walls, r, from, to, most))
                 continue;
             p->crossings++;
             print_message("scene %llu, step %llu of %g s: agent %u %s from (%.9g, %.9g) to (%.9g, "
@@ -285,25 +289,25 @@ static bool watch_way_by_own(Passage *p, const JoxWalls *walls, uint32_t id, Jox
 }
 
 /* Checks the shorter way between two points against the walls and their images. */
-static void watch_way(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
-                      double most, const char *what) {
+static void check_shorter_way(Passage *p, const JoxWalls *walls, uint32_t id, JoxV2 from, JoxV2 to,
+                              double most, const char *what) {
     const JoxV2 way = jox_wrap(&p->scene->world->state.agents, jox_sub(to, from));
     const bool joined = p->period.x > 0.0f || p->period.y > 0.0f;
     if (joined && (double)jox_length(way) > FAR)
         return;
     p->checked++;
     if (!joined) {
-        watch_way_by_own(p, walls, id, from, to, most, what);
+        check_way_as_drawn(p, walls, id, from, to, most, what);
         return;
     }
     bool clear = true;
     for (int n = 0; n < 9 && clear; n++) {
         const JoxV2 start = jox_sub(from, shift_of(p, n));
-        clear = watch_way_by_own(p, walls, id, start, jox_add(start, way), most, what);
+        clear = check_way_as_drawn(p, walls, id, start, jox_add(start, way), most, what);
     }
 }
 
-static void watch_step(Passage *p) {
+static void check_step(Passage *p) {
     const JoxAgents *a = &p->scene->world->state.agents;
     const JoxWalls *walls = &p->scene->world->scratch.walls;
     assert_true(walls->ring_count <= MOST_RINGS);
@@ -322,16 +326,16 @@ static void watch_step(Passage *p) {
         const double speed = hypot((double)a->vx[i], (double)a->vy[i]);
         note_solids(p, walls, before, p->before[id].inside);
         if (p->dt > 0.05) {
-            watch_way(p, walls, id, before, now, 2.0 * p->dt * fmax(speed, 30.0), "went");
+            check_shorter_way(p, walls, id, before, now, 2.0 * p->dt * fmax(speed, 30.0), "went");
             continue;
         }
-        watch_way(p, walls, id, before, last, 0.0, "was moved");
+        check_shorter_way(p, walls, id, before, last, 0.0, "was moved");
         note_solids(p, walls, last, p->before[id].inside);
-        watch_way(p, walls, id, last, now, 0.0, "went");
+        check_shorter_way(p, walls, id, last, now, 0.0, "went");
     }
 }
 
-/* ---- all of it ---- */
+/* ---- the test ---- */
 
 static void run_passage(Passage *p) {
     const uint32_t walls = 1 + (uint32_t)(p->number % 4);
@@ -340,8 +344,8 @@ static void run_passage(Passage *p) {
     p->dt = STEPS[p->number % 5];
     p->period = jox_v2(p->number % 9 == 4 || p->number % 9 == 7 ? SIZE.x : 0.0f,
                        p->number % 9 == 1 || p->number % 9 == 7 ? SIZE.y : 0.0f);
-    write_behaviour(p);
-    write_scene(p, walls, 0);
+    write_passage_behaviour(p);
+    write_passage_scene(p, walls, 0);
     write_test_file("own.lua", p->lua.data);
     JoSceneDef def = define_scene(write_test_file("scene.yaml", p->yaml.data));
     def.no_density = true;
@@ -353,16 +357,16 @@ static void run_passage(Passage *p) {
     for (int n = 0; n < 60; n++) {
         if (n % 20 == 13 && p->number % 3 == 0)
             edit_walls(p, walls + (n > 20));
-        if (chance(p, 0.3))
+        if (roll_chance(p, 0.3))
             apply_random_line(p);
         note_before(p);
         step_scene(p->scene, 1);
-        watch_step(p);
+        check_step(p);
     }
     jo_scene_free(p->scene);
 }
 
-static void nobody_passes_a_wall(void **state) {
+static void nobody_passes_a_wall_in_random_scenes(void **state) {
     (void)state;
     const char *wanted = getenv("JOSTLE_PASSAGES");
     const uint64_t scenes = wanted ? strtoull(wanted, NULL, 10) : SCENES;
@@ -380,7 +384,7 @@ static void nobody_passes_a_wall(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nobody_passes_a_wall),
+        cmocka_unit_test(nobody_passes_a_wall_in_random_scenes),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,12 +1,12 @@
-/* Sources, parties, exits and events are the world's own: a program that steps the world of a scene
-   gets them, and a state that was saved in their midst goes on to the bit. */
+/* Tests that sources, parties, exits and events belong to the world: they work for a program that
+ * steps the world of a scene, and a restored state continues exactly. */
 #include "unit/gate_ball_scene.h"
 
 #include "jostle_tools.h"
 #include "nav/state.h"
 
-/* People who come from two sources, in parties of three, walk through a gate to where they leave;
-   others cross a circle, each to a place of its own. */
+/* People come from two sources in parties of three and walk through a gate to an exit; others cross
+ * a circle to the opposite side. */
 #define CROWD(bodies, events)                                                                      \
     "jostle: 1\n"                                                                                  \
     "places:\n"                                                                                    \
@@ -38,17 +38,17 @@
 
 enum { SAVED = JOX_BODIES_REINSERT_STEPS, AFTER = 200 };
 
-static JoScene *crowd(void) {
+static JoScene *load_crowd(void) {
     JoScene *scene =
         load_scene_text(jox_bodies_available() ? CROWD(CRATE, THROW) : CROWD("", ""), WALKER_TO);
     scene->world->model.reinserts_bodies = true;
     return scene;
 }
 
-/* jo_scene_load, jo_scene_world, jo_world_step, and nothing else. */
-static void a_program_steps_the_world_of_a_scene(void **state) {
+/* Uses jo_scene_load, jo_scene_world and jo_world_step alone. */
+static void program_can_step_the_world_of_a_scene(void **state) {
     (void)state;
-    JoScene *scene = crowd();
+    JoScene *scene = load_crowd();
     JoWorld *world = jo_scene_world(scene);
     const uint32_t before = jo_world_agent_count(world);
     assert_int_equal(before, 26);
@@ -70,7 +70,7 @@ static void a_program_steps_the_world_of_a_scene(void **state) {
     const uint64_t hash = jo_world_hash(world);
     jo_scene_free(scene);
 
-    scene = crowd(); /* the scene's own steps are the same */
+    scene = load_crowd(); /* the scene's own steps are the same */
     step_scene(scene, 280);
     assert_true(jo_world_hash(jo_scene_world(scene)) == hash);
     jo_scene_free(scene);
@@ -83,10 +83,10 @@ static void record_hashes(JoScene *scene, uint64_t hashes[AFTER]) {
     }
 }
 
-static void a_saved_crowd_goes_on_to_the_bit(void **state) {
+static void saved_crowd_continues_exactly(void **state) {
     (void)state;
     uint64_t first[AFTER], second[AFTER];
-    JoScene *scene = crowd(), *other = crowd();
+    JoScene *scene = load_crowd(), *other = load_crowd();
     JoxText saved = {0};
     JoError error = {0};
     step_scene(scene, SAVED);
@@ -94,7 +94,7 @@ static void a_saved_crowd_goes_on_to_the_bit(void **state) {
     const JoxExits then = scene->world->state.exits;
     record_hashes(scene, first);
     assert_true(scene->world->state.exits.left > then.left);
-    for (int run = 0; run < 2; run++) { /* the same scene, and one that has not begun */
+    for (int run = 0; run < 2; run++) { /* the scene itself, and a new one */
         JoScene *restored = run ? other : scene;
         if (!jox_world_restore(restored->world, saved.data, saved.length, &error))
             fail_msg("%s", error.text);
@@ -110,10 +110,10 @@ static void a_saved_crowd_goes_on_to_the_bit(void **state) {
     jo_scene_free(other);
 }
 
-/* What sources have made and whom the next party takes decides what comes: it is hashed. */
+/* The counts of sources and the open party decide who comes next, so they are hashed. */
 static void counts_of_sources_are_hashed(void **state) {
     (void)state;
-    JoScene *scene = crowd();
+    JoScene *scene = load_crowd();
     step_scene(scene, 40);
     JoxPopulation *p = &scene->world->state.population;
     const uint64_t before = jo_world_hash(scene->world);
@@ -144,7 +144,7 @@ static void counts_of_sources_are_hashed(void **state) {
     "sources: [{at: yard, like: people, rate: 400}]\n"
 #define STANDER HEAD "\"Stand\", states = { Stand = { steer = hold } } }\n"
 
-/* Who has no room waits, and comes when those before have gone. */
+/* An agent without room waits, and comes in once others have left. */
 static void expect_waiting(const char *yaml, uint32_t most) {
     JoScene *scene = load_scene_text(yaml, STANDER);
     JoWorld *world = jo_scene_world(scene);
@@ -163,7 +163,7 @@ static void expect_waiting(const char *yaml, uint32_t most) {
     jo_scene_free(scene);
 }
 
-static void sources_in_full_places_wait(void **state) {
+static void source_waits_while_its_place_is_full(void **state) {
     (void)state;
     expect_waiting(FULL_YARD("polygon: [[0, 0], [3, 0], [3, 3], [0, 3]]"), 110);
     expect_waiting(FULL_YARD("polygon: [[0, 0], [0.1, 0], [0.1, 0.1], [0, 0.1]]"), 12);
@@ -182,20 +182,20 @@ static void sources_in_full_places_wait(void **state) {
          "  Stand = { steer = hold, { to = \"Go\", when = heard \"go\" } },\n"                     \
          "  Go = { steer = seek(own.goal) } } }\n"
 
-static bool is_at(const JoWorld *w, uint32_t i, float x, float y) {
+static bool stands_at(const JoWorld *w, uint32_t i, float x, float y) {
     return fabsf(w->state.agents.x[i] - x) < 1e-6f && fabsf(w->state.agents.y[i] - y) < 1e-6f;
 }
 
-/* Rows may be in any order; at 0 s people are there before the first step, others come in with the
-   step that begins at their time or after it. */
-static void each_comes_in_at_its_time_and_place(void **state) {
+/* Rows may be in any order. Agents that start at 0 s exist before the first step; others come in
+ * with the first step that begins at their time or later. */
+static void agents_start_at_their_times_and_places(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         STARTS("[[1.02, 3, 4], [0, 0, 0], [0.5, 9, 9, 0, -1.5], [0, 6, 0, 1, 0]]"), STAND);
     JoWorld *w = scene->world;
     const JoxAgents *a = &w->state.agents;
     assert_int_equal(a->count, 2);
-    assert_true(is_at(w, 0, 0, 0) && is_at(w, 1, 6, 0));
+    assert_true(stands_at(w, 0, 0, 0) && stands_at(w, 1, 6, 0));
     assert_true(a->vx[1] == 1.0f && a->face_x[1] == 1.0f && a->vx[0] == 0.0f);
     step_scene(scene, 10); /* 0.5 s */
     assert_int_equal(a->count, 2);
@@ -226,8 +226,8 @@ static void expect_starts_waiting(const JoScene *scene, double people) {
     jo_free(figures);
 }
 
-/* Who would stand in another waits; who comes in elsewhere does not wait for that one. */
-static void who_would_stand_in_another_waits(void **state) {
+/* An agent waits while another stands at its start; agents with other starts do not wait for it. */
+static void agent_waits_while_its_start_is_occupied(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0], [0.7, 0.35, 0]]"), STAND);
@@ -254,8 +254,8 @@ static void who_would_stand_in_another_waits(void **state) {
     jo_scene_free(scene);
 }
 
-/* A search that ends by its bound does not say that there is no room. */
-static void search_ended_by_its_bound_is_told(void **state) {
+/* A search that ends at its limit does not prove that there is no room. */
+static void search_for_room_that_hits_its_limit_is_reported(void **state) {
     (void)state;
     JoScene *scene = load_scene_text("jostle: 1\nplaces: {hall: {point: [0, 0], radius: 5}}\n"
                                      "groups: {people: {behaviour: own.lua, count: 569, fill: hex, "
@@ -276,8 +276,8 @@ static void search_ended_by_its_bound_is_told(void **state) {
     jo_scene_free(scene);
 }
 
-/* Beside a thin wall there is no room for a whole body. Who is born there is moved away from the
-   wall, not through it, also where others leave the nearest room on its far side. */
+/* Beside a thin wall there is no room for an agent: it is moved away from the wall, not through it,
+ * also if the nearest room is on the other side. */
 static void nobody_is_born_through_a_wall(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
@@ -295,9 +295,9 @@ static void nobody_is_born_through_a_wall(void **state) {
     jo_scene_free(scene);
 }
 
-/* A state that was saved with some still outside goes on to the bit, also in a world that has not
-   begun; who is in is hashed. */
-static void who_has_come_in_is_state(void **state) {
+/* A state saved while some agents have not started continues exactly, also in a new world; which
+ * agents have started is hashed. */
+static void started_agents_are_state(void **state) {
     (void)state;
     static const char ROWS[] = STARTS("[[0, 0, 0], [0.5, 0.1, 0], [1, 5, 0], [2.5, 8, 0], "
                                       "[2.6, 9, 3, 1, 1], [30, 1, 1]]");
@@ -323,7 +323,8 @@ static void who_has_come_in_is_state(void **state) {
     jo_scene_free(other);
 }
 
-/* 9 people were made in 6 m2 at 2 per m2: the floor within 0.2 m of walls did not count. */
+/* A regression: 9 people were placed in 6 m2 at 2 per m2, as floor within 0.2 m of walls did not
+ * count. */
 static void density_counts_the_floor_up_to_walls(void **state) {
     (void)state;
     JoScene *scene = load_scene_text("jostle: 1\n"
@@ -349,15 +350,16 @@ static void density_counts_the_floor_up_to_walls(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_program_steps_the_world_of_a_scene),
-                                       cmocka_unit_test(density_counts_the_floor_up_to_walls),
-                                       cmocka_unit_test(a_saved_crowd_goes_on_to_the_bit),
-                                       cmocka_unit_test(counts_of_sources_are_hashed),
-                                       cmocka_unit_test(sources_in_full_places_wait),
-                                       cmocka_unit_test(each_comes_in_at_its_time_and_place),
-                                       cmocka_unit_test(who_would_stand_in_another_waits),
-                                       cmocka_unit_test(search_ended_by_its_bound_is_told),
-                                       cmocka_unit_test(nobody_is_born_through_a_wall),
-                                       cmocka_unit_test(who_has_come_in_is_state)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(program_can_step_the_world_of_a_scene),
+        cmocka_unit_test(density_counts_the_floor_up_to_walls),
+        cmocka_unit_test(saved_crowd_continues_exactly),
+        cmocka_unit_test(counts_of_sources_are_hashed),
+        cmocka_unit_test(source_waits_while_its_place_is_full),
+        cmocka_unit_test(agents_start_at_their_times_and_places),
+        cmocka_unit_test(agent_waits_while_its_start_is_occupied),
+        cmocka_unit_test(search_for_room_that_hits_its_limit_is_reported),
+        cmocka_unit_test(nobody_is_born_through_a_wall),
+        cmocka_unit_test(started_agents_are_state)};
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,4 +1,4 @@
-/* Pushes among the events of scenes: whom they reach, and how long they last. */
+/* Tests of pushes as events of scenes: which agents they reach, and how long they last. */
 #include <math.h>
 
 #include "unit/scene_loader.h"
@@ -13,27 +13,27 @@
     "groups: {people: {behaviour: own.lua, at: [[0, 0], [9, 0]]}}\n"                               \
     "events:\n" list
 
-static float force_on(const JoScene *scene, uint32_t id) {
+static float read_force(const JoScene *scene, uint32_t id) {
     const JoxAgents *a = &scene->world->state.agents;
     return a->last_ext_x[jox_agents_find(a, id)];
 }
 
-static void a_push_reaches_whoever_stands_there_while_it_lasts(void **state) {
+static void push_acts_on_agents_in_its_place_while_it_lasts(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(PUSHED("  - {at: 0.1, push: stand, force: [100, 0], lasts: 0.15}\n"), STAY);
     const float wanted[8] = {0, 0, 100, 100, 100, 0, 0, 0}; /* steps of 0.05 s */
     for (int n = 0; n < 8; n++) {
         step_scene(scene, 1);
-        assert_float_equal(force_on(scene, 0), wanted[n], 0);
-        assert_float_equal(force_on(scene, 1), 0, 0);
+        assert_float_equal(read_force(scene, 0), wanted[n], 0);
+        assert_float_equal(read_force(scene, 1), 0, 0);
     }
     const JoxAgents *a = &scene->world->state.agents;
     assert_true(a->x[jox_agents_find(a, 0)] > 0.01f);
     jo_scene_free(scene);
 }
 
-static void pushes_come_again_and_add_up(void **state) {
+static void pushes_repeat_and_add_up(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         PUSHED("  - {at: 0, every: 0.2, until: 0.3, push: stand, force: [10, 0], lasts: 0.1}\n"
@@ -42,13 +42,13 @@ static void pushes_come_again_and_add_up(void **state) {
     const float wanted[8] = {10, 11, 1, 1, 11, 10, 0, 0};
     for (int n = 0; n < 8; n++) {
         step_scene(scene, 1);
-        assert_float_equal(force_on(scene, 0), wanted[n], 0);
+        assert_float_equal(read_force(scene, 0), wanted[n], 0);
     }
     jo_scene_free(scene);
 }
 
 /* 40 N for 1 s on 20 kg without friction. */
-static void a_body_takes_on_the_momentum(void **state) {
+static void pushed_body_gains_the_momentum(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -66,9 +66,9 @@ static void a_body_takes_on_the_momentum(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_push_reaches_whoever_stands_there_while_it_lasts),
-        cmocka_unit_test(pushes_come_again_and_add_up),
-        cmocka_unit_test(a_body_takes_on_the_momentum),
+        cmocka_unit_test(push_acts_on_agents_in_its_place_while_it_lasts),
+        cmocka_unit_test(pushes_repeat_and_add_up),
+        cmocka_unit_test(pushed_body_gains_the_momentum),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,4 +1,4 @@
-/* What a program reads of a running scene through jostle_read.h. */
+/* Tests of jostle_read.h, by which a program reads a running scene. */
 #include <math.h>
 
 #include "unit/gate_ball_scene.h"
@@ -13,15 +13,15 @@ static JoScene *scene;
 static JoWorld *world;
 static JoError error;
 
-static void begin_scene(void) {
+static void load_read_scene(void) {
     scene = load_scene_text(
         jox_bodies_available() ? WORLD PLACES PEOPLE_OF : PLAIN PLACES PEOPLE_OF, OWN);
     world = jo_scene_world(scene);
 }
 
-static void columns_are_in_place(void **state) {
+static void columns_point_at_the_state(void **state) {
     (void)state;
-    begin_scene();
+    load_read_scene();
     step_scene(scene, 3);
     const JoColumn id = jo_world_column(world, "id"), x = jo_world_column(world, "x"),
                    mass = jo_world_column(world, "mass"),
@@ -51,9 +51,9 @@ static void columns_are_in_place(void **state) {
     jo_scene_free(scene);
 }
 
-static void events_tell_what_happened(void **state) {
+static void events_list_what_happened_in_the_step(void **state) {
     (void)state;
-    begin_scene();
+    load_read_scene();
     JoEvents e = jo_world_events(world);
     assert_int_equal(e.entered_count, 4);
     assert_int_equal(e.entered[3].agent, 3);
@@ -81,8 +81,8 @@ static void events_tell_what_happened(void **state) {
     jo_scene_free(scene);
 }
 
-/* Who walks into a wall presses on it; that begins once. */
-static void touches_begin(void **state) {
+/* An agent that walks into a wall touches it; the touch begins once. */
+static void touch_begins_once(void **state) {
     (void)state;
     scene =
         load_scene_text("jostle: 1\nwalls: [{line: [[0, -0.3], [3, -0.3], [3, 0.3], [0, 0.3]]}]\n"
@@ -108,7 +108,7 @@ static void touches_begin(void **state) {
     jo_scene_free(scene);
 }
 
-static void kicks_are_told(void **state) {
+static void kicks_are_listed(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -138,11 +138,11 @@ static void kicks_are_told(void **state) {
     jo_scene_free(scene);
 }
 
-static void a_ball_hits(void **state) {
+static void hit_of_a_ball_is_listed(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    begin_scene();
+    load_read_scene();
     const JoBody ball = jo_world_find_body(world, "ball");
     assert_true(jo_body_place(world, ball, (double[]){6, 0.2, 1.2}, NULL, &error));
     assert_true(jo_body_set_velocity(world, ball, (double[]){-12, 0, 0}, NULL, &error));
@@ -153,7 +153,7 @@ static void a_ball_hits(void **state) {
         for (uint32_t k = 0; k < e.hit_count; k++, hits++) {
             assert_int_equal(jo_world_body_at(world, e.hits[k].body).generation, ball.generation);
             assert_true(e.hits[k].impulse > 1.0f && e.hits[k].z > 0.5f);
-            assert_int_equal(e.hits[k].agent, 3); /* the nearest to it */
+            assert_int_equal(e.hits[k].agent, 3); /* the agent nearest to the ball */
         }
         if (hits)
             break;
@@ -162,9 +162,9 @@ static void a_ball_hits(void **state) {
     jo_scene_free(scene);
 }
 
-static void questions_have_exact_answers(void **state) {
+static void queries_have_exact_answers(void **state) {
     (void)state;
-    begin_scene();
+    load_read_scene();
     uint32_t ids[8];
     float away[8];
     assert_int_equal(jo_world_neighbours(world, 0, 0, 2.1, ids, away, 8), 3);
@@ -182,14 +182,15 @@ static void questions_have_exact_answers(void **state) {
     assert_true(c.hit && fabs(c.x - 29.6) < 1e-4); /* the wall's end: 0.4 before it, 0.3 beside */
     c = jo_world_cast(world, (double[]){25, 5.3}, (double[]){35, 5.3}, 0.2, JO_CAST_WALLS);
     assert_true(!c.hit && c.share == 1.0 && c.x == 35.0);
-    c = jo_world_cast(world, (double[]){0, 0}, (double[]){0, 0}, 0, JO_CAST_AGENTS); /* within */
+    c = jo_world_cast(world, (double[]){0, 0}, (double[]){0, 0}, 0,
+                      JO_CAST_AGENTS); /* starts within an agent */
     assert_true(c.hit && c.share == 0.0);
     assert_true(jo_scene_open_wall(scene, "gate", true, &error));
     assert_false(jo_world_cast(world, (double[]){25, 2}, (double[]){35, 2}, 0, JO_CAST_WALLS).hit);
     assert_int_equal(jo_world_walls(world, NULL, 0), 0);
     assert_true(jo_scene_open_wall(scene, "gate", false, &error));
     double edges[8];
-    assert_int_equal(jo_world_walls(world, edges, 2), 2); /* there and back */
+    assert_int_equal(jo_world_walls(world, edges, 2), 2); /* both directions of an edge */
     assert_true(edges[0] == 30.0 && edges[6] == 30.0);
     if (jox_bodies_available()) {
         step_scene(scene, 1);
@@ -203,9 +204,9 @@ static void questions_have_exact_answers(void **state) {
     jo_scene_free(scene);
 }
 
-static void ways_lead_round_walls(void **state) {
+static void paths_lead_round_walls(void **state) {
     (void)state;
-    begin_scene();
+    load_read_scene();
     double length, xy[800];
     const double straight = hypot(10.0, 5.0); /* to the wall's end, on either side of it */
     const uint32_t count = jo_world_path(world, 20, 0, "east", xy, 400, &length);
@@ -234,8 +235,8 @@ static void density_is_a_gaussian_that_walls_stop(void **state) {
     jo_scene_free(scene);
 }
 
-/* Without friction a body's momentum is what people gave it, by presses and by its own hit. */
-static void what_people_give_a_body(void **state) {
+/* Without friction the momentum of a body is the sum of the impulses that people gave it. */
+static void impulses_of_people_add_up_to_the_momentum_of_a_body(void **state) {
     (void)state;
     if (!jox_bodies_available())
         return;
@@ -263,7 +264,7 @@ static void what_people_give_a_body(void **state) {
     }
     assert_true(sum > 5.0);
     assert_float_equal(sum, 30.0 * jo_body_state(world, crate).vx, 0.01 * sum);
-    /* What the program gives is none of it. */
+    /* Impulses of the program do not count. */
     jo_world_step(world, 40);
     assert_true(jo_body_impulse(world, crate, (double[]){300, 0, 0}, NULL, &error));
     jo_world_step(world, 20);
@@ -273,7 +274,7 @@ static void what_people_give_a_body(void **state) {
     jo_world_free(world);
 }
 
-static void a_snapshot_goes_on_to_the_bit(void **state) {
+static void snapshot_continues_exactly(void **state) {
     (void)state;
     scene = load_scene_text(PLAIN PLACES PEOPLE_OF, OWN);
     world = jo_scene_world(scene);
@@ -295,16 +296,16 @@ static void a_snapshot_goes_on_to_the_bit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_are_in_place),
-        cmocka_unit_test(events_tell_what_happened),
-        cmocka_unit_test(touches_begin),
-        cmocka_unit_test(kicks_are_told),
-        cmocka_unit_test(a_ball_hits),
-        cmocka_unit_test(questions_have_exact_answers),
-        cmocka_unit_test(ways_lead_round_walls),
+        cmocka_unit_test(columns_point_at_the_state),
+        cmocka_unit_test(events_list_what_happened_in_the_step),
+        cmocka_unit_test(touch_begins_once),
+        cmocka_unit_test(kicks_are_listed),
+        cmocka_unit_test(hit_of_a_ball_is_listed),
+        cmocka_unit_test(queries_have_exact_answers),
+        cmocka_unit_test(paths_lead_round_walls),
         cmocka_unit_test(density_is_a_gaussian_that_walls_stop),
-        cmocka_unit_test(what_people_give_a_body),
-        cmocka_unit_test(a_snapshot_goes_on_to_the_bit),
+        cmocka_unit_test(impulses_of_people_add_up_to_the_momentum_of_a_body),
+        cmocka_unit_test(snapshot_continues_exactly),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,4 +1,5 @@
-/* Reload: every beginning of every behaviour, reloads that change nothing, memory, saved files. */
+/* Tests of reloads: of every prefix of every behaviour, of unchanged texts, of saved files, and
+ * their use of memory. */
 #include <glob.h>
 #include <malloc.h>
 #include <setjmp.h>
@@ -25,7 +26,7 @@ static char *read_behaviour(const JoScene *scene, uint32_t index, size_t *length
     return text;
 }
 
-/* Whether a behaviour is made of a journey of the scene, and is no file that somebody saves. */
+/* Returns whether a behaviour is generated from a journey of the scene, and thus is no file. */
 static bool is_made(const JoScene *scene, uint32_t index) {
     return jox_run_made(scene->spec, scene->world->model.machines.items[index]->path) != NULL;
 }
@@ -58,7 +59,7 @@ static JoScene *load_small(const char *path) {
     return load_scene_file(path, sets, count);
 }
 
-static void each_scene(void (*visit)(const char *path)) {
+static void visit_shipped_scenes(void (*visit)(const char *path)) {
     glob_t scenes;
     assert_int_equal(glob("scenes/*.yaml", 0, NULL, &scenes), 0);
     for (size_t s = 0; s < scenes.gl_pathc; s++)
@@ -66,7 +67,8 @@ static void each_scene(void (*visit)(const char *path)) {
     globfree(&scenes);
 }
 
-/* The hash after so many steps with nothing else; each scene is run once for it. */
+/* Returns the hash of a scene after `steps` steps without reloads; each scene is run once for it.
+ */
 static uint64_t hash_alone(const char *path) {
     enum { MOST = 256 };
     static char paths[MOST][200];
@@ -84,11 +86,11 @@ static uint64_t hash_alone(const char *path) {
     return hashes[count++];
 }
 
-/* ---- every beginning of a file, saved while the crowd runs ---- */
+/* ---- every prefix of a file, saved during a run ---- */
 
 static size_t next_prefix(size_t n, size_t length) {
     size_t next = n + (length > LONG_FILE && n >= 400 ? 5 : 1) * EFFORT_EACH;
-    return next > length && n < length ? length : next; /* the whole is always the last */
+    return next > length && n < length ? length : next; /* the whole text is always the last */
 }
 
 /* A behaviour that an earlier scene has tried whole is cut at fewer places, unless
@@ -98,14 +100,14 @@ static size_t next_cut(size_t n, size_t length, bool known) {
     return next > length && n < length ? length : next;
 }
 
-static size_t cuts_of(size_t length, bool known) {
+static size_t count_cuts(size_t length, bool known) {
     size_t count = 0;
     for (size_t n = 0; n <= length; n = next_cut(n, length, known))
         count++;
     return count;
 }
 
-/* Whether an earlier scene has this file. */
+/* Returns whether an earlier scene has this file. */
 static bool is_known(const char *path) {
     enum { MOST = 256 };
     static char *paths[MOST];
@@ -124,15 +126,14 @@ static bool is_known(const char *path) {
 
 static size_t tried, lived;
 
-/* A behaviour of a scene whose beginnings are saved: the next is of n bytes, done of all are over.
- */
+/* A behaviour of a scene, and its prefixes: the next has n bytes, and `done` of all were tried. */
 typedef struct Saved {
     char *text;
     size_t length, n, done, all;
     bool known;
 } Saved;
 
-static void save_beginning(JoScene *scene, uint32_t m, Saved *s) {
+static void save_prefix(JoScene *scene, uint32_t m, Saved *s) {
     /* a block of exactly this size, so that a read beyond it is seen */
     char *prefix = jox_alloc(s->n + 1, 1);
     memcpy(prefix, s->text, s->n);
@@ -149,8 +150,7 @@ static void save_beginning(JoScene *scene, uint32_t m, Saved *s) {
     s->n = next_cut(s->n, s->length, s->known);
 }
 
-/* Saves the beginnings of all behaviours of a scene, those of each in turn, during the steps of a
- * run. */
+/* Saves the prefixes of all behaviours of a scene, of each in turn, during a run. */
 static void try_prefixes(const char *path) {
     enum { MOST = 64 };
     Saved saved[MOST] = {0};
@@ -163,12 +163,12 @@ static void try_prefixes(const char *path) {
             continue;
         s->text = read_behaviour(scene, m, &s->length);
         s->known = is_known(scene->world->model.machines.items[m]->path);
-        s->all = cuts_of(s->length, s->known);
+        s->all = count_cuts(s->length, s->known);
     }
     for (int n = 1; n <= STEPS; n++) {
         for (uint32_t m = 0; m < machines; m++)
             while (saved[m].done < saved[m].all * (size_t)n / STEPS)
-                save_beginning(scene, m, &saved[m]);
+                save_prefix(scene, m, &saved[m]);
         step_scene(scene, 1);
     }
     for (uint32_t m = 0; m < machines; m++)
@@ -178,14 +178,14 @@ static void try_prefixes(const char *path) {
     jo_scene_free(scene);
 }
 
-static void every_beginning_of_a_behaviour_leaves_the_hash(void **state) {
+static void reload_of_any_prefix_of_a_behaviour_keeps_the_hash(void **state) {
     (void)state;
-    each_scene(try_prefixes);
-    assert_true(lived >= 5 && tried > 1000); /* the whole files did go live */
+    visit_shipped_scenes(try_prefixes);
+    assert_true(lived >= 5 && tried > 1000); /* the whole files went live */
 }
 
 /* Behaviours that no scene uses, without people. */
-static void every_beginning_of_a_behaviour_is_refused_but_the_last(void **state) {
+static void every_proper_prefix_of_a_behaviour_is_refused(void **state) {
     (void)state;
     glob_t files;
     assert_int_equal(glob("behaviours/*.lua", 0, NULL, &files), 0);
@@ -239,14 +239,14 @@ static void reload_all_the_time(const char *path) {
     jo_scene_free(scene);
 }
 
-static void being_watched_and_reloads_of_nothing_new_leave_the_hash(void **state) {
+static void watching_and_reloads_of_the_same_text_keep_the_hash(void **state) {
     (void)state;
-    each_scene(reload_all_the_time);
+    visit_shipped_scenes(reload_all_the_time);
 }
 
 /* ---- memory ---- */
 
-static void three_thousand_reloads_keep_nothing(void **state) {
+static void three_thousand_reloads_leak_no_memory(void **state) {
     (void)state;
     static const char EVEN[] =
         "local mine = memory { laps = 0, seen = false }\n" HEAD
@@ -282,17 +282,17 @@ static void three_thousand_reloads_keep_nothing(void **state) {
     jo_scene_free(scene);
 }
 
-/* ---- a file saved while the crowd runs ---- */
+/* ---- files saved during a run ---- */
 
-static double wall(void) {
+static double read_wall_clock(void) {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-/* Steps until the scene has scene_messages it, for at most ten seconds. */
-static bool says(JoScene *scene, const char *text) {
-    for (double begun = wall(); wall() - begun < 10.0;) {
+/* Steps until the scene has sent a message with the text, for 10 s at most. */
+static bool step_until_message(JoScene *scene, const char *text) {
+    for (double begun = read_wall_clock(); read_wall_clock() - begun < 10.0;) {
         step_scene(scene, 1);
         if (scene_messages.data && strstr(scene_messages.data, text))
             return true;
@@ -301,40 +301,40 @@ static bool says(JoScene *scene, const char *text) {
     return false;
 }
 
-static void a_saved_file_goes_live(void **state) {
+static void saved_file_goes_live(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(PEOPLE(20), FAST("1.5", ""));
     JoError error = {0};
     assert_true(jo_scene_watch(scene, &error));
     step_scene(scene, 5);
     write_test_file("own.lua", FAST("0.5", ""));
-    assert_true(says(scene, "reload 1 is live"));
+    assert_true(step_until_message(scene, "reload 1 is live"));
     assert_true(read_wanted_speed(scene, 3) == 0.5);
     write_test_file("own.lua", "return machine {");
-    assert_true(says(scene, "Reload 1 keeps running"));
-    for (int i = 0; i < 30; i++) { /* saved again and again while the crowd runs */
+    assert_true(step_until_message(scene, "Reload 1 keeps running"));
+    for (int i = 0; i < 30; i++) { /* saved repeatedly during the run */
         char text[200];
         snprintf(text, sizeof text, FAST("1.%02d", ""), i);
         write_test_file("own.lua", text);
         step_scene(scene, 3);
     }
     write_test_file("own.lua", FAST("1.9", ""));
-    for (double begun = wall();
-         read_wanted_speed(scene, 3) != (double)1.9f && wall() - begun < 10.0;)
+    for (double begun = read_wall_clock();
+         read_wanted_speed(scene, 3) != (double)1.9f && read_wall_clock() - begun < 10.0;)
         step_scene(scene, 1), usleep(500);
     assert_true(read_wanted_speed(scene, 3) == (double)1.9f);
-    write_test_file("own.lua", FAST("1.1", "")); /* freed while something is being loaded */
+    write_test_file("own.lua", FAST("1.1", "")); /* the scene is freed while this is being loaded */
     usleep(40000);
     jo_scene_free(scene);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_beginning_of_a_behaviour_leaves_the_hash),
-        cmocka_unit_test(every_beginning_of_a_behaviour_is_refused_but_the_last),
-        cmocka_unit_test(being_watched_and_reloads_of_nothing_new_leave_the_hash),
-        cmocka_unit_test(three_thousand_reloads_keep_nothing),
-        cmocka_unit_test(a_saved_file_goes_live),
+        cmocka_unit_test(reload_of_any_prefix_of_a_behaviour_keeps_the_hash),
+        cmocka_unit_test(every_proper_prefix_of_a_behaviour_is_refused),
+        cmocka_unit_test(watching_and_reloads_of_the_same_text_keep_the_hash),
+        cmocka_unit_test(three_thousand_reloads_leak_no_memory),
+        cmocka_unit_test(saved_file_goes_live),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,5 +1,5 @@
-/* A checkpoint is taken whole or refused with the reason, whatever became of its bytes; and memory
-   that runs out while it is read or written is an error of that call. */
+/* Tests of checkpoints: a damaged file is refused with the reason, and memory that runs out while
+ * reading or writing is an error of the call. */
 #include <sys/stat.h>
 
 #include "unit/scene_loader.h"
@@ -25,7 +25,7 @@ static JoScene *resume_yard(const char *path, char **note, JoError *error) {
     return jo_scene_resume(&def, path, note, error);
 }
 
-/* Ten steps with a checkpoint at each; the hash after them, or 0. */
+/* Runs ten steps with a checkpoint after each. Returns the hash, or 0 with `error`. */
 static uint64_t write_checkpoints(JoError *error) {
     JoScene *scene = load_yard(error);
     bool good = scene && jo_scene_checkpoint(scene, target, 0.05, "a note\n", error);
@@ -46,7 +46,7 @@ static void write_yard_and_checkpoint(void) {
         fail_msg("%s", error.text);
 }
 
-static void a_checkpoint_has_the_state_and_the_note(void **state) {
+static void checkpoint_holds_state_and_note(void **state) {
     (void)state;
     JoError error = {0};
     char *note = NULL;
@@ -81,7 +81,7 @@ static void assert_checkpoint_refused(const char *bytes, size_t length, const ch
     assert_true(strlen(error.text) > 20 && !note);
 }
 
-static void every_damage_is_refused(void **state) {
+static void damaged_checkpoint_is_refused(void **state) {
     (void)state;
     write_yard_and_checkpoint();
     size_t length;
@@ -106,7 +106,7 @@ static bool out_of_memory(const JoError *error) {
     return error->code == JO_FAILED && strstr(error->text, "out of memory");
 }
 
-static void memory_may_run_out(void **state) {
+static void out_of_memory_is_an_error_of_the_call(void **state) {
     (void)state;
     write_yard_and_checkpoint();
     int failures = 0;
@@ -130,7 +130,8 @@ static void memory_may_run_out(void **state) {
         jox_alloc_fail_after(UINT64_MAX);
         JoError other = {0};
         char *note = NULL;
-        JoScene *scene = resume_yard(target, &note, &other); /* the one before, or this */
+        JoScene *scene =
+            resume_yard(target, &note, &other); /* the previous checkpoint, or the new one */
         if (!scene)
             fail_msg("allocation %llu: %s", (unsigned long long)n, other.text);
         jo_free(note);
@@ -151,8 +152,8 @@ static int remove_checkpoints(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_checkpoint_has_the_state_and_the_note),
-                                       cmocka_unit_test(every_damage_is_refused),
-                                       cmocka_unit_test(memory_may_run_out)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(checkpoint_holds_state_and_note),
+                                       cmocka_unit_test(damaged_checkpoint_is_refused),
+                                       cmocka_unit_test(out_of_memory_is_an_error_of_the_call)};
     return cmocka_run_group_tests(tests, make_test_folder, remove_checkpoints);
 }

@@ -1,4 +1,5 @@
-/* Sources: on which side of walls people come in, how many of those who are due do, and when. */
+/* Tests of sources: on which side of walls people come in, how many of the people due come, and
+ * when. */
 #include "run/results/demand.h"
 #include "unit/gate_ball_scene.h"
 
@@ -12,7 +13,7 @@
 
 typedef struct Side {
     const char *name, *yaml;
-    JoxV2 low, high; /* m: within which all come in */
+    JoxV2 low, high; /* m: box in which all people come in */
 } Side;
 
 #define ROOM "{line: [[0, 0], [10, 0], [10, 10], [0, 10]], closed: true}"
@@ -74,8 +75,8 @@ static void nobody_comes_in_beyond_a_wall(void **state) {
     }
 }
 
-/* A wall that goes up across a source, and all over it, and down again. */
-static void sources_heed_gates_as_they_stand(void **state) {
+/* A wall goes up across a source, then covers it, and goes down again. */
+static void sources_respect_gates_that_open_and_close(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         SOURCE("{line: [[1, -30], [1, 30]], name: fence, open: true}, "
@@ -101,10 +102,10 @@ static void sources_heed_gates_as_they_stand(void **state) {
 
 /* ---- demand ---- */
 
-/* A yard for some 20 people; a few more stand about it. */
+/* A yard with room for some 20 people; a few more stand round it. */
 #define YARD "polygon: [[0, 0], [1.8, 0], [1.8, 1.8], [0, 1.8]]"
 
-static void demand_that_is_not_met_is_counted(void **state) {
+static void people_who_did_not_come_are_counted(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(SOURCE("", YARD, ", rate: 20, even: true, until: 10"), STANDER);
@@ -140,7 +141,7 @@ static void demand_that_is_not_met_is_counted(void **state) {
     jo_scene_free(scene);
 }
 
-/* What `until` ends does not depend on the step. */
+/* The number of people due until `until` does not depend on the step. */
 static void people_due_do_not_depend_on_the_step(void **state) {
     (void)state;
     static const char *const STEPS[] = {"step=0.01", "step=0.07", "step=0.1"};
@@ -162,8 +163,8 @@ static void people_due_do_not_depend_on_the_step(void **state) {
 
 enum { STREAMS = 64, SEEDS = 40, TOTALS = STREAMS * SEEDS };
 
-/* How many arrive in the first and in the second 6 s at sources that a gate shuts, so that nobody
-   comes in: people are counted where they wait. */
+/* Counts arrivals in the first and in the second 6 s at sources that are walled off, so that
+ * arrivals are counted as they wait. */
 static void count_arrivals(const char *source, uint64_t seed, const char *length,
                            int half[2][STREAMS]) {
     char by_seed[40];
@@ -190,7 +191,7 @@ static void count_arrivals(const char *source, uint64_t seed, const char *length
 }
 
 typedef struct Moments {
-    double mean, variance, covariance; /* of totals; of the halves with each other */
+    double mean, variance, covariance; /* of the totals; the covariance of the two halves */
 } Moments;
 
 static Moments measure_arrivals(const char *source) {
@@ -210,9 +211,9 @@ static Moments measure_arrivals(const char *source) {
                      products / TOTALS - first / TOTALS * (second / TOTALS)};
 }
 
-/* Bands of five standard errors: a Poisson total has the variance m of its mean, its mean an error
-   of sqrt(m / n), its variance one of m sqrt((2 + 1 / m) / n), the covariance one of m / 2 / sqrt
-   n. */
+/* Bands of five standard errors. A Poisson total of mean m has the variance m. Over n runs its mean
+ * has the standard error sqrt(m / n), its variance m sqrt((2 + 1 / m) / n), the covariance m / 2 /
+ * sqrt n. */
 static void arrivals_are_a_poisson_process(void **state) {
     (void)state;
     static const char *const SOURCES[] = {"rate: 2.5", "curve: [[0, 0], [6, 5], [12, 0]]",
@@ -240,7 +241,7 @@ static void arrivals_do_not_depend_on_the_step(void **state) {
     assert_memory_not_equal(coarse, fine, sizeof fine);
 }
 
-/* Those who come at times that are given, and at once, are as many for each seed. */
+/* Arrivals at given times, and at once, are equal in number for each seed. */
 static void timetables_are_exact(void **state) {
     (void)state;
     int half[2][STREAMS];
@@ -255,8 +256,8 @@ static void timetables_are_exact(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_comes_in_beyond_a_wall),
-                                       cmocka_unit_test(sources_heed_gates_as_they_stand),
-                                       cmocka_unit_test(demand_that_is_not_met_is_counted),
+                                       cmocka_unit_test(sources_respect_gates_that_open_and_close),
+                                       cmocka_unit_test(people_who_did_not_come_are_counted),
                                        cmocka_unit_test(people_due_do_not_depend_on_the_step),
                                        cmocka_unit_test(arrivals_are_a_poisson_process),
                                        cmocka_unit_test(arrivals_do_not_depend_on_the_step),

@@ -1,13 +1,13 @@
-/* The state of a world: what is restored goes on to the bit, each cell of it is hashed, and what is
-   no part of it may be forgotten at every step. */
+/* Tests of the state of a world: a restored state continues exactly, each cell of it is hashed, and
+ * scratch memory may be cleared before any step. */
 #include <math.h>
 
 #include "unit/gate_ball_scene.h"
 
 enum { BEFORE = 130, AFTER = 120 };
 
-/* People who queue, find their way round walls, call, remember, draw durations and push; a gate
-   between them and the goal. */
+/* A crowd that uses queues, routes, signals, memory, random durations and pushes, with a gate
+ * before the goal. */
 #define TOWN                                                                                       \
     "jostle: 1\n"                                                                                  \
     "places:\n"                                                                                    \
@@ -41,11 +41,11 @@ enum { BEFORE = 130, AFTER = 120 };
     "    { to = \"Come\", when = heard \"room\", chance = 0.3 },\n"                                \
     "    { to = \"Come\", when = lasted, set = { waited = true } } } } }\n"
 
-static JoScene *town(void) {
+static JoScene *load_town(void) {
     return load_scene_text(TOWN, TOWNSFOLK("1"));
 }
 
-static void snapshot(JoScene *scene, JoxText *out) {
+static void take_snapshot(JoScene *scene, JoxText *out) {
     JoError error = {0};
     out->length = 0;
     if (!jox_world_snapshot(scene->world, out, &error))
@@ -58,9 +58,9 @@ static void restore_snapshot(JoScene *scene, const JoxText *from) {
         fail_msg("%s", error.text);
 }
 
-/* To a moment in which something of each kind is under way: signals called and announced, an entry
-   hook that has yet to run, a parameter that was set, a route that is being made. */
-static void begin_all(JoScene *scene, int steps, bool announces) {
+/* Steps to a moment with unfinished work of each kind: called and announced signals, a pending
+ * entry hook, a set parameter, a route that is being made. */
+static void step_until_busy(JoScene *scene, int steps, bool announces) {
     JoWorld *world = scene->world;
     const JoxMachineState *machines = &world->state.machines;
     step_scene(scene, steps);
@@ -69,15 +69,15 @@ static void begin_all(JoScene *scene, int steps, bool announces) {
     step_scene(scene, 2);
     for (int n = 0; n < 40 && machines->called_count == 0; n++)
         step_scene(scene, 1);
-    if (announces) /* everybody heeds it, and not what the others call */
+    if (announces) /* all agents respond to it, and not to the signals of others */
         apply_input(scene, "signal crowd");
     jox_machines_spawn(&world->machines, jox_world_add_agent(world, 2.0f, 2.0f), 0, NULL, NULL);
     assert_true(machines->called_count > 0 && machines->announced_count == announces);
     assert_true(machines->pending_count > 0 && machines->edit_count > 0);
 }
 
-/* What people do in the steps behind the snapshot; the same each time. */
-static void meddle(JoScene *scene, int step_number) {
+/* Applies the same inputs after the snapshot each time. */
+static void apply_inputs_of_step(JoScene *scene, int step_number) {
     switch (step_number) {
     case 10:
         apply_input(scene, "open gate");
@@ -100,10 +100,10 @@ static void meddle(JoScene *scene, int step_number) {
     }
 }
 
-static void run_on(JoScene *scene, uint64_t hashes[AFTER], bool meddles) {
+static void record_next_hashes(JoScene *scene, uint64_t hashes[AFTER], bool meddles) {
     for (int n = 0; n < AFTER; n++) {
         if (meddles)
-            meddle(scene, n);
+            apply_inputs_of_step(scene, n);
         step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
     }
@@ -115,26 +115,27 @@ static void expect_same(const uint64_t a[AFTER], const uint64_t b[AFTER]) {
             fail_msg("the hashes differ from step %d behind the snapshot on", n);
 }
 
-static void a_restored_world_goes_on_to_the_bit(void **state) {
+static void restored_world_continues_exactly(void **state) {
     (void)state;
     for (int meddles = 0; meddles < 2; meddles++) {
-        JoScene *scene = town();
+        JoScene *scene = load_town();
         JoxText saved = {0}, again = {0};
         uint64_t first[AFTER], second[AFTER];
-        begin_all(scene, BEFORE + meddles, meddles); /* sorted at another step */
-        snapshot(scene, &saved);
+        step_until_busy(scene, BEFORE + meddles,
+                        meddles); /* so that agents are sorted at another step */
+        take_snapshot(scene, &saved);
         uint64_t then = jo_world_hash(scene->world);
-        run_on(scene, first, meddles);
+        record_next_hashes(scene, first, meddles);
         restore_snapshot(scene, &saved);
         assert_true(jo_world_hash(scene->world) == then);
-        snapshot(scene, &again);
+        take_snapshot(scene, &again);
         JoxSections compared = jox_sections_compare(again.data, again.length);
         jox_world_sections(scene->world, &compared);
         assert_true(jox_sections_end(&compared));
-        run_on(scene, second, meddles);
+        record_next_hashes(scene, second, meddles);
         expect_same(first, second);
         restore_snapshot(scene, &saved);
-        run_on(scene, second, meddles);
+        record_next_hashes(scene, second, meddles);
         expect_same(first, second);
         jox_text_free(&saved);
         jox_text_free(&again);
@@ -142,26 +143,26 @@ static void a_restored_world_goes_on_to_the_bit(void **state) {
     }
 }
 
-/* Another world of the same model, in the same process, too. */
-static void another_world_takes_the_state_over(void **state) {
+/* Restores into the same world, and into another world of the same model. */
+static void another_world_takes_over_the_state(void **state) {
     (void)state;
-    JoScene *scene = town(), *other = town();
+    JoScene *scene = load_town(), *other = load_town();
     JoxText saved = {0};
     uint64_t first[AFTER], second[AFTER];
-    begin_all(scene, BEFORE, true);
+    step_until_busy(scene, BEFORE, true);
     step_scene(other, 37);
-    snapshot(scene, &saved);
-    run_on(scene, first, false);
+    take_snapshot(scene, &saved);
+    record_next_hashes(scene, first, false);
     restore_snapshot(other, &saved);
-    run_on(other, second, false);
+    record_next_hashes(other, second, false);
     expect_same(first, second);
     jox_text_free(&saved);
     jo_scene_free(scene);
     jo_scene_free(other);
 }
 
-/* People come in parties, some carry a ball and throw it, others press a wall of blocks down, and
-   leave; a gate opens and a ball comes flying at given times. */
+/* People come in parties; some carry and throw a ball, others push over a wall of blocks, and
+ * leave; at given times a gate opens and a ball is thrown in. */
 #define YARD                                                                                       \
     "jostle: 1\n"                                                                                  \
     "places:\n"                                                                                    \
@@ -194,8 +195,8 @@ static void another_world_takes_the_state_over(void **state) {
     "    { to = \"Walk\", when = ~has(ball) | after(1) } },\n"                                     \
     "  Rest = { steer = hold, lasts = 1, { to = \"Walk\", when = lasted } } } }\n"
 
-/* The second half of what happens is new: boxes are thrown in, the crate is dragged. */
-static void meddle_in_yard(JoScene *scene, int step_number) {
+/* The second half adds inputs: boxes are thrown in, and the crate is dragged. */
+static void apply_yard_inputs(JoScene *scene, int step_number) {
     if (step_number == 15)
         apply_input(scene, "box 10 4 0.6 -9 0 0 0.4 60");
     if (step_number == 25)
@@ -204,15 +205,15 @@ static void meddle_in_yard(JoScene *scene, int step_number) {
         apply_input(scene, "release 2");
 }
 
-static void in_yard(JoScene *scene, uint64_t hashes[AFTER]) {
+static void record_yard_hashes(JoScene *scene, uint64_t hashes[AFTER]) {
     for (int n = 0; n < AFTER; n++) {
-        meddle_in_yard(scene, n);
+        apply_yard_inputs(scene, n);
         step_scene(scene, 1);
         hashes[n] = jo_world_hash(scene->world);
     }
 }
 
-static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
+static void bodies_sources_and_events_continue_exactly(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -226,18 +227,18 @@ static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
     assert_false(jox_world_snapshot(scene->world, &saved, &error));
     assert_non_null(strstr(error.text, "after every 128 steps"));
     step_scene(scene, 1);
-    snapshot(scene, &saved);
+    take_snapshot(scene, &saved);
     const JoxStatistics before = *did;
-    in_yard(scene, first);
+    record_yard_hashes(scene, first);
     assert_true(did->spawned > before.spawned && did->removed > before.removed);
     assert_true(did->bonds.broken > before.bonds.broken);
     assert_true(did->throws > before.throws && before.pickups > 0 && did->opened > before.opened);
     restore_snapshot(scene, &saved);
-    in_yard(scene, second);
+    record_yard_hashes(scene, second);
     expect_same(first, second);
     step_scene(other, 40);
     restore_snapshot(other, &saved);
-    in_yard(other, second);
+    record_yard_hashes(other, second);
     expect_same(first, second);
     jox_text_free(&saved);
     jo_scene_free(scene);
@@ -252,14 +253,14 @@ typedef struct Flips {
     size_t last_flipped;
 } Flips;
 
-static void flip(void *context, const char *section, size_t index, void *cell, size_t size,
-                 bool hashed) {
+static void flip_cell(void *context, const char *section, size_t index, void *cell, size_t size,
+                      bool hashed) {
     Flips *f = context;
     bool anew = strcmp(f->last, section) != 0;
     f->cells++;
     snprintf(f->last, sizeof f->last, "%s", section);
     f->last_flipped = anew ? 0 : f->last_flipped + 1;
-    /* Of large sections the first cells and then fewer and fewer. */
+    /* Visits the first cells of large sections, then fewer and fewer. */
     if (!hashed || (f->last_flipped > 2 && f->last_flipped % 997 != 0))
         return;
     for (size_t byte = 0; byte<size; byte += size> 64 ? 61 : 1) {
@@ -271,32 +272,32 @@ static void flip(void *context, const char *section, size_t index, void *cell, s
     }
 }
 
-static void flip_all(JoScene *scene, size_t least) {
+static void flip_all_cells(JoScene *scene, size_t least) {
     Flips f = {.scene = scene, .hash = jo_world_hash(scene->world)};
-    JoxSections s = jox_sections_visit(flip, &f);
+    JoxSections s = jox_sections_visit(flip_cell, &f);
     jox_world_sections(scene->world, &s);
     assert_true(jo_world_hash(scene->world) == f.hash);
     assert_true(f.flipped > least);
     jo_scene_free(scene);
 }
 
-static void each_cell_is_hashed(void **state) {
+static void each_cell_of_the_state_is_hashed(void **state) {
     (void)state;
-    JoScene *scene = town();
-    begin_all(scene, BEFORE, true);
-    flip_all(scene, 700);
+    JoScene *scene = load_town();
+    step_until_busy(scene, BEFORE, true);
+    flip_all_cells(scene, 700);
     if (!jox_bodies_available())
         return;
     scene = load_scene_text(YARD, YARDFOLK);
     step_scene(scene, JOX_BODIES_REINSERT_STEPS);
     apply_input(scene, "box 12 4 2 -6 0 0 0.4 10");
     apply_input(scene, "grab 2 9 5 1");
-    flip_all(scene, 1400);
+    flip_all_cells(scene, 1400);
 }
 
-/* Scratch that held something from step to step would show. */
-static void forget_often(const char *scene_text, const char *behaviour,
-                         void meddles(JoScene *scene, int step_number)) {
+/* A value that scratch memory carried from step to step would change the hash. */
+static void clear_scratch_each_step(const char *scene_text, const char *behaviour,
+                                    void meddles(JoScene *scene, int step_number)) {
     uint64_t plain[AFTER], forgetful[AFTER];
     for (int forgets = 0; forgets < 2; forgets++) {
         JoScene *scene = load_scene_text(scene_text, behaviour);
@@ -314,9 +315,9 @@ static void forget_often(const char *scene_text, const char *behaviour,
 
 static void scratch_may_be_forgotten_at_every_step(void **state) {
     (void)state;
-    forget_often(TOWN, TOWNSFOLK("1"), meddle);
+    clear_scratch_each_step(TOWN, TOWNSFOLK("1"), apply_inputs_of_step);
     if (jox_bodies_available())
-        forget_often(YARD, YARDFOLK, meddle_in_yard);
+        clear_scratch_each_step(YARD, YARDFOLK, apply_yard_inputs);
 }
 
 static void expect_refused(JoScene *scene, const JoxText *saved, const char *reason) {
@@ -329,12 +330,12 @@ static void expect_refused(JoScene *scene, const JoxText *saved, const char *rea
     step_scene(scene, 3);
 }
 
-static void what_does_not_fit_is_refused(void **state) {
+static void state_of_another_model_is_refused(void **state) {
     (void)state;
-    JoScene *scene = town();
+    JoScene *scene = load_town();
     JoxText saved = {0}, damaged = {0};
     step_scene(scene, 20);
-    snapshot(scene, &saved);
+    take_snapshot(scene, &saved);
     jox_text_append(&damaged, saved.data, saved.length);
     damaged.data[saved.length / 2] ^= 1;
     expect_refused(scene, &damaged, "checksum");
@@ -351,17 +352,18 @@ static void what_does_not_fit_is_refused(void **state) {
     jox_text_free(&damaged);
 }
 
-static void until_called(JoScene *scene) {
+static void step_until_called(JoScene *scene) {
     const JoxMachineState *machines = &scene->world->state.machines;
     for (int n = 0; n < 400 && machines->called_count == 0; n++)
         step_scene(scene, 1);
     assert_true(machines->called_count > 0);
 }
 
-/* Of good form, with checksums that are right, and yet of no run: it would be read as an index. */
-static void what_is_no_state_of_a_run_is_refused(void **state) {
+/* Well-formed states with correct checksums and impossible values, which would be used as an index.
+ */
+static void invalid_state_is_refused(void **state) {
     (void)state;
-    JoScene *scene = town();
+    JoScene *scene = load_town();
     JoWorld *world = scene->world;
     JoxAgents *a = &world->state.agents;
     JoxText odd = {0};
@@ -370,7 +372,7 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
     do {                                                                                           \
         const __typeof__(variable) was = (variable);                                               \
         (variable) = (value);                                                                      \
-        snapshot(scene, &odd);                                                                     \
+        take_snapshot(scene, &odd);                                                                \
         (variable) = was;                                                                          \
         expect_refused(scene, &odd, reason);                                                       \
     } while (0)
@@ -395,9 +397,9 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
     REFUSED(world->state.statistics.failures, UINT64_MAX);
     REFUSED_AS("machines.state", a->was_true[3], UINT32_MAX);
     REFUSED_AS("machines.state", a->given[3], UINT64_MAX);
-    until_called(scene);
+    step_until_called(scene);
     REFUSED_AS("machines.called", world->state.machines.called[0].x, NAN);
-    until_called(scene);
+    step_until_called(scene);
     REFUSED_AS("machines.called", world->state.machines.called[0].agent_id, UINT32_MAX);
     jox_text_free(&odd);
     jo_scene_free(scene);
@@ -405,13 +407,13 @@ static void what_is_no_state_of_a_run_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_restored_world_goes_on_to_the_bit),
-        cmocka_unit_test(another_world_takes_the_state_over),
-        cmocka_unit_test(bodies_sources_and_events_go_on_to_the_bit),
-        cmocka_unit_test(each_cell_is_hashed),
+        cmocka_unit_test(restored_world_continues_exactly),
+        cmocka_unit_test(another_world_takes_over_the_state),
+        cmocka_unit_test(bodies_sources_and_events_continue_exactly),
+        cmocka_unit_test(each_cell_of_the_state_is_hashed),
         cmocka_unit_test(scratch_may_be_forgotten_at_every_step),
-        cmocka_unit_test(what_does_not_fit_is_refused),
-        cmocka_unit_test(what_is_no_state_of_a_run_is_refused),
+        cmocka_unit_test(state_of_another_model_is_refused),
+        cmocka_unit_test(invalid_state_is_refused),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

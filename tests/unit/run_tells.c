@@ -1,4 +1,4 @@
-/* What a program is told of a run and of its files, as structs (jostle_tell.h). */
+/* Tests of jostle_tell.h, which returns results of a run, mods, settings and hints as structs. */
 #include <math.h>
 
 #include "jostle_tools.h"
@@ -58,14 +58,14 @@ static const JoFigure *find_figure(const JoFigures *figures, const char *path) {
     return NULL;
 }
 
-static void figures_are_those_of_the_file(void **state) {
+static void figures_equal_those_of_the_summary(void **state) {
     (void)state;
     JoScene *scene = run_steps(80);
     char *file = jo_scene_summary(scene), hash[24];
     JoFigures *figures = jo_scene_figures(scene);
     snprintf(hash, sizeof hash, "%016llx",
              (unsigned long long)jo_world_hash(jo_scene_world(scene)));
-    jo_scene_free(scene); /* they outlive it */
+    jo_scene_free(scene); /* the figures outlive the scene */
     assert_float_equal(jo_figure(figures, "agents"), 2, 0);
     assert_float_equal(jo_figure(figures, "simulated_s"), 4, 1e-9);
     assert_true(isnan(jo_figure(figures, "no.such")));
@@ -85,7 +85,7 @@ static void figures_are_those_of_the_file(void **state) {
     jo_free(file);
 }
 
-static void tables_of_probes(void **state) {
+static void probe_tables_have_the_measured_columns(void **state) {
     (void)state;
     JoScene *scene = run_steps(80);
     assert_string_equal(jo_scene_probe_name(scene, 0), "line");
@@ -110,8 +110,8 @@ static void tables_of_probes(void **state) {
     jo_free(log);
 }
 
-/* One function, which fails once for each of the two. */
-static void costs_and_troubles(void **state) {
+/* One function fails once for each of two agents. */
+static void failing_function_is_a_cost_and_a_trouble(void **state) {
     (void)state;
     JoScene *scene = run_steps(4);
     JoLuaCosts *costs = jo_scene_lua_costs(scene);
@@ -133,7 +133,7 @@ static void costs_and_troubles(void **state) {
     jo_scene_free(scene);
 }
 
-static void a_suspended_function_is_a_trouble(void **state) {
+static void suspended_function_is_a_trouble(void **state) {
     (void)state;
     write_test_file("walk.lua",
                     "return machine { name = \"walk\", version = 1, start = \"Go\", states = {\n"
@@ -156,7 +156,7 @@ static void a_suspended_function_is_a_trouble(void **state) {
     write_test_file("walk.lua", WALK);
 }
 
-static void mods_and_who_set_what(void **state) {
+static void mods_and_settings_of_paths_are_listed(void **state) {
     (void)state;
     JoSceneDef def = define_modded_scene();
     JoMods *mods = jo_mods_list(&def);
@@ -207,7 +207,7 @@ static void mods_and_who_set_what(void **state) {
     assert_int_equal(error.code, JO_INPUT);
 }
 
-/* A scene without what its behaviour does. */
+/* A scene for behaviours with parts that have no effect. */
 static const char HINTS[] =
     "jostle: 1\n"
     "duration: 30\n"
@@ -215,7 +215,7 @@ static const char HINTS[] =
     "walls: [{line: [[18, 18], [22, 18], [22, 22], [18, 22]], closed: true}]\n"
     "groups: {people: {behaviour: hint.lua, at: [[0, 0], [1, 2]], set: {perception: 2}}}\n";
 
-/* ---- what a value is now, and who set it ---- */
+/* ---- present values and their settings ---- */
 
 static const char NOW[] = "local mine = memory { n = 0, m = 0 }\n"
                           "return machine { name = \"hint\", version = 1, start = \"A\", defaults "
@@ -239,7 +239,7 @@ static JoSettings *find_settings_now(const char *name) {
     return why;
 }
 
-/* The last of them, which counts. */
+/* Checks the last setting of a value, which is in effect. */
 static void assert_last_set(const char *name, double is, JoSetBy by, int line, const char *where) {
     JoSettings *why = find_settings_now(name);
     const JoSetting *last = &why->items[why->count - 1];
@@ -256,7 +256,7 @@ static void step_shown(int steps) {
         assert_true(jo_scene_step(shown, &error));
 }
 
-static void a_value_now_and_who_set_it(void **state) {
+static void present_value_and_its_settings_are_listed(void **state) {
     (void)state;
     JoSceneDef def = define_modded_scene();
     JoError error = {0};
@@ -292,8 +292,8 @@ static void a_value_now_and_who_set_it(void **state) {
     jo_scene_free(shown);
 }
 
-/* Of what no text says where it is made, and of what was written before anybody asked. */
-static void a_value_whose_making_was_not_seen(void **state) {
+/* A value that a function computed, and one written before the agent was watched. */
+static void unseen_writes_are_marked_as_unseen(void **state) {
     (void)state;
     JoSceneDef def = define_modded_scene();
     JoError error = {0};
@@ -352,7 +352,7 @@ static void assert_hint(const JoHints *hints, uint32_t n, JoHintKind kind, int l
     "local mine = memory { n = 0 }\nreturn machine { name = \"hint\", version = 1, start = "       \
     "\"A\", "
 
-static void what_never_happened_is_hinted_at(void **state) {
+static void transition_that_never_fired_gives_a_hint(void **state) {
     (void)state;
     static const char NEVER[] =
         BEGIN "states = {\n"
@@ -367,7 +367,7 @@ static void what_never_happened_is_hinted_at(void **state) {
     assert_hint(hints, 1, JO_HINT_TRANSITION, 5, "from 'A' to 'A' was never taken in 30 s");
     assert_int_equal(hints->count, 2);
     jo_free(hints);
-    hints = run_for_hints(NEVER, 20); /* it may yet come */
+    hints = run_for_hints(NEVER, 20); /* it may still happen */
     assert_int_equal(hints->count, 0);
     jo_free(hints);
     hints = run_for_hints(BEGIN "states = {\n"
@@ -380,7 +380,7 @@ static void what_never_happened_is_hinted_at(void **state) {
     jo_free(hints);
 }
 
-static void a_goal_that_nobody_reached_is_hinted_at(void **state) {
+static void goal_that_nobody_reached_gives_a_hint(void **state) {
     (void)state;
     JoHints *hints = run_for_hints(BEGIN "states = {\n"
                                          "  A = { steer = seek \"cell\",\n"
@@ -392,7 +392,7 @@ static void a_goal_that_nobody_reached_is_hinted_at(void **state) {
     jo_free(hints);
 }
 
-static void a_cycle_without_time_is_hinted_at(void **state) {
+static void cycle_without_time_gives_a_hint(void **state) {
     (void)state;
     JoHints *hints =
         run_for_hints(BEGIN "states = {\n"
@@ -405,8 +405,8 @@ static void a_cycle_without_time_is_hinted_at(void **state) {
     jo_free(hints);
 }
 
-/* The scene gives people less sight than the behaviour counts on. */
-static void a_distance_beyond_sight_is_hinted_at(void **state) {
+/* The scene sets a shorter perception than the behaviour needs. */
+static void distance_beyond_sight_gives_a_hint(void **state) {
     (void)state;
     JoHints *hints = run_for_hints(
         BEGIN "defaults = { perception = 10 }, states = {\n"
@@ -421,17 +421,17 @@ static void a_distance_beyond_sight_is_hinted_at(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_are_those_of_the_file),
-        cmocka_unit_test(tables_of_probes),
-        cmocka_unit_test(costs_and_troubles),
-        cmocka_unit_test(a_suspended_function_is_a_trouble),
-        cmocka_unit_test(mods_and_who_set_what),
-        cmocka_unit_test(a_value_now_and_who_set_it),
-        cmocka_unit_test(a_value_whose_making_was_not_seen),
-        cmocka_unit_test(what_never_happened_is_hinted_at),
-        cmocka_unit_test(a_goal_that_nobody_reached_is_hinted_at),
-        cmocka_unit_test(a_cycle_without_time_is_hinted_at),
-        cmocka_unit_test(a_distance_beyond_sight_is_hinted_at),
+        cmocka_unit_test(figures_equal_those_of_the_summary),
+        cmocka_unit_test(probe_tables_have_the_measured_columns),
+        cmocka_unit_test(failing_function_is_a_cost_and_a_trouble),
+        cmocka_unit_test(suspended_function_is_a_trouble),
+        cmocka_unit_test(mods_and_settings_of_paths_are_listed),
+        cmocka_unit_test(present_value_and_its_settings_are_listed),
+        cmocka_unit_test(unseen_writes_are_marked_as_unseen),
+        cmocka_unit_test(transition_that_never_fired_gives_a_hint),
+        cmocka_unit_test(goal_that_nobody_reached_gives_a_hint),
+        cmocka_unit_test(cycle_without_time_gives_a_hint),
+        cmocka_unit_test(distance_beyond_sight_gives_a_hint),
     };
     return cmocka_run_group_tests(tests, write_scene_and_mod, remove_test_folder);
 }

@@ -1,19 +1,19 @@
-/* New versions of behaviours that bring names with them: tags and teams that no group of the scene
- * has. */
+/* Tests of reloads by versions with other names: tags and teams that no group of the scene has, and
+ * memory that a version lacks. */
 #include "run/reload.h"
 #include "unit/scene_loader.h"
 
 #define TWO                                                                                        \
     "jostle: 1\ngroups: {p: {behaviour: own.lua, at: [[0, 0], [2, 0]], team: red, tags: "          \
     "[folk]}}\n"
-/* A machine of which everybody does what an action says after a fifth of a second. */
+/* A machine whose agents change state and run an action on a condition. */
 #define TURNS(when, set)                                                                           \
     HEAD "\"A\", states = { A = { steer = hold, { to = \"B\", when = " when ", set = { " set       \
          " } } }, B = { steer = hold } } }\n"
 
-/* As an input log, or the watch, swaps the file: the way that a run takes it. */
+/* Reloads the behaviour as a run does for its watch or input log. */
 static bool swap_behaviour(JoScene *scene, const char *text, JoError *error) {
-    char path[300]; /* its own: that of the machine goes with the machine */
+    char path[300]; /* a copy, as the machine frees its own */
     snprintf(path, sizeof path, "%s", scene->world->model.machines.items[0]->path);
     JoxInputFile file = {.path = path, .text = (char *)text, .length = strlen(text)};
     JoxInputEntry entry = {.number = 1, .files = &file};
@@ -31,14 +31,14 @@ static JoScene *load_resumable(const char *behaviour) {
     return load_defined_scene(&def);
 }
 
-/* A checkpoint of a scene, gone on from in another one. */
+/* Writes a checkpoint of a scene and resumes it as another scene. */
 static JoScene *resume_checkpoint(JoScene *scene) {
     char *note = NULL;
     JoError error = {0};
     JoSceneDef def = jo_default_scene_def();
     def.message = append_message;
     def.message_context = &scene_messages;
-    step_scene(scene, 1); /* at which one is due */
+    step_scene(scene, 1); /* a checkpoint is due in this step */
     JoScene *next =
         jo_scene_resume(&def, test_path("checkpoints/latest.checkpoint"), &note, &error);
     if (!next)
@@ -53,7 +53,7 @@ static void keep_checkpoints(JoScene *scene) {
         fail_msg("%s", error.text);
 }
 
-static const char *tag_of(const JoScene *scene, uint32_t agent) {
+static const char *find_tag_name(const JoScene *scene, uint32_t agent) {
     const uint64_t tags = scene->world->state.agents.tags[agent];
     for (uint32_t t = 0; t < scene->world->model.tag_count; t++)
         if (tags >> t & 1)
@@ -74,7 +74,7 @@ static void tag_and_team_that_a_state_sets_are_known(void **state) {
     jo_scene_free(scene);
 }
 
-static void tag_that_nobody_bears_or_sets_is_refused(void **state) {
+static void tag_that_nothing_has_or_sets_is_refused(void **state) {
     (void)state;
     JoError error = {0};
     write_test_file("own.lua", TURNS("sees(nearest \"il\")", "tags = \"ill\""));
@@ -97,7 +97,7 @@ static void misspelt_tag_and_team_are_warned_of(void **state) {
     jo_scene_free(scene);
 }
 
-/* Numbers of tags follow from all versions that ran, and not from the last one alone. */
+/* The numbers of tags depend on all versions that ran, not on the last one alone. */
 static void run_with_new_tags_resumes_exactly(void **state) {
     (void)state;
     JoError error = {0};
@@ -107,9 +107,9 @@ static void run_with_new_tags_resumes_exactly(void **state) {
     assert_true(
         swap_behaviour(scene, TURNS("after(0.1)", "tags = \"well\", team = \"two\""), &error));
     step_scene(scene, 5);
-    assert_string_equal(tag_of(scene, 0), "well");
+    assert_string_equal(find_tag_name(scene, 0), "well");
     JoScene *next = resume_checkpoint(scene);
-    assert_string_equal(tag_of(next, 0), "well");
+    assert_string_equal(find_tag_name(next, 0), "well");
     assert_int_equal(next->world->state.agents.team[0], JOX_FIRST_SET_TEAM + 1);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
     assert_true(swap_behaviour(
@@ -123,7 +123,7 @@ static void run_with_new_tags_resumes_exactly(void **state) {
     jo_scene_free(scene);
 }
 
-/* ---- names that a version lacks ---- */
+/* ---- memory that a version lacks ---- */
 
 #define LAPS "local mine = memory { laps = 0, met = false }\n"
 #define COUNTING                                                                                   \
@@ -132,7 +132,7 @@ static void run_with_new_tags_resumes_exactly(void **state) {
         "{ to = \"A\", when = after(0.1), set = { laps = mine.laps + 1, met = true } } } } }\n"
 #define RESTING HEAD "\"A\", states = { A = { steer = hold } } }\n"
 
-static double remembered(const JoScene *scene, uint32_t agent, const char *name) {
+static double read_named_memory(const JoScene *scene, uint32_t agent, const char *name) {
     const JoxMachine *m = scene->world->machines.set->items[0];
     const int32_t slot = jox_machine_memory(m, name);
     const JoxAgents *a = &scene->world->state.agents;
@@ -146,36 +146,38 @@ static void swap_behaviour_live(JoScene *scene, const char *text) {
         fail_msg("%s: %s", error.text, scene_messages.data);
 }
 
-static void memory_that_a_version_lacks_is_kept_and_told(void **state) {
+static void memory_that_a_version_lacks_is_kept_and_reported(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(TWO, COUNTING);
     step_scene(scene, 40);
-    const double laps = remembered(scene, 1, "laps");
-    assert_true(laps >= 8.0 && remembered(scene, 1, "met") == 1.0);
+    const double laps = read_named_memory(scene, 1, "laps");
+    assert_true(laps >= 8.0 && read_named_memory(scene, 1, "met") == 1.0);
     swap_behaviour_live(scene, RESTING);
     assert_non_null(strstr(scene_messages.data, "memory 'laps' of 2 people is kept until"));
-    assert_true(remembered(scene, 1, "laps") == -1.0);
+    assert_true(read_named_memory(scene, 1, "laps") == -1.0);
     step_scene(scene, 5);
     swap_behaviour_live(scene, FAST("1", ""));
-    assert_null(strstr(scene_messages.data, "laps")); /* told once */
+    assert_null(strstr(scene_messages.data, "laps")); /* reported once */
     step_scene(scene, 5);
     swap_behaviour_live(scene, COUNTING);
     assert_non_null(strstr(scene_messages.data, "memory 'laps' of 2 people has the value again"));
-    assert_true(remembered(scene, 1, "laps") == laps && remembered(scene, 1, "met") == 1.0);
+    assert_true(read_named_memory(scene, 1, "laps") == laps &&
+                read_named_memory(scene, 1, "met") == 1.0);
     jo_scene_free(scene);
 }
 
-static void memory_of_another_type_is_told_and_comes_back(void **state) {
+static void memory_of_another_type_is_reported_and_comes_back(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(TWO, COUNTING);
     step_scene(scene, 40);
-    const double laps = remembered(scene, 0, "laps");
+    const double laps = read_named_memory(scene, 0, "laps");
     swap_behaviour_live(scene, "memory { laps = false, met = false }\n" RESTING);
     assert_non_null(
         strstr(scene_messages.data, "memory 'laps' was a number and is true or false now"));
-    assert_true(remembered(scene, 0, "laps") == 0.0 && remembered(scene, 0, "met") == 1.0);
+    assert_true(read_named_memory(scene, 0, "laps") == 0.0 &&
+                read_named_memory(scene, 0, "met") == 1.0);
     swap_behaviour_live(scene, LAPS RESTING);
-    assert_true(remembered(scene, 0, "laps") == laps);
+    assert_true(read_named_memory(scene, 0, "laps") == laps);
     jo_scene_free(scene);
 }
 
@@ -186,8 +188,8 @@ static void memory_of_another_type_is_told_and_comes_back(void **state) {
     "local mine = memory { laps = 0 }\nreturn machine { name = \"m\", start = \"A\", " counts      \
     "states = { A = { steer = orbit \"hub\"" more " } } }\n"
 
-/* What a counter has turned so far goes on with it, and is nobody's post meanwhile. */
-static void counter_goes_on_where_it_was(void **state) {
+/* A counter keeps the angle turned so far, and its slot is not used for a home in between. */
+static void counter_continues_after_a_version_without_it(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(RING, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
     step_scene(scene, 150);
@@ -197,7 +199,8 @@ static void counter_goes_on_where_it_was(void **state) {
     assert_true(angle > 1.0);
     swap_behaviour_live(scene, ORBIT("", ", face = home"));
     m = scene->world->machines.set->items[0];
-    assert_true(a->memory[m->home - 1] == (double)a->x[0]); /* set now, and no angle of a counter */
+    assert_true(a->memory[m->home - 1] ==
+                (double)a->x[0]); /* set now, not the angle of the counter */
     swap_behaviour_live(scene, ORBIT("counts = { laps = circuits \"hub\" }, ", ""));
     m = scene->world->machines.set->items[0];
     assert_true(a->memory[m->counters[0].angle] == angle);
@@ -209,14 +212,14 @@ static void run_with_dormant_memory_resumes_exactly(void **state) {
     JoScene *scene = load_resumable(COUNTING);
     keep_checkpoints(scene);
     step_scene(scene, 40);
-    const double laps = remembered(scene, 1, "laps");
+    const double laps = read_named_memory(scene, 1, "laps");
     swap_behaviour_live(scene, RESTING);
     step_scene(scene, 5);
     JoScene *next = resume_checkpoint(scene);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
     swap_behaviour_live(scene, COUNTING);
     swap_behaviour_live(next, COUNTING);
-    assert_true(remembered(next, 1, "laps") == laps);
+    assert_true(read_named_memory(next, 1, "laps") == laps);
     step_scene(scene, 20);
     step_scene(next, 20);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
@@ -224,7 +227,7 @@ static void run_with_dormant_memory_resumes_exactly(void **state) {
     jo_scene_free(scene);
 }
 
-static void oldest_of_too_many_names_is_dropped_and_told(void **state) {
+static void oldest_of_too_many_kept_names_is_dropped_and_reported(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(TWO, LAPS RESTING);
     JoxText text = {0};
@@ -237,16 +240,16 @@ static void oldest_of_too_many_names_is_dropped_and_told(void **state) {
     assert_non_null(
         strstr(scene_messages.data, "memory 'met', which no version named for long, is dropped"));
     swap_behaviour_live(scene, "memory { name0 = 9 }\n" RESTING);
-    assert_true(remembered(scene, 0, "name0") == 0.0);
+    assert_true(read_named_memory(scene, 0, "name0") == 0.0);
     jox_text_free(&text);
     jo_scene_free(scene);
 }
 
-/* A version whose memory of the name `laps` is what it says. */
+/* A version with the given memory and keys. */
 #define NAMES(memory, keys) "memory { " memory " }\n" HEAD "\"A\", " keys STEER_ALONE
 #define STEER_ALONE "states = { A = { steer = hold } } }\n"
 
-static void memory_that_is_back_is_not_told_to_begin(void **state) {
+static void restored_memory_is_not_reported_as_new(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(TWO, NAMES("laps = 5", ""));
     swap_behaviour_live(scene, NAMES("laps = false", ""));
@@ -254,7 +257,7 @@ static void memory_that_is_back_is_not_told_to_begin(void **state) {
                            "'laps' was a number and is true or false now: 2 people "
                            "start with its initial value, and their old values"));
     swap_behaviour_live(scene, NAMES("laps = 0", ""));
-    assert_true(remembered(scene, 0, "laps") == 5.0);
+    assert_true(read_named_memory(scene, 0, "laps") == 5.0);
     assert_non_null(
         strstr(scene_messages.data,
                "'laps' of 2 people has the value again that it had when it was last named"));
@@ -265,35 +268,35 @@ static void memory_that_is_back_is_not_told_to_begin(void **state) {
     jo_scene_free(scene);
 }
 
-static void renamed_memory_comes_in_place_of_what_was_kept(void **state) {
+static void renamed_memory_replaces_kept_memory(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(TWO, NAMES("loops = 3", ""));
     swap_behaviour_live(scene, NAMES("laps = 5", ""));
     swap_behaviour_live(scene, NAMES("loops = 0", "renamed = { laps = \"loops\" }, "));
-    assert_true(remembered(scene, 0, "loops") == 5.0);
+    assert_true(read_named_memory(scene, 0, "loops") == 5.0);
     assert_non_null(strstr(scene_messages.data, "memory 'loops' that was kept is dropped: "
                                                 "'laps' is renamed to it"));
     assert_null(strstr(scene_messages.data, "at most"));
     swap_behaviour_live(scene, RESTING);
-    assert_null(strstr(scene_messages.data, "dropped")); /* nothing is kept twice */
+    assert_null(strstr(scene_messages.data, "dropped")); /* no name is kept twice */
     swap_behaviour_live(scene, NAMES("loops = 0", ""));
-    assert_true(remembered(scene, 0, "loops") == 5.0);
+    assert_true(read_named_memory(scene, 0, "loops") == 5.0);
     jo_scene_free(scene);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tag_and_team_that_a_state_sets_are_known),
-        cmocka_unit_test(tag_that_nobody_bears_or_sets_is_refused),
+        cmocka_unit_test(tag_that_nothing_has_or_sets_is_refused),
         cmocka_unit_test(misspelt_tag_and_team_are_warned_of),
         cmocka_unit_test(run_with_new_tags_resumes_exactly),
-        cmocka_unit_test(memory_that_a_version_lacks_is_kept_and_told),
-        cmocka_unit_test(memory_of_another_type_is_told_and_comes_back),
-        cmocka_unit_test(counter_goes_on_where_it_was),
+        cmocka_unit_test(memory_that_a_version_lacks_is_kept_and_reported),
+        cmocka_unit_test(memory_of_another_type_is_reported_and_comes_back),
+        cmocka_unit_test(counter_continues_after_a_version_without_it),
         cmocka_unit_test(run_with_dormant_memory_resumes_exactly),
-        cmocka_unit_test(oldest_of_too_many_names_is_dropped_and_told),
-        cmocka_unit_test(memory_that_is_back_is_not_told_to_begin),
-        cmocka_unit_test(renamed_memory_comes_in_place_of_what_was_kept),
+        cmocka_unit_test(oldest_of_too_many_kept_names_is_dropped_and_reported),
+        cmocka_unit_test(restored_memory_is_not_reported_as_new),
+        cmocka_unit_test(renamed_memory_replaces_kept_memory),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -1,4 +1,5 @@
-/* Walls that come while people are there: who is moved, and that nobody is moved through a wall. */
+/* Tests of walls that appear among people: which agents are moved, and that none is moved through a
+ * wall. */
 #include <dirent.h>
 #include <math.h>
 
@@ -20,7 +21,7 @@ static const JoxStatistics *counts(const JoScene *scene) {
 
 /* ---- gates ---- */
 
-/* People push against the end of a sealed hall, closer than they are broad. */
+/* People push against the end of a sealed hall, closer together than their widths. */
 #define HALL(gate)                                                                                 \
     "jostle: 1\n"                                                                                  \
     "places: {hall: {polygon: [[4, 1], [9.5, 1], [9.5, 5], [4, 5]]}, out: {point: [14, 3]}}\n"     \
@@ -48,7 +49,7 @@ static void gate_far_from_a_dense_crowd_moves_nobody(void **state) {
     jo_scene_free(scene);
 }
 
-static void gate_that_closes_on_people_leaves_each_on_its_side(void **state) {
+static void closing_gate_leaves_each_agent_on_its_side(void **state) {
     (void)state;
     JoScene *scene =
         load_scene_text(HALL("{line: [[8.5, 0], [8.5, 6]], name: gate, open: true}"), SEEK);
@@ -72,9 +73,9 @@ static void gate_that_closes_on_people_leaves_each_on_its_side(void **state) {
     jo_scene_free(scene);
 }
 
-/* ---- solids that come over people ---- */
+/* ---- solids that appear over people ---- */
 
-static void solid_over_people_is_left_by_no_other_wall(void **state) {
+static void people_leave_a_new_solid_through_no_other_wall(void **state) {
     (void)state;
     /* The nearest ways out lead through the line at x = 6.4. */
     JoScene *scene = load_scene_text(
@@ -95,7 +96,7 @@ static void solid_over_people_is_left_by_no_other_wall(void **state) {
     jo_scene_free(scene);
 }
 
-static void people_closed_in_within_a_solid_stay_and_are_told_of(void **state) {
+static void people_enclosed_in_a_solid_stay_and_are_reported(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         "jostle: 1\n"
@@ -131,8 +132,8 @@ static void people_closed_in_within_a_solid_stay_and_are_told_of(void **state) {
     "walls:\n" walls                                                                               \
     "groups: {people: {behaviour: own.lua, count: 120, in: hall, fill: random}}\n"
 
-/* Other walls before it, another start of its ring, the other direction: it is the same wall. */
-static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
+/* The same wall, with other walls before it, another first vertex and the other direction. */
+static void reload_moves_nobody_for_an_unchanged_wall(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         EDITED("  - {line: [[0, 0], [10, 0], [10, 6], [0, 6]], closed: true}\n"), SEEK);
@@ -143,7 +144,7 @@ static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
     assert_int_equal(scene->world->scratch.walls.ring_count, 3);
     assert_int_equal(counts(scene)->moved_out + counts(scene)->not_moved_out, 0);
     all_are_in_the_hall(scene);
-    /* One side of it moves inwards, over people; the rest stays. */
+    /* One side of the solid moves inwards, over people; the others stay. */
     const JoxAgents *a = &scene->world->state.agents;
     uint32_t on_it = 0;
     for (uint32_t i = 0; i < a->count; i++)
@@ -158,8 +159,8 @@ static void reload_moves_nobody_for_a_wall_that_stood(void **state) {
     jo_scene_free(scene);
 }
 
-/* Whoever stands within a thin ring stands within a solid once it is one. */
-static void ring_that_becomes_solid_came(void **state) {
+/* People within a ring of thin walls are inside a solid once the ring becomes one. */
+static void ring_that_becomes_solid_counts_as_new(void **state) {
     (void)state;
     static const char OPEN[] = "jostle: 1\n"
                                "walls: [{line: [[0, 0], [4, 0], [4, 4], [0, 4]], closed: true}]\n"
@@ -176,15 +177,15 @@ static void ring_that_becomes_solid_came(void **state) {
 
 /* ---- births ---- */
 
-static JoAgent add_at(JoWorld *world, double x, double y, JoError *error) {
+static JoAgent add_agent_at(JoWorld *world, double x, double y, JoError *error) {
     JoAgentDef agent = jo_default_agent_def();
     agent.x = x;
     agent.y = y;
     return jo_world_add_agent(world, &agent, error);
 }
 
-/* A room of 2 x 2 m with a thin wall: it takes some, and nobody is put outside. */
-static void births_beyond_the_room_of_a_room_are_refused(void **state) {
+/* A room of 2 x 2 m with a thin wall: it has room for some, and none is placed outside. */
+static void births_in_a_full_room_are_refused(void **state) {
     (void)state;
     const JoWorldDef def = jo_default_world_def();
     JoWorld *world = jo_world_create(&def, NULL);
@@ -193,7 +194,7 @@ static void births_beyond_the_room_of_a_room_are_refused(void **state) {
     uint32_t came = 0;
     assert_true(jo_world_add_line(world, room, 5, NULL));
     for (int n = 0; n < 200; n++) {
-        const JoAgent one = add_at(world, 0.5 + 0.01 * (n % 100), 1.0, &error);
+        const JoAgent one = add_agent_at(world, 0.5 + 0.01 * (n % 100), 1.0, &error);
         came += one.generation != 0;
         if (one.generation == 0)
             assert_non_null(strstr(error.text, "there is no free spot within 25 m of ("));
@@ -209,14 +210,14 @@ static void births_beyond_the_room_of_a_room_are_refused(void **state) {
     jo_world_free(world);
 }
 
-/* They all fit within 25 m, each on the nearest spot that is left. */
-static void thousands_of_births_at_a_point_spread_about_it(void **state) {
+/* All fit within 25 m, each on the nearest free spot. */
+static void thousands_of_births_at_a_point_spread_round_it(void **state) {
     (void)state;
     const JoWorldDef def = jo_default_world_def();
     JoWorld *world = jo_world_create(&def, NULL);
     enum { PEOPLE = 10000 };
     for (int n = 0; n < PEOPLE; n++)
-        assert_true(add_at(world, 3.0, -2.0, NULL).generation != 0);
+        assert_true(add_agent_at(world, 3.0, -2.0, NULL).generation != 0);
     assert_int_equal(counted(world)->shifted_at_birth, PEOPLE - 1);
     const JoxAgents *a = &world->state.agents;
     float farthest = 0.0f;
@@ -226,21 +227,21 @@ static void thousands_of_births_at_a_point_spread_about_it(void **state) {
     jo_world_free(world);
 }
 
-/* The world whose state was saved in the midst of births, and the one that got it, go on alike. */
-static void births_after_a_snapshot_are_those_of_the_restored_world(void **state) {
+/* A world whose state was saved between births, and the world that restored it, continue alike. */
+static void births_after_a_snapshot_are_equal_in_the_restored_world(void **state) {
     (void)state;
     const JoWorldDef def = jo_default_world_def();
     JoWorld *worlds[2] = {jo_world_create(&def, NULL), jo_world_create(&def, NULL)};
     JoxText saved = {0};
     JoError error = {0};
     for (int n = 0; n < 300; n++)
-        add_at(worlds[0], 0.1 * (n % 3), 0.0, NULL);
+        add_agent_at(worlds[0], 0.1 * (n % 3), 0.0, NULL);
     assert_true(jox_world_snapshot(worlds[0], &saved, &error));
     if (!jox_world_restore(worlds[1], saved.data, saved.length, &error))
         fail_msg("%s", error.text);
     for (int w = 0; w < 2; w++) {
         for (int n = 0; n < 300; n++)
-            add_at(worlds[w], 0.05 * (n % 7), 0.1, NULL);
+            add_agent_at(worlds[w], 0.05 * (n % 7), 0.1, NULL);
         jo_world_step(worlds[w], 3);
     }
     assert_true(jo_world_hash(worlds[0]) == jo_world_hash(worlds[1]));
@@ -249,8 +250,8 @@ static void births_after_a_snapshot_are_those_of_the_restored_world(void **state
     jo_world_free(worlds[1]);
 }
 
-/* Beyond the wall there is room, and in the place a little. */
-static void people_of_a_place_are_shifted_within_it_and_on_their_side(void **state) {
+/* There is room behind the wall, and a little in the place. */
+static void people_of_a_place_are_shifted_within_it_on_their_side(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         "jostle: 1\n"
@@ -267,7 +268,7 @@ static void people_of_a_place_are_shifted_within_it_and_on_their_side(void **sta
     jo_scene_free(scene);
 }
 
-static void people_who_would_come_in_within_a_wall_are_told_of(void **state) {
+static void people_born_in_a_wall_are_reported(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
         "jostle: 1\n"
@@ -289,8 +290,8 @@ static void people_who_would_come_in_within_a_wall_are_told_of(void **state) {
 
 /* ---- state ---- */
 
-/* Between the call that closes a gate and the step, which edges came is state. */
-static void edges_that_came_are_saved(void **state) {
+/* Between the call that closes a gate and the next step, the list of new edges is state. */
+static void new_edges_are_saved(void **state) {
     (void)state;
     const char *yaml = HALL("{line: [[8.5, 0], [8.5, 6]], name: gate, open: true}");
     JoScene *scene = load_scene_text(yaml, SEEK), *other = load_scene_text(yaml, SEEK);
@@ -356,17 +357,17 @@ static void wall_500_m_away_moves_nobody_of_any_shipped_scene(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gate_far_from_a_dense_crowd_moves_nobody),
-        cmocka_unit_test(gate_that_closes_on_people_leaves_each_on_its_side),
-        cmocka_unit_test(solid_over_people_is_left_by_no_other_wall),
-        cmocka_unit_test(people_closed_in_within_a_solid_stay_and_are_told_of),
-        cmocka_unit_test(reload_moves_nobody_for_a_wall_that_stood),
-        cmocka_unit_test(ring_that_becomes_solid_came),
-        cmocka_unit_test(births_beyond_the_room_of_a_room_are_refused),
-        cmocka_unit_test(thousands_of_births_at_a_point_spread_about_it),
-        cmocka_unit_test(births_after_a_snapshot_are_those_of_the_restored_world),
-        cmocka_unit_test(people_of_a_place_are_shifted_within_it_and_on_their_side),
-        cmocka_unit_test(people_who_would_come_in_within_a_wall_are_told_of),
-        cmocka_unit_test(edges_that_came_are_saved),
+        cmocka_unit_test(closing_gate_leaves_each_agent_on_its_side),
+        cmocka_unit_test(people_leave_a_new_solid_through_no_other_wall),
+        cmocka_unit_test(people_enclosed_in_a_solid_stay_and_are_reported),
+        cmocka_unit_test(reload_moves_nobody_for_an_unchanged_wall),
+        cmocka_unit_test(ring_that_becomes_solid_counts_as_new),
+        cmocka_unit_test(births_in_a_full_room_are_refused),
+        cmocka_unit_test(thousands_of_births_at_a_point_spread_round_it),
+        cmocka_unit_test(births_after_a_snapshot_are_equal_in_the_restored_world),
+        cmocka_unit_test(people_of_a_place_are_shifted_within_it_on_their_side),
+        cmocka_unit_test(people_born_in_a_wall_are_reported),
+        cmocka_unit_test(new_edges_are_saved),
         cmocka_unit_test(wall_500_m_away_moves_nobody_of_any_shipped_scene),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);

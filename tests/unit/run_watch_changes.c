@@ -1,10 +1,11 @@
-/* What hangs together by changed files; folders and files that come and go under a watch. */
+/* Tests of the parts that changed files connect, and of the watch on files and folders that come
+ * and go. */
 #include "base/mem.h"
 #include "run/watch/changes.h"
 #include "run/watch/watch.h"
 #include "unit/test_folder.h"
 
-/* "02" for parts 0 and 2, and "p" for the plan: the next to try; "" for none. */
+/* Returns the next parts to load: "02" for parts 0 and 2, "p" for the scene's file, "" for none. */
 static const char *try_next(JoxChanges *c) {
     static char text[JOX_PARTS + 1];
     bool parts[JOX_PARTS] = {false};
@@ -36,7 +37,7 @@ static JoxChanges make_four_parts(void) {
     return c;
 }
 
-static void only_what_changed_together_goes_together(void **state) {
+static void only_parts_connected_by_changed_files_load_together(void **state) {
     (void)state;
     JoxChanges c = make_four_parts();
     assert_string_equal(try_next(&c), "");
@@ -60,18 +61,18 @@ static void only_what_changed_together_goes_together(void **state) {
     jox_changes_free(&c);
 }
 
-static void what_is_live_is_settled(void **state) {
+static void live_parts_are_not_tried_again(void **state) {
     (void)state;
     JoxChanges c = make_four_parts();
     jox_changes_add_changed_file(&c, "lib", 1.0);
     jox_changes_add_changed_file(&c, "a", 1.0);
     assert_string_equal(try_next(&c), "01");
-    jox_changes_add_changed_file(&c, "a", 2.0); /* saved once more while it is being loaded */
+    jox_changes_add_changed_file(&c, "a", 2.0); /* saved again while it is being loaded */
     make_live(&c, "01");
     jox_changes_add_use(&c, 0, "a");
     jox_changes_add_use(&c, 1, "b");
     jox_changes_add_use(&c, 1, "lib");
-    assert_string_equal(try_next(&c), "0"); /* no longer made of lib */
+    assert_string_equal(try_next(&c), "0"); /* it no longer uses lib */
     make_live(&c, "0");
     jox_changes_add_changed_file(&c, "b", 3.0);
     assert_string_equal(try_next(&c), "1");
@@ -81,7 +82,7 @@ static void what_is_live_is_settled(void **state) {
     jox_changes_free(&c);
 }
 
-static void when_it_was_written_is_the_last_of_all(void **state) {
+static void time_of_writing_is_that_of_the_last_file(void **state) {
     (void)state;
     JoxChanges c = make_four_parts();
     bool parts[JOX_PARTS];
@@ -105,7 +106,7 @@ static void note_change(void *context, const char *path, double written) {
              path + strlen(test_folder) + 1);
 }
 
-/* What the watch has to say within some time. */
+/* Waits up to 0.4 s for changes. Returns the changed paths. */
 static const char *wait_for_change(JoxWatch *watch) {
     seen[0] = 0;
     for (int i = 0; i < 40 && !seen[0]; i++)
@@ -113,7 +114,7 @@ static const char *wait_for_change(JoxWatch *watch) {
     return seen;
 }
 
-static void files_and_folders_come_and_go(void **state) {
+static void watch_follows_files_and_folders_that_come_and_go(void **state) {
     (void)state;
     JoxWatch *watch = jox_watch_create();
     write_test_file("here", "1");
@@ -122,7 +123,7 @@ static void files_and_folders_come_and_go(void **state) {
     assert_true(jox_watch_add(watch, test_path("deep/er/file")));
     assert_string_equal(wait_for_change(watch), "");
     write_test_file("here", "1");
-    assert_string_equal(wait_for_change(watch), ""); /* the same */
+    assert_string_equal(wait_for_change(watch), ""); /* unchanged content */
     write_test_file("here", "2");
     assert_string_equal(wait_for_change(watch), "here ");
     write_test_file("missing", "1");
@@ -132,7 +133,7 @@ static void files_and_folders_come_and_go(void **state) {
     write_test_file("other", "3");
     rename(test_path("other"), test_path("here"));
     assert_string_equal(wait_for_change(watch), "here ");
-    for (int i = 0; i < 3; i++) { /* made, removed and made again, or replaced by another */
+    for (int i = 0; i < 3; i++) { /* folders are made, removed, made again, replaced */
         char text[2] = {(char)('0' + i), 0};
         mkdir(test_path("deep"), 0755);
         if (i == 0)
@@ -160,10 +161,10 @@ static void files_and_folders_come_and_go(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(only_what_changed_together_goes_together),
-        cmocka_unit_test(what_is_live_is_settled),
-        cmocka_unit_test(when_it_was_written_is_the_last_of_all),
-        cmocka_unit_test(files_and_folders_come_and_go),
+        cmocka_unit_test(only_parts_connected_by_changed_files_load_together),
+        cmocka_unit_test(live_parts_are_not_tried_again),
+        cmocka_unit_test(time_of_writing_is_that_of_the_last_file),
+        cmocka_unit_test(watch_follows_files_and_folders_that_come_and_go),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

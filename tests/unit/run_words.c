@@ -1,5 +1,5 @@
-/* Every example of the page of words runs: each is written out as a behaviour, or as a mod's patch
-   of one, and lived by three agents in a yard. */
+/* Tests that every example of the behaviour reference runs, as a behaviour or as a mod's patch,
+ * with three agents in a yard. */
 #include "base/text.h"
 #include "lua/behaviour_reference.h"
 #include "messages.h"
@@ -25,7 +25,7 @@ static const char YARD[] =
 
 static JoxText messages;
 
-/* Loads the yard and steps it for three seconds; whether nothing went wrong. */
+/* Loads the yard and steps it for 3 s. Returns whether nothing failed. */
 static bool run_yard(const char *mod) {
     JoSceneDef def = jo_default_scene_def();
     JoError error;
@@ -47,7 +47,7 @@ static bool run_yard(const char *mod) {
     return good;
 }
 
-static void every_example_of_the_page_runs(void **state) {
+static void every_example_of_the_reference_runs(void **state) {
     (void)state;
     int failed = 0;
     for (size_t n = 0;; n++) {
@@ -70,7 +70,7 @@ static void every_example_of_the_page_runs(void **state) {
     assert_int_equal(failed, 0);
 }
 
-static void a_wrong_example_would_be_noticed(void **state) {
+static void wrong_example_fails(void **state) {
     (void)state;
     write_test_file("example.lua", "return machine { name = \"m\", start = \"A\", states = { A = { "
                                    "on_enter = function(me) me.nothing = 1 end } } }\n");
@@ -95,7 +95,7 @@ static int remove_yard_and_mod(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_example_of_the_page_runs),
-                                       cmocka_unit_test(a_wrong_example_would_be_noticed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_example_of_the_reference_runs),
+                                       cmocka_unit_test(wrong_example_fails)};
     return cmocka_run_group_tests(tests, write_yard_and_mod, remove_yard_and_mod);
 }

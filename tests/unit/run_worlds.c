@@ -1,6 +1,5 @@
-/* Several worlds in one process: each in a thread of its own, they come out as one after the other,
-   whatever the others do meanwhile: Bullet, Lua, reports of errors and their own threads are not
-   shared. */
+/* Tests several worlds in one process, each in a thread of its own: their results equal those of
+ * runs one after another, as they share neither Bullet, Lua, error reports nor threads. */
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,10 +20,10 @@ static const char *const PATHS[SCENES] = {"scenes/dodgeball.yaml", "scenes/tackl
 typedef struct World {
     uint32_t scene;
     uint64_t hash;
-    bool refused; /* a scene that is wrong is refused meanwhile, with its own error */
+    bool refused; /* an invalid scene was refused with its own error */
 } World;
 
-/* Calls nothing of cmocka, which is not for threads: what went wrong shows in the hash. */
+/* Calls nothing of cmocka, which is not thread-safe: failures show in the hash. */
 static void *run_world(void *argument) {
     World *world = argument;
     JoError error = {0};
@@ -46,7 +45,7 @@ static void *run_world(void *argument) {
     return NULL;
 }
 
-static void worlds_do_not_know_of_each_other(void **state) {
+static void worlds_in_threads_do_not_affect_each_other(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -70,6 +69,7 @@ static void worlds_do_not_know_of_each_other(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(worlds_do_not_know_of_each_other)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(worlds_in_threads_do_not_affect_each_other)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
