@@ -1,5 +1,5 @@
-/* Bonded bodies as the crowd meets them: when it first leans on one, what breaks, and how many rows
-   press when it does. */
+/* Statistics of bonded bodies: when an agent first touches one, how many bonds break, and how many
+   rows of agents press when the first does. The stage bodies calls them. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -7,13 +7,14 @@
 #include "geom/polygon.h"
 #include "world/stages.h"
 
-static const float SKIN = 0.02f;      /* m: people nearer than this touch */
-static const float FRONT = 0.30f;     /* m: from the wall to the skin of those who are in front */
-static const float ROUNDING = 0.01f;  /* m: more than that of a distance */
-static const double FRONT_TIME = 1.0; /* s: over which their speed is averaged */
+static const float SKIN = 0.02f;     /* m: agents nearer than this touch */
+static const float FRONT = 0.30f;    /* m: gap to the body within which agents count as in front */
+static const float ROUNDING = 0.01f; /* m: more than the rounding error of a distance */
+static const double FRONT_TIME =
+    1.0; /* s: time over which the speed of agents in front is averaged */
 
-/* From an agent's skin to the footprint of a body, m. */
-static float gap_to(const JoxAgents *a, const JoxObject *body, uint32_t i) {
+/* Returns the gap between agent i and the footprint of a body, m; within it minus the radius. */
+static float measure_gap(const JoxAgents *a, const JoxObject *body, uint32_t i) {
     JoxV2 at = {a->x[i], a->y[i]};
     float least = INFINITY;
     if (body->footprint_count >= 3 &&
@@ -27,7 +28,8 @@ static float gap_to(const JoxAgents *a, const JoxObject *body, uint32_t i) {
     return sqrtf(least) - jox_param(a, JOX_PARAM_radius, i);
 }
 
-/* Until somebody touches a bonded body: how fast those before it were in the last second. */
+/* Until an agent touches a bonded body: averages the speed of agents in front over the last
+   second. */
 void jox_stage_note_bond_touch(const JoxBodyStage *stage) {
     JoxBondStatistics *s = &stage->statistics->bonds;
     const JoxAgents *a = stage->agents;
@@ -43,7 +45,7 @@ void jox_stage_note_bond_touch(const JoxBodyStage *stage) {
             const float reach = jox_param(a, JOX_PARAM_radius, i) + FRONT + ROUNDING;
             if (!jox_object_reaches(body, (JoxV2){a->x[i], a->y[i]}, reach))
                 continue;
-            float gap = gap_to(a, body, i);
+            float gap = measure_gap(a, body, i);
             if (gap > FRONT)
                 continue;
             s->touched = s->touched || gap <= 0.0f;
@@ -60,16 +62,16 @@ void jox_stage_note_bond_touch(const JoxBodyStage *stage) {
     }
 }
 
-/* Whether somebody presses on what is this far from the skin: touches it, squeezed from behind, or
+/* Returns whether agent i presses on what is `gap` m away: touches it while it is compressed, or
    pushes it. */
-static bool presses(const JoxAgents *a, uint32_t i, float gap) {
+static bool is_pressing(const JoxAgents *a, uint32_t i, float gap) {
     return (gap < SKIN && a->compression[i] > 0.0f) ||
            (gap < jox_param(a, JOX_PARAM_push_reach, i) && jox_param(a, JOX_PARAM_push, i) > 0.0f);
 }
 
-/* How many rows have at least half as many people as the first; `row`: of those in the queue, which
-   are in its order. */
-static uint32_t full_rows(const uint32_t *row, const uint32_t *queue, uint32_t count) {
+/* Returns how many rows, from the first on, have at least half as many agents as the first. `row`
+   is the row by agent; the queue holds agents in ascending rows. */
+static uint32_t count_full_rows(const uint32_t *row, const uint32_t *queue, uint32_t count) {
     uint32_t first = 0, rows = 0;
     for (uint32_t begin = 0, end; begin < count; begin = end) {
         for (end = begin; end < count && row[queue[end]] == row[queue[begin]]; end++)
@@ -82,9 +84,8 @@ static uint32_t full_rows(const uint32_t *row, const uint32_t *queue, uint32_t c
     return rows;
 }
 
-/* Agents in the order in which chains of people, each pressing on the one before, lead to them from
-   the body: the first row presses on it, the second on the first. The people are all that are
-   reached. */
+/* Counts the rows of agents that press on a body, the first on the body, each on the one before,
+   and all agents in them. A breadth-first search from the body. */
 static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
     const JoxAgents *a = stage->agents;
     const JoxNeighbours *near = stage->neighbours;
@@ -92,7 +93,7 @@ static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
     uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
     uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
     for (uint32_t i = 0; i < a->count; i++)
-        if (presses(a, i, gap_to(a, body, i))) {
+        if (is_pressing(a, i, measure_gap(a, body, i))) {
             row[i] = 1;
             queue[end++] = i;
         }
@@ -101,16 +102,16 @@ static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
         for (uint32_t k = 0; k < near->count[i] && a->compression[i] > 0.0f; k++) {
             uint32_t j = near->index[jox_neighbour_at(near, i, k)];
             float gap = jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
-            if (row[j] || !presses(a, j, gap))
+            if (row[j] || !is_pressing(a, j, gap))
                 continue;
-            JOX_ASSERT(row[i] > 0); /* only those whom a chain reached are in the queue */
+            JOX_ASSERT(row[i] > 0); /* the queue holds reached agents only */
             row[j] = row[i] + 1;
             queue[end++] = j;
         }
     }
     JOX_ASSERT(end <= a->count);
     stage->statistics->bonds.people = end;
-    stage->statistics->bonds.rows = full_rows(row, queue, end);
+    stage->statistics->bonds.rows = count_full_rows(row, queue, end);
     jox_free(row);
     jox_free(queue);
 }
@@ -124,7 +125,9 @@ void jox_stage_note_bond_breaks(const JoxBodyStage *stage, const JoxBodiesReport
         JOX_ASSERT(k == 0 || report->breaks[k - 1].id < broken->id);
         if (s->broken == 0) {
             s->first_s = stage->substep->end;
-            count_rows(stage, &stage->objects->rows[broken->row]); /* as it was before the step */
+            count_rows(stage,
+                       &stage->objects
+                            ->rows[broken->row]); /* objects as they were before the bodies moved */
         }
         s->broken += broken->bonds;
         s->pieces += broken->pieces - 1;

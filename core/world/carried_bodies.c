@@ -2,11 +2,11 @@
 #include "base/assert.h"
 #include "world/world.h"
 
-static const float APART = 0.02f; /* m between a carrier and what it carries */
-static const float ABOUT = 0.05f; /* m: more than a body is widened by, see geom/hands.c */
+static const float APART = 0.02f; /* m: gap between a carrier and its body */
+static const float ABOUT = 0.05f; /* m: more than geom/hands.c enlarges the outline of a body by */
 
-/* Where agent i holds a body whose row it is: in front, clear of its disc, or as near to that as
-   walls and bodies that stand fast let it. False where there is no room. */
+/* Finds where agent i can hold the body in a row: in front, clear of its disc, or as near to that
+   as walls and fixed bodies allow. Returns false if there is no room. */
 static bool find_hold(const JoxBodyStage *s, uint32_t i, uint32_t row, JoxV2 way, bool around,
                       JoxV3 *at) {
     const JoxAgents *a = s->agents;
@@ -22,7 +22,7 @@ static bool find_hold(const JoxBodyStage *s, uint32_t i, uint32_t row, JoxV2 way
     return true;
 }
 
-/* Where a carried body is, if its carrier i can still hold it there. */
+/* Returns whether carrier i can still hold a body where it is, and writes where. */
 static bool keep_hold(const JoxBodyStage *s, uint32_t i, uint32_t row, JoxV3 *at) {
     JoxPose pose;
     if (!jox_bodies_pose(s->bodies, row, &pose))
@@ -32,7 +32,7 @@ static bool keep_hold(const JoxBodyStage *s, uint32_t i, uint32_t row, JoxV3 *at
                               jox_v2(at->x, at->y));
 }
 
-static void carry_along(const JoxBodyStage *s) {
+static void move_carried(const JoxBodyStage *s) {
     const JoxAgents *a = s->agents;
     JoxV3 at;
     for (uint32_t o = 0; o < s->objects->count; o++) {
@@ -41,14 +41,14 @@ static void carry_along(const JoxBodyStage *s) {
             continue;
         JOX_ASSERT(object->holder < a->next_id && object->moves);
         uint32_t i = jox_agents_find(a, object->holder);
-        if (i == JOX_NO_INDEX || a->removed[i]) { /* who left lets it fall */
+        if (i == JOX_NO_INDEX || a->removed[i]) { /* the carrier left: it falls */
             jox_bodies_end_carrying(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
             continue;
         }
         if (find_hold(s, i, o, jox_v2(a->face_x[i], a->face_y[i]), true, &at) ||
             keep_hold(s, i, o, &at)) {
             jox_bodies_carry(s->bodies, o, at, (JoxV3){a->vx[i], a->vy[i], 0.0f});
-        } else { /* no room for it: it falls where it was */
+        } else { /* no room to carry it: it falls where it was */
             jox_bodies_end_carrying(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
             s->statistics->dropped++;
         }
@@ -57,7 +57,7 @@ static void carry_along(const JoxBodyStage *s) {
 
 void jox_stage_carry_bodies(const JoxBodyStage *s) {
     const JoxAgents *a = s->agents;
-    carry_along(s);
+    move_carried(s);
     for (uint32_t g = 0; s->substep->first && g < s->machines->grip_count; g++) {
         const JoxGrip *grip = &s->machines->grips[g];
         uint32_t i = jox_agents_find(a, grip->agent_id);
@@ -67,7 +67,7 @@ void jox_stage_carry_bodies(const JoxBodyStage *s) {
         JOX_ASSERT(g == 0 || s->machines->grips[g - 1].agent_id <= grip->agent_id);
         const JoxV2 face = {a->face_x[i], a->face_y[i]};
         JoxV3 at;
-        if (grip->takes) { /* not what there is no room to carry */
+        if (grip->takes) { /* only if there is room to carry it */
             if (find_hold(s, i, grip->object, face, true, &at) &&
                 jox_bodies_set_carrier(s->bodies, grip->object, grip->agent_id)) {
                 jox_bodies_carry(s->bodies, grip->object, at, (JoxV3){a->vx[i], a->vy[i], 0.0f});
@@ -76,7 +76,8 @@ void jox_stage_carry_bodies(const JoxBodyStage *s) {
             continue;
         }
         const JoxV2 way = jox_unit((JoxV2){grip->velocity.x, grip->velocity.y});
-        if (find_hold(s, i, grip->object, way, false, &at)) /* else from where it is carried */
+        if (find_hold(s, i, grip->object, way, false,
+                      &at)) /* else thrown from where it is carried */
             jox_bodies_carry(s->bodies, grip->object, at, grip->velocity);
         jox_bodies_end_carrying(s->bodies, grip->object, grip->velocity);
         s->statistics->throws++;

@@ -8,7 +8,7 @@
 #include "world/stages.h"
 #include "world/world.h"
 
-static const double ROUNDING = 2e-6; /* of single precision, with what follows from it */
+static const double ROUNDING = 2e-6; /* relative error of momenta in single precision */
 
 static void check_discs(const JoxDiscList *list, uint32_t count) {
     for (uint32_t n = 0; n < count; n++) {
@@ -18,7 +18,7 @@ static void check_discs(const JoxDiscList *list, uint32_t count) {
     }
 }
 
-/* People as fast bodies meet them, in ascending id: where they were and how they moved. */
+/* Lists agents as discs that fast bodies may hit, in ascending id; returns how many. */
 static uint32_t list_discs(const JoxAgents *a, JoxDiscList *list) {
     if (a->count > list->capacity) {
         list->capacity = a->count + a->count / 4 + 16;
@@ -42,8 +42,9 @@ static uint32_t list_discs(const JoxAgents *a, JoxDiscList *list) {
     return a->count;
 }
 
-/* Momentum that hits are rounded by as parts of, N s: of the bodies and of those who are hit. */
-static double hit_momentum(const JoxBodyStage *s, const JoxBodiesReport *report) {
+/* Returns the momentum, N s, of bodies and agents in hits, to which rounding errors are relative.
+ */
+static double sum_hit_momentum(const JoxBodyStage *s, const JoxBodiesReport *report) {
     double sum = 0.0;
     for (uint32_t h = 0; h < report->hit_count; h++) {
         const JoxObject *body = &s->objects->rows[report->hits[h].object];
@@ -56,8 +57,9 @@ static double hit_momentum(const JoxBodyStage *s, const JoxBodiesReport *report)
     return sum;
 }
 
-/* What fast bodies did to people: a change of velocity now, a contact force in the columns. */
-static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
+/* Applies hits of fast bodies to agents: changes their velocity, and adds a contact force to their
+   columns. */
+static void apply_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
     JoxAgents *a = s->agents;
     float dt = (float)s->substep->step.timing.dt;
     for (uint32_t h = 0; h < report->hit_count; h++) {
@@ -79,7 +81,7 @@ static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
             a->struck[i] = jox_reference((int32_t)hit->object);
     }
     JOX_ASSERT(!(report->hit_residual >
-                 0.01 + 1e-3 * report->hit_impulse + ROUNDING * hit_momentum(s, report)));
+                 0.01 + 1e-3 * report->hit_impulse + ROUNDING * sum_hit_momentum(s, report)));
     JoxExchange *exchange = &s->statistics->exchange;
     exchange->contacts += report->hit_count;
     exchange->impulse += report->hit_impulse;
@@ -87,8 +89,8 @@ static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
     s->statistics->hits += report->hit_count;
 }
 
-/* Sum of the sizes of the momenta of all that moves, N s. */
-static double all_momentum(const JoxBodyStage *s) {
+/* Returns the sum of the magnitudes of momentum of all moving bodies, N s. */
+static double sum_momentum(const JoxBodyStage *s) {
     double sum = 0.0;
     for (uint32_t row = 0; row < s->objects->count; row++) {
         const JoxObject *body = &s->objects->rows[row];
@@ -99,8 +101,9 @@ static double all_momentum(const JoxBodyStage *s) {
     return sum;
 }
 
-/* People's pushes and contacts, and whether contacts give bodies what they take from people. */
-static void give_impulses(const JoxBodyStage *s, const JoxImpulse *impulses, uint32_t count) {
+/* Applies impulses of agents' pushes and contacts to bodies, and checks that contacts give bodies
+   the momentum that they take from agents. */
+static void apply_impulses(const JoxBodyStage *s, const JoxImpulse *impulses, uint32_t count) {
     JoxExchange *exchange = &s->statistics->exchange;
     JoxForceTotals totals = jox_force_totals(s->forces_of);
     double before[3], after[3];
@@ -111,17 +114,16 @@ static void give_impulses(const JoxBodyStage *s, const JoxImpulse *impulses, uin
     jox_bodies_momentum(s->bodies, after);
     double x = totals.touched_x + (after[0] - before[0] - totals.pushed_x);
     double y = totals.touched_y + (after[1] - before[1] - totals.pushed_y);
-    /* What people take bodies give, but for what was clamped, and for what each impulse is rounded
-       by as a part of what a heavy body has. */
+    /* Both are equal except for clamped impulses and for rounding, which is relative to the
+       momentum of heavy bodies. */
     JOX_ASSERT(refused > 0 || !(sqrt(x * x + y * y) >
-                                0.1 + 1e-3 * totals.touched + ROUNDING * count * all_momentum(s)));
+                                0.1 + 1e-3 * totals.touched + ROUNDING * count * sum_momentum(s)));
     exchange->contacts += totals.touches;
     exchange->impulse += totals.touched;
     exchange->residual += sqrt(x * x + y * y);
 }
 
-/* Holds up the driven bodies that met their force limits, and counts what such bodies press with.
- */
+/* Holds up driven bodies that met their force limits, and notes the greatest force of one. */
 static void hold_up_driven(const JoxBodyStage *s) {
     uint32_t count;
     const JoxDriveLoad *loads = jox_force_drive_loads(s->forces_of, &count);
@@ -149,7 +151,7 @@ JoxBodiesReport jox_stage_step_bodies(const JoxBodyStage *s) {
     uint32_t count;
     float dt = (float)s->substep->step.timing.dt;
     const JoxImpulse *impulses = jox_force_impulses(s->forces_of, &count);
-    give_impulses(s, impulses, count);
+    apply_impulses(s, impulses, count);
     hold_up_driven(s);
     if (s->substep->first) {
         jox_mem_fill(s->agents->struck, 0, s->agents->count * sizeof *s->agents->struck);
@@ -158,6 +160,6 @@ JoxBodiesReport jox_stage_step_bodies(const JoxBodyStage *s) {
     bool fast = s->forces && jox_bodies_any_fast(s->bodies, dt);
     uint32_t discs = fast ? list_discs(s->agents, s->discs) : 0;
     JoxBodiesReport report = jox_bodies_step(s->bodies, dt, fast ? s->discs->discs : NULL, discs);
-    take_hits(s, &report);
+    apply_hits(s, &report);
     return report;
 }

@@ -1,4 +1,4 @@
-/* The stages of a step, each over what its context names. */
+/* The stages of a step, each a function over its context. */
 #include "world/stages.h"
 
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-/* A step that is not divided has one substep, which is the first and the last. */
+/* Checks that a substep is the only one if and only if it is the first and the last. */
 static void check_substep(const JoxSubstep *s) {
     JOX_ASSERT(s->only == (s->first && s->last));
     JOX_ASSERT(s->step.timing.dt > 0.0 && s->step.timing.planning_time > 0.0 && s->end > 0.0);
@@ -131,7 +131,8 @@ void jox_stage_observe(const JoxObserveStage *s) {
     JoxAgents *a = s->agents;
     if (!s->substep->last)
         return;
-    for (uint32_t i = 0; !s->substep->only && i < a->count; i++) { /* where the whole step began */
+    for (uint32_t i = 0; !s->substep->only && i < a->count;
+         i++) { /* position at the start of the whole step */
         a->prev_x[i] = a->x[i] - s->walked[i].x;
         a->prev_y[i] = a->y[i] - s->walked[i].y;
     }

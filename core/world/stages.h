@@ -1,5 +1,6 @@
-/* The nine stages of a step. Each is given what it may touch, and nothing else: what it reads is
-   const in its context, what it writes is not. step.c fills the contexts from the world. */
+/* The nine stages of a step, in their order. Each is a function over a context that holds all it
+   may touch: const members are read, others written. step.c fills the contexts from the world and
+   calls the stages once in each substep; the world owns all that contexts point to. */
 #ifndef JOX_WORLD_STAGES_H
 #define JOX_WORLD_STAGES_H
 
@@ -15,13 +16,13 @@
 #include "world/statistics.h"
 #include "world/step_events/step_events.h"
 
-/* A step longer than people plan ahead is done in equal substeps; think and observe run once. The
-   world fills it once a substep. */
+/* One of the equal substeps of a step that is longer than agents plan ahead; think runs in the
+   first only, observe in the last only. The world fills it once a substep. */
 typedef struct JoxSubstep {
-    bool first, last, only; /* only: the step is not divided */
-    uint32_t plan_every;    /* substeps, from plan to plan */
+    bool first, last, only; /* only: the step has this one substep */
+    uint32_t plan_every;    /* steps from one plan to the next */
     double end;             /* s: simulated time at its end */
-    JoxStep step;           /* what nav and force are given; keeps the timing until the next */
+    JoxStep step;           /* given to nav and force; keeps the timing until the next substep */
 } JoxSubstep;
 
 typedef struct JoxPerceiveStage {
@@ -29,9 +30,9 @@ typedef struct JoxPerceiveStage {
     uint64_t tick;
     bool timed;
     JoxPool *pool;
-    JoxBodies *bodies; /* their objects are told, nothing is changed */
+    JoxBodies *bodies; /* read alone: writes `objects` from them */
     JoxNav *nav;
-    JoxAgents *agents; /* their order; search_radius, density, failed */
+    JoxAgents *agents; /* sorted; writes search_radius, density, failed */
     JoxNeighbours *neighbours;
     JoxObjects *objects;
     JoxStatistics *statistics;
@@ -42,28 +43,28 @@ typedef struct JoxThinkStage {
     const JoxSubstep *substep;
     JoxPool *pool;
     const JoxRouteStage *route;
-    JoxMachineRun *machines; /* which says what machines read and write */
+    JoxMachineRun *machines; /* machine/run.h says what it reads and writes */
     JoxStatistics *statistics;
 } JoxThinkStage;
 void jox_stage_think(const JoxThinkStage *stage);
 
 typedef struct JoxPreferStage {
-    const JoxSubstep *substep; /* writes aim, walk, eager, course of those who walk by the law */
-    bool literal;              /* then nobody walks by the law */
-    JoxNav *nav;               /* its grid of walls */
-    JoxMachineRun *machines;   /* which says what machines read and write */
+    const JoxSubstep *substep; /* writes aim, walk, eager, course of agents that walk by the law */
+    bool literal;              /* the paper as printed: no agent walks by the walking law */
+    JoxNav *nav;               /* reads its grid of walls */
+    JoxMachineRun *machines;   /* machine/run.h says what it reads and writes */
     JoxStatistics *statistics;
 } JoxPreferStage;
 void jox_stage_prefer(const JoxPreferStage *stage);
 
 typedef struct JoxPushStage {
-    /* Writes the agents' push, contact, force, plane, disc, compression, load, contacts; ext is
-       used up. */
+    /* Writes the agents' push, contact, force, plane, disc, compression, load, contacts; clears
+       ext. */
     const JoxSubstep *substep;
     bool literal;                  /* forces as the paper prints them */
-    bool forces;                   /* else people feel none */
-    JoxNav *nav;                   /* its grid of walls */
-    const JoxMachineRun *machines; /* who pushes, and whereto */
+    bool forces;                   /* false: agents feel no forces */
+    JoxNav *nav;                   /* reads its grid of walls */
+    const JoxMachineRun *machines; /* targets of pushes */
     JoxForces *forces_of;
     JoxInspection *inspection;
 } JoxPushStage;
@@ -81,11 +82,11 @@ void jox_stage_solve(const JoxSolveStage *stage);
 typedef struct JoxMoveStage {
     const JoxSubstep *substep; /* writes the agents' position, velocity, prev, still */
     JoxNav *nav;
-    JoxV2 *walked; /* per agent, m: during the substeps so far; only where there are several */
+    JoxV2 *walked; /* per agent, m: displacement in the substeps so far; if there are several */
 } JoxMoveStage;
 void jox_stage_move(const JoxMoveStage *stage);
 
-/* People as fast bodies meet them, and their indices. Scratch. */
+/* Agents as upright cylinders that fast bodies may hit, and the index of each. Scratch. */
 typedef struct JoxDiscList {
     JoxDisc *discs;
     uint32_t *agents;
@@ -97,23 +98,23 @@ typedef struct JoxBodyStage {
     bool forces;
     double gravity; /* m/s2 */
     const JoxNeighbours *neighbours;
-    const JoxObjects *objects;     /* as they were before the step */
-    const JoxMachineRun *machines; /* kicks, and what is picked up and thrown */
-    JoxForces *forces_of;          /* whose impulses on bodies are sorted */
+    const JoxObjects *objects;     /* as they were before the bodies move */
+    const JoxMachineRun *machines; /* kicks; bodies that are picked up and thrown */
+    JoxForces *forces_of;          /* impulses on bodies, loads of driven bodies */
     JoxDiscList *discs;
     JoxHands *hands;   /* scratch */
-    JoxAgents *agents; /* velocity, force, compression, contacts of those who are hit */
+    JoxAgents *agents; /* velocity, force, compression, contacts of agents that are hit */
     JoxBodies *bodies;
     JoxDrags *drags;
     JoxStatistics *statistics;
-    JoxBodyGone *lost;      /* becomes the first that is lost in this substep, if any is */
-    JoxDriveLoad *overload; /* likewise of driven bodies that met limits at which the world ends */
-    JoxStepEvents *step_events; /* hits and breaks, for those who ask */
+    JoxBodyGone *lost;      /* set to the first body that is lost in this substep */
+    JoxDriveLoad *overload; /* likewise: driven body that met a force limit that ends the world */
+    JoxStepEvents *step_events; /* gets hits and breaks */
 } JoxBodyStage;
 void jox_stage_bodies(const JoxBodyStage *stage);
-/* Its steps: bodies that are picked up, carried and thrown; forces on those that are dragged; who
-   is before a bonded body or touches it; the step of the bodies with what they do to people; what
-   broke. */
+/* The parts of the stage bodies, in the order in which it calls them: picks up, carries and throws
+   bodies; applies forces to dragged ones; notes agents before a bonded body until one touches it;
+   exchanges impulses and steps Bullet; notes broken bonds. */
 void jox_stage_carry_bodies(const JoxBodyStage *stage);
 void jox_stage_drag_bodies(const JoxBodyStage *stage);
 void jox_stage_note_bond_touch(const JoxBodyStage *stage);
@@ -128,7 +129,7 @@ typedef struct JoxInferStage {
 } JoxInferStage;
 void jox_stage_infer(const JoxInferStage *stage);
 
-/* Where those stood who left of their own accord in the last step, m. */
+/* Positions, m, of the agents that left of their own accord in the last step. */
 typedef struct JoxDepartures {
     JoxV2 *items;
     uint32_t count;
@@ -138,10 +139,10 @@ typedef struct JoxDepartures {
 typedef struct JoxObserveStage {
     const JoxSubstep *substep;
     uint64_t tick;
-    double dt; /* s, of the whole step */
+    double dt; /* s: length of the whole step */
     const JoxNeighbours *neighbours;
     const JoxV2 *walked;
-    JoxAgents *agents; /* prev; those who leave are taken out */
+    JoxAgents *agents; /* prev; removes agents that leave */
     JoxDepartures *departures;
     JoxStatistics *statistics;
 } JoxObserveStage;

@@ -1,10 +1,9 @@
-/* The step: nine stages, and what each may read and write (stages.h).
+/* One step of a world: calls the nine stages (stages.h), and what runs before and after them.
 
-   Forces change velocities at once. Beyond that people plan: those who walk anew each PLANNING_TIME
-   or so, and they approach what they planned with the time constant RESPONSE_TIME. So the size of
-   the step is no property of people, and what they do and bear hardly depends on it. A step that is
-   longer than PLANNING_TIME is done in substeps. As printed, everything happens within one step of
-   whatever length: with `literal` it does here. */
+   Forces change velocities at once. Agents that walk also plan a velocity about each PLANNING_TIME
+   and approach it with the time constant RESPONSE_TIME, so that what they do and bear hardly
+   depends on the length of the step. A step longer than PLANNING_TIME is divided into substeps. The
+   paper as printed does everything within one step of any length; `literal` does so here. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -12,10 +11,10 @@
 #include "base/number/elementary.h"
 #include "world/world.h"
 
-static const double PLANNING_TIME = 0.05; /* s: between the plans of those who walk */
-static const double RESPONSE_TIME = 0.05; /* s: in which 63 % of the way to the plan is gone */
+static const double PLANNING_TIME = 0.05; /* s: between plans of an agent that walks */
+static const double RESPONSE_TIME = 0.05; /* s: after it 63 % of the change to the plan is made */
 
-static void perceive(JoWorld *w, const JoxSubstep *substep) {
+static void run_perceive(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_perceive(&(JoxPerceiveStage){.substep = substep,
                                            .tick = w->state.tick,
                                            .timed = w->scratch.timed,
@@ -44,7 +43,7 @@ JoxRouteStage jox_world_route_stage(JoWorld *w) {
                            .routes = w->state.routes};
 }
 
-static void think(JoWorld *w, const JoxSubstep *substep) {
+static void run_think(JoWorld *w, const JoxSubstep *substep) {
     const JoxRouteStage route = jox_world_route_stage(w);
     JoxMachineRun *machines = &w->machines;
     machines->neighbours = &w->scratch.neighbours;
@@ -66,7 +65,7 @@ static void think(JoWorld *w, const JoxSubstep *substep) {
     }
 }
 
-static void prefer(JoWorld *w, const JoxSubstep *substep) {
+static void run_prefer(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_prefer(&(JoxPreferStage){.substep = substep,
                                        .literal = w->model.def.literal,
                                        .nav = w->scratch.nav,
@@ -74,7 +73,7 @@ static void prefer(JoWorld *w, const JoxSubstep *substep) {
                                        .statistics = &w->state.statistics});
 }
 
-static void push(JoWorld *w, const JoxSubstep *substep) {
+static void run_push(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_push(&(JoxPushStage){.substep = substep,
                                    .forces = w->model.def.forces,
                                    .literal = w->model.def.literal,
@@ -84,7 +83,7 @@ static void push(JoWorld *w, const JoxSubstep *substep) {
                                    .inspection = &w->scratch.inspection});
 }
 
-static void solve(JoWorld *w, const JoxSubstep *substep) {
+static void run_solve(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_solve(&(JoxSolveStage){.substep = substep,
                                      .forces_of = w->scratch.forces,
                                      .nav = w->scratch.nav,
@@ -92,12 +91,12 @@ static void solve(JoWorld *w, const JoxSubstep *substep) {
                                      .statistics = &w->state.statistics});
 }
 
-static void move(JoWorld *w, const JoxSubstep *substep) {
+static void run_move(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_move(
         &(JoxMoveStage){.substep = substep, .nav = w->scratch.nav, .walked = w->scratch.walked});
 }
 
-static void bodies(JoWorld *w, const JoxSubstep *substep) {
+static void run_bodies(JoWorld *w, const JoxSubstep *substep) {
     JoxBodyGone lost = {.row = JOX_NO_BODY};
     JoxDriveLoad overload = {.row = JOX_NO_BODY};
     jox_stage_bodies(&(JoxBodyStage){.substep = substep,
@@ -122,7 +121,7 @@ static void bodies(JoWorld *w, const JoxSubstep *substep) {
         jox_world_end_overloaded(w, &overload);
 }
 
-static void infer(JoWorld *w, const JoxSubstep *substep) {
+static void run_infer(JoWorld *w, const JoxSubstep *substep) {
     (void)substep;
     jox_stage_infer(&(JoxInferStage){.forces = w->model.def.forces,
                                      .forces_of = w->scratch.forces,
@@ -130,7 +129,7 @@ static void infer(JoWorld *w, const JoxSubstep *substep) {
                                      .inspection = &w->scratch.inspection});
 }
 
-static void observe(JoWorld *w, const JoxSubstep *substep) {
+static void run_observe(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_observe(&(JoxObserveStage){.substep = substep,
                                          .tick = w->state.tick,
                                          .dt = w->model.def.dt,
@@ -141,7 +140,7 @@ static void observe(JoWorld *w, const JoxSubstep *substep) {
                                          .statistics = &w->state.statistics});
 }
 
-/* Into how many substeps the step is cut. */
+/* Returns into how many substeps a step is divided. */
 static uint32_t count_substeps(const JoWorldDef *def) {
     return def->literal || def->dt <= PLANNING_TIME
                ? 1
@@ -152,7 +151,7 @@ double jox_world_substep_length(const JoWorld *w) {
     return w->model.def.dt / count_substeps(&w->model.def);
 }
 
-static uint32_t divide(JoWorld *w) {
+static uint32_t prepare_substeps(JoWorld *w) {
     double dt = w->model.def.dt;
     const uint32_t substeps = count_substeps(&w->model.def);
     if (substeps > 1)
@@ -161,9 +160,9 @@ static uint32_t divide(JoWorld *w) {
     return substeps;
 }
 
-/* s: how long a force would have to act at the beginning of so many steps, all at once, for the
-   effect at their end that it has step by step. */
-static double forced_time(double dt, uint32_t steps) {
+/* Returns for how long, s, a force would have to act at the beginning of so many steps to have the
+   same effect at their end as it has when it acts in each of them. */
+static double compute_forced_time(double dt, uint32_t steps) {
     double kept = jox_exp(-dt / RESPONSE_TIME), time = 0.0;
     for (uint32_t k = 0; k < steps; k++)
         time = time / kept + dt;
@@ -183,7 +182,7 @@ static JoxTiming find_timing(const JoWorldDef *def, double dt, uint32_t *plan_ev
                        .response = response,
                        .on_the_way = 1.0 - response * RESPONSE_TIME / dt,
                        .interval = dt * *plan_every,
-                       .interval_forced = forced_time(dt, *plan_every),
+                       .interval_forced = compute_forced_time(dt, *plan_every),
                        .interval_response = 1.0 - jox_exp(-dt * *plan_every / RESPONSE_TIME)};
 }
 
@@ -213,9 +212,11 @@ static const JoxSubstep *begin_substep(JoWorld *w, uint32_t number, uint32_t sub
 
 bool jox_world_step(JoWorld *w) {
     static void (*const STAGES[JO_STAGE_COUNT])(JoWorld *, const JoxSubstep *) = {
-        [JOX_STAGE_PERCEIVE] = perceive, [JOX_STAGE_THINK] = think, [JOX_STAGE_PREFER] = prefer,
-        [JOX_STAGE_PUSH] = push,         [JOX_STAGE_SOLVE] = solve, [JOX_STAGE_MOVE] = move,
-        [JOX_STAGE_BODIES] = bodies,     [JOX_STAGE_INFER] = infer, [JOX_STAGE_OBSERVE] = observe};
+        [JOX_STAGE_PERCEIVE] = run_perceive, [JOX_STAGE_THINK] = run_think,
+        [JOX_STAGE_PREFER] = run_prefer,     [JOX_STAGE_PUSH] = run_push,
+        [JOX_STAGE_SOLVE] = run_solve,       [JOX_STAGE_MOVE] = run_move,
+        [JOX_STAGE_BODIES] = run_bodies,     [JOX_STAGE_INFER] = run_infer,
+        [JOX_STAGE_OBSERVE] = run_observe};
     if (w->failure[0])
         return false;
     jox_world_run_events(w);
@@ -229,13 +230,13 @@ bool jox_world_step(JoWorld *w) {
     double begin = timed ? jox_clock_wall() : 0.0, cpu = timed ? jox_clock_cpu() : 0.0;
     double last = begin;
     if (w->model.reinserts_bodies &&
-        w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now goes on alike */
+        w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now continues exactly */
         jox_bodies_reinsert(w->state.bodies);
     jox_inspect_end_old(w);
     w->scratch.departures.count = 0;
     jox_step_events_clear(&w->scratch.step_events);
     bool good = true;
-    const uint32_t substeps = divide(w);
+    const uint32_t substeps = prepare_substeps(w);
     for (uint32_t number = 0; number < substeps && good; number++) {
         const JoxSubstep *substep = begin_substep(w, number, substeps);
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
