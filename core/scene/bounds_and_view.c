@@ -13,6 +13,11 @@ void jox_key_read_bounds(const JoxReader *r, const JoxKey *key, const JoxYaml *n
     s->bounded = jox_read_box(r, node, &s->low, &s->high);
 }
 
+bool jox_scene_is_within_bounds(const JoxSceneSpec *s, JoxV2 p) {
+    return !s->bounded ||
+           (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y);
+}
+
 void jox_key_read_heatmap_area(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
                                void *item) {
     JoxSceneSpec *s = item;

@@ -44,9 +44,13 @@ static bool check_length(const JoxReader *r, const JoxYaml *map, const JoxGroup 
     return fit;
 }
 
+/* Returns the place that a group fills if there is exactly one; else NULL. */
+static const JoxPlace *get_single_place(const JoxReader *r) {
+    return r->draft->fill.in_count == 1 ? &r->draft->scene->places[r->draft->fill.in[0]] : NULL;
+}
+
 static void fill_circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
-    const JoxPlace *place =
-        r->draft->fill.in_count == 1 ? &r->draft->scene->places[r->draft->fill.in[0]] : NULL;
+    const JoxPlace *place = get_single_place(r);
     if (!place || !jox_place_is_spot(place)) {
         jox_scene_error(r, map, "bad-fill", "in: a place with point and radius",
                         "a circle is filled about one point");
@@ -66,8 +70,7 @@ static void fill_circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
 /* Places agents along one line, each in the middle of an equal share of it: so the distances are
    equal even where periodic bounds join the line's ends. */
 static void fill_line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
-    const JoxPlace *place =
-        r->draft->fill.in_count == 1 ? &r->draft->scene->places[r->draft->fill.in[0]] : NULL;
+    const JoxPlace *place = get_single_place(r);
     if (!place || !jox_place_is_line(place)) {
         jox_scene_error(r, map, "bad-fill", "in: a place with line",
                         "`fill: line` goes along one line");
@@ -133,9 +136,9 @@ static bool has_source(const JoxReader *r, const JoxGroup *group) {
 /* Reports the first agent outside the bounds, at `node`: the group, or the list of its points. */
 static void check_group_bounds(const JoxReader *r, const JoxYaml *node, const JoxGroup *group) {
     const JoxSceneSpec *s = r->draft->scene;
-    for (uint32_t i = 0; s->bounded && group->positions && i < group->count; i++) {
+    for (uint32_t i = 0; group->positions && i < group->count; i++) {
         JoxV2 p = group->positions[i];
-        if (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y)
+        if (jox_scene_is_within_bounds(s, p))
             continue;
         if (node->kind == JOX_YAML_LIST)
             node = node->items[i];

@@ -37,8 +37,7 @@ static bool read_start(const JoxReader *r, const JoxYaml *row, JoxStart *start) 
 }
 
 static bool check_start_bounds(const JoxReader *r, const JoxYaml *row, JoxV2 p) {
-    const JoxSceneSpec *s = r->draft->scene;
-    if (!s->bounded || (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y))
+    if (jox_scene_is_within_bounds(r->draft->scene, p))
         return true;
     jox_scene_error(r, row, "out-of-bounds", NULL, "(%g, %g) is outside the scene's bounds", p.x,
                     p.y);

@@ -113,6 +113,28 @@ static void choose_enabled(JoxModsFind *f) {
     }
 }
 
+/* Reads the scene's values of the settings of mod `m`. */
+static void read_scene_settings(JoxModsFind *f, uint32_t m, const JoxYaml *values) {
+    const JoxMod *mod = &f->mods->found[m];
+    if (values->kind != JOX_YAML_MAP && !(values->kind == JOX_YAML_SCALAR && !*values->text))
+        jox_scene_error(&f->reader, values, "bad-type", "mods: {NAME: {SETTING: 3}}",
+                        "the settings of a mod are a map");
+    for (uint32_t v = 0; values->kind == JOX_YAML_MAP && v < values->count; v++) {
+        double number;
+        JoxModSetting *found = NULL;
+        for (uint32_t s = 0; s < mod->setting_count; s++)
+            if (strcmp(mod->settings[s].name, values->keys[v]) == 0)
+                found = &mod->settings[s];
+        if (!found)
+            jox_diag_error(f->reader.diagnostics, values->key_positions[v], "unknown-setting", NULL,
+                           "mod %s has no setting '%.60s'", mod->name, values->keys[v]);
+        else if (jox_read_number(&f->reader, values->items[v], found->unit, &number)) {
+            found->value = number;
+            found->position = values->items[v]->position;
+        }
+    }
+}
+
 /* Chooses the mods that the command line and the scene name, and reads the scene's values of their
    settings. */
 static void choose_named(JoxModsFind *f) {
@@ -142,29 +164,9 @@ static void choose_named(JoxModsFind *f) {
             continue;
         }
         f->needs[m].wanted = true;
-        const JoxYaml *values = map->items[k];
-        if (values->kind != JOX_YAML_MAP && !(values->kind == JOX_YAML_SCALAR && !*values->text))
-            jox_scene_error(&f->reader, values, "bad-type", "mods: {NAME: {SETTING: 3}}",
-                            "the settings of a mod are a map");
-        for (uint32_t v = 0; values->kind == JOX_YAML_MAP && v < values->count; v++) {
-            double number;
-            JoxModSetting *found = NULL;
-            for (uint32_t s = 0; s < mods->found[m].setting_count; s++)
-                if (strcmp(mods->found[m].settings[s].name, values->keys[v]) == 0)
-                    found = &mods->found[m].settings[s];
-            if (!found)
-                jox_diag_error(f->reader.diagnostics, values->key_positions[v], "unknown-setting",
-                               NULL, "mod %s has no setting '%.60s'", mods->found[m].name,
-                               values->keys[v]);
-            else if (jox_read_number(&f->reader, values->items[v], found->unit, &number)) {
-                found->value = number;
-                found->position = values->items[v]->position;
-            }
-        }
+        read_scene_settings(f, (uint32_t)m, map->items[k]);
     }
-    for (uint32_t i = 0; i < files->count; i++)
-        jox_diag_attach_source(f->reader.diagnostics, files->items[i].path, files->items[i].text,
-                               files->items[i].length);
+    jox_yaml_attach_sources(files, f->reader.diagnostics);
 }
 
 /* Sets "mods.NAME.SETTING=VALUE" of the command line, and checks the values of all settings. */

@@ -5,6 +5,14 @@
 #include "base/assert.h"
 #include "scene/mods_parts.h"
 
+/* Returns the index of the mod that a dependency names, or -1. */
+static int32_t find_dependency(const JoxModsFind *f, const JoxYaml *dependency) {
+    char name[64];
+    const char *version;
+    jox_mod_split_dependency(dependency->text, name, &version);
+    return jox_mods_index(f->mods, name);
+}
+
 /* Checks the mods that a mod depends on, recursively, and puts them before it; false with an error
    if one is missing, off, too old, or depends on this mod. */
 static bool check_dependencies(JoxModsFind *f, uint32_t m) {
@@ -66,10 +74,7 @@ static void apply_optional_order(JoxModsFind *f, uint32_t m) {
     for (uint32_t k = 0; k < n->optional_count + n->after_count; k++) {
         const JoxYaml *name =
             k < n->optional_count ? n->optional[k] : n->load_after[k - n->optional_count];
-        char plain[64];
-        const char *version;
-        jox_mod_split_dependency(name->text, plain, &version);
-        int32_t other = jox_mods_index(f->mods, plain);
+        int32_t other = find_dependency(f, name);
         if (other < 0 || !f->needs[other].wanted || f->needs[other].broken || !n->wanted ||
             n->broken)
             continue;
@@ -89,10 +94,7 @@ static void choose_needed(JoxModsFind *f) {
         for (uint32_t m = 0; m < f->mods->found_count; m++)
             for (uint32_t d = 0;
                  f->needs[m].wanted && !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
-                char name[64];
-                const char *version;
-                jox_mod_split_dependency(f->needs[m].depends[d]->text, name, &version);
-                int32_t other = jox_mods_index(f->mods, name);
+                int32_t other = find_dependency(f, f->needs[m].depends[d]);
                 if (other >= 0 && !f->needs[other].wanted)
                     f->needs[other].wanted = more = true;
             }
@@ -122,10 +124,7 @@ static void exclude_broken(JoxModsFind *f) {
         more = false;
         for (uint32_t m = 0; m < mods->found_count; m++)
             for (uint32_t d = 0; !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
-                char name[64];
-                const char *version;
-                jox_mod_split_dependency(f->needs[m].depends[d]->text, name, &version);
-                int32_t other = jox_mods_index(mods, name);
+                int32_t other = find_dependency(f, f->needs[m].depends[d]);
                 if (other < 0 || f->needs[other].broken)
                     f->needs[m].broken = more = true;
             }

@@ -217,9 +217,7 @@ void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     read_mod_subfolder(f, mod, "scenes", at);
     read_mod_subfolder(f, mod, "patches", at);
     needs->broken = r->diagnostics->errors > errors;
-    for (uint32_t i = 0; i < files->count; i++)
-        jox_diag_attach_source(r->diagnostics, files->items[i].path, files->items[i].text,
-                               files->items[i].length);
+    jox_yaml_attach_sources(files, r->diagnostics);
 }
 
 void jox_mods_report_missing(JoxModsFind *f, JoxPosition at, const char *name,

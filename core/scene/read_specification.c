@@ -49,9 +49,7 @@ JoxSceneSpec *jox_scene_read_text(const char *name, const char *text, size_t len
             jox_scene_set_value(&draft, root, options->sets[i]);
     if (root)
         read_scene_keys(&draft, root);
-    for (uint32_t i = 0; i < files->count; i++)
-        jox_diag_attach_source(diagnostics, files->items[i].path, files->items[i].text,
-                               files->items[i].length);
+    jox_yaml_attach_sources(files, diagnostics);
     draft.scene->tree = root;
     if (diagnostics->errors > errors) {
         jox_scene_free(draft.scene);

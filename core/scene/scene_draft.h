@@ -52,9 +52,6 @@ typedef struct JoxBodyDraft {
     double copies[3], distance[3]; /* copies along x, y and z, and m from one to the next */
 } JoxBodyDraft;
 
-/* Is a file part of one of the scene's mods? (bounds_and_view.c) */
-bool jox_scene_is_mod_file(const JoxSceneDraft *draft, const char *file);
-
 /* names_and_tags.c. The first two return an index, or -1 with an error that suggests a name; the
    third reports a name that no wall has. */
 int32_t jox_scene_find_place(const JoxReader *reader, const JoxYaml *name);
@@ -82,7 +79,10 @@ JoxKeyRead jox_key_read_place_points, jox_key_read_place_start, jox_key_read_reg
 JoxOwnerFinish jox_finish_place;
 void jox_resolve_place(const JoxReader *reader, const JoxYaml *map, void *item);
 
-/* bounds_and_view.c */
+/* bounds_and_view.c. Whether a point lies within the bounds, or there are none; whether a file lies
+   in the folder of one of the scene's mods. */
+bool jox_scene_is_within_bounds(const JoxSceneSpec *scene, JoxV2 point);
+bool jox_scene_is_mod_file(const JoxSceneDraft *draft, const char *file);
 JoxKeyRead jox_key_read_bounds, jox_key_read_periodic, jox_key_read_input,
     jox_key_read_heatmap_area;
 JoxOwnerFinish jox_finish_camera;

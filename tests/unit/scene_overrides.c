@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "scene_texts.h"
+#include "unit/test_folder.h"
 
 static const JoxGroupValue *find_set(const JoxGroup *group, const char *name) {
     for (uint32_t i = 0; i < group->set_count; i++)
@@ -99,41 +100,28 @@ static void anchors_and_merge_keys(void **state) {
     jox_scene_free(scene);
 }
 
-static char folder[] = "/tmp/jostle-errors-XXXXXX";
-
-static char *write_file(const char *name, const char *text) {
-    static char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    return path;
-}
-
 static void included_files_give_missing_keys(void **state) {
     (void)state;
     char text[4400], *stander = realpath("behaviours/stander.lua", NULL);
     assert_non_null(stander);
-    assert_non_null(mkdtemp(folder));
-    write_file("base.yaml", "title: Base\nseed: 9\nstep: 7\nplaces: {a: {point: [1, 2]}}\n");
+    write_test_file("base.yaml", "title: Base\nseed: 9\nstep: 7\nplaces: {a: {point: [1, 2]}}\n");
     snprintf(text, sizeof text,
              "jostle: 1\ninclude: base.yaml\nseed: 2\nplaces: {b: {point: [3, 4]}}\n"
              "groups: {g: {behaviour: '%s', at: [[0, 0]]}}\n",
              stander);
     JoxDiagnostics d = {0};
-    assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
+    assert_null(jox_scene_read(write_test_file("main.yaml", text), NULL, &d));
     assert_int_equal(d.errors, 1); /* in the included file */
     assert_true(is_diagnostic(&d.items[0], "out-of-range", 3, 7, NULL));
     assert_non_null(strstr(d.items[0].file, "/base.yaml"));
     assert_string_equal(d.items[0].source, "step: 7");
     jox_diag_free(&d);
-    write_file("base.yaml",
-               "title: Base\nseed: 9\nplaces: {a: {point: [1, 2]}}\nbodies:\n"
-               "  - {name: one, shape: {sphere: {radius: 1}}, mass: 3, at: [0, 0, 1]}\n"
-               "  - {name: two, shape: {sphere: {radius: 1}}, mass: 3, at: [5, 0, 1]}\n");
+    write_test_file("base.yaml",
+                    "title: Base\nseed: 9\nplaces: {a: {point: [1, 2]}}\nbodies:\n"
+                    "  - {name: one, shape: {sphere: {radius: 1}}, mass: 3, at: [0, 0, 1]}\n"
+                    "  - {name: two, shape: {sphere: {radius: 1}}, mass: 3, at: [5, 0, 1]}\n");
     strcat(text, "bodies: {two: {mass: 7}}\n");
-    JoxSceneSpec *scene = jox_scene_read(write_file("main.yaml", text), NULL, &d);
+    JoxSceneSpec *scene = jox_scene_read(write_test_file("main.yaml", text), NULL, &d);
     if (!scene)
         print_diagnostics(&d, text);
     assert_non_null(scene);
@@ -147,17 +135,15 @@ static void included_files_give_missing_keys(void **state) {
     assert_float_equal(scene->bodies[1].def.position[0], 5, 0);
     jox_scene_free(scene);
     *strstr(text, "bodies:") = '\0';
-    write_file("base.yaml", "title: Base\ninclude: [main.yaml]\n");
-    assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
+    write_test_file("base.yaml", "title: Base\ninclude: [main.yaml]\n");
+    assert_null(jox_scene_read(write_test_file("main.yaml", text), NULL, &d));
     assert_int_equal(d.errors, 1);
     assert_true(is_diagnostic(&d.items[0], "include-cycle", 2, 11, NULL));
     jox_diag_free(&d);
-    unlink(write_file("base.yaml", ""));
-    assert_null(jox_scene_read(write_file("main.yaml", text), NULL, &d));
+    unlink(write_test_file("base.yaml", ""));
+    assert_null(jox_scene_read(write_test_file("main.yaml", text), NULL, &d));
     assert_true(is_diagnostic(&d.items[0], "unreadable-file", 2, 10, NULL));
     jox_diag_free(&d);
-    unlink(write_file("main.yaml", ""));
-    rmdir(folder);
     free(stander);
     assert_null(jox_scene_read("/nowhere/at/all.yaml", NULL, &d));
     assert_string_equal(d.items[0].code, "unreadable-file");
@@ -200,5 +186,5 @@ int main(void) {
         cmocka_unit_test(edits_that_need_restart_are_listed),
         cmocka_unit_test(included_files_give_missing_keys),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

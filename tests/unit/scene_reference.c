@@ -1,33 +1,12 @@
 /* The table of keys and what is printed from it: examples show every key and can be read, pages and
    schemas agree with the table, and the files of scripts/ are up to date.
    `scene_reference --write` writes them. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
 #include "base/mem.h"
 #include "scene/format/keys.h"
-#include "scene/scene.h"
-
-static void print_problems(const JoxDiagnostics *d, const char *what) {
-    JoxText text = {0};
-    jox_diag_print(d, &text);
-    print_message("%s\n%s", what, text.data ? text.data : "(none)\n");
-    jox_text_free(&text);
-}
+#include "unit/scene_texts.h"
 
 static bool is_owner(const char *name, size_t length) {
-    for (size_t i = 0; i < jox_scene_format.owner_count; i++)
-        if (strlen(jox_scene_format.owners[i].name) == length &&
-            !strncmp(jox_scene_format.owners[i].name, name, length))
-            return true;
-    return false;
+    return jox_owner_find(&jox_scene_format, name, length) != NULL;
 }
 
 /* Marks in `seen` the keys of the table that a tree uses. The first `length` bytes of `content`
@@ -85,7 +64,7 @@ static void examples_show_every_key(void **state) {
             mark_keys(&(JoxReader){.arena = arena, .diagnostics = &d, .format = &jox_scene_format},
                       root, root_owner, strlen(root_owner), seen);
             if (d.count)
-                print_problems(&d, yaml);
+                print_diagnostics(&d, yaml);
             assert_int_equal(d.count, 0);
             jox_arena_free(arena);
         }
@@ -113,7 +92,7 @@ static void examples_read_without_diagnostics(void **state) {
         JoxSceneSpec *scene = jox_scene_read_text("scenes/example.yaml", example->yaml,
                                                   strlen(example->yaml), NULL, &d);
         if (!scene || d.count)
-            print_problems(&d, example->yaml);
+            print_diagnostics(&d, example->yaml);
         assert_non_null(scene);
         assert_int_equal(d.count, 0);
         jox_scene_free(scene);
@@ -204,7 +183,7 @@ static JoxYaml *read_schema(JoxArena *arena, const char *root) {
     jox_scene_print_json_schema(root, &text);
     JoxYaml *tree = jox_yaml_read(arena, "schema.json", text.data, text.length, files, &d);
     if (!tree)
-        print_problems(&d, "schema");
+        print_diagnostics(&d, "schema");
     assert_non_null(tree);
     jox_text_free(&text);
     jox_diag_free(&d);

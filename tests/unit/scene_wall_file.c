@@ -14,6 +14,7 @@
 #include "base/mem.h"
 #include "scene/scene.h"
 #include "scene/wall_files/wall_file.h"
+#include "unit/test_folder.h"
 
 static bool read_plan(const char *text, JoxWalls *walls, JoxDiagnostics *diagnostics) {
     JoxWallFileOptions options = {.unit = 1.0, .height = 3.0f};
@@ -304,23 +305,12 @@ static void mutated_xml_is_read_or_refused(void **state) {
 
 /* ---- in scenes ---- */
 
-static char folder[] = "/tmp/jostle-plan-XXXXXX";
-
-static void write_file(const char *name, const char *text) {
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
-
 static JoxSceneSpec *load_walls(const char *walls, JoxDiagnostics *diagnostics) {
-    char text[512], path[128];
+    char text[512];
     snprintf(text, sizeof text,
              "jostle: 1\nwalls: [%s]\ngroups: {g: {behaviour: stander, at: [[5, 2]]}}\n", walls);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    JoxSceneSpec *scene = jox_scene_read_text(path, text, strlen(text), NULL, diagnostics);
+    JoxSceneSpec *scene =
+        jox_scene_read_text(test_path("scene.yaml"), text, strlen(text), NULL, diagnostics);
     if (!scene)
         print_message("%s\n", diagnostics->items[0].message);
     return scene;
@@ -329,8 +319,9 @@ static JoxSceneSpec *load_walls(const char *walls, JoxDiagnostics *diagnostics) 
 static void scene_reads_walls_from_file(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
-    write_file("plan.wkt", "POLYGON ((45200000 541100000, 45201000 541100000, 45201000 541100800, "
-                           "45200000 541100000))");
+    write_test_file("plan.wkt",
+                    "POLYGON ((45200000 541100000, 45201000 541100000, 45201000 541100800, "
+                    "45200000 541100000))");
     JoxSceneSpec *scene = load_walls("{file: plan.wkt, unit: 1 cm, origin: [45200000, 541100000], "
                                      "name: hall, height: 2}",
                                      &diagnostics);
@@ -349,10 +340,9 @@ static void scene_reads_walls_from_file(void **state) {
 
 static void scene_reads_walls_from_recording(void **state) {
     (void)state;
-    char path[128];
+    const char *path = test_path("run.sqlite");
     sqlite3 *db;
     JoxDiagnostics diagnostics = {0};
-    snprintf(path, sizeof path, "%s/run.sqlite", folder);
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
     assert_int_equal(
         sqlite3_exec(db,
@@ -378,7 +368,7 @@ static void scene_reads_walls_from_recording(void **state) {
 static void errors_in_wall_files_are_shown(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
-    write_file("bad.wkt", "LINESTRING (0 0,\n  1 nought)\n");
+    write_test_file("bad.wkt", "LINESTRING (0 0,\n  1 nought)\n");
     assert_null(load_walls("{file: bad.wkt}", &diagnostics));
     const JoxDiagnostic *d = &diagnostics.items[0];
     assert_non_null(strstr(d->file, "bad.wkt"));
@@ -400,8 +390,9 @@ static void errors_in_wall_files_are_shown(void **state) {
 static void door_of_geometry_closes(void **state) {
     (void)state;
     JoxDiagnostics diagnostics = {0};
-    write_file("rooms.xml", "<geometry><polygon>" V(0, 0) V(3, 0) "</polygon><transition id='7'>" V(
-                                3, 0) V(4, 0) "</transition></geometry>");
+    write_test_file("rooms.xml",
+                    "<geometry><polygon>" V(0, 0) V(3, 0) "</polygon><transition id='7'>" V(3, 0)
+                        V(4, 0) "</transition></geometry>");
     JoxSceneSpec *scene =
         load_walls("{file: rooms.xml}]\nevents: [{at: 5, close: door-7}", &diagnostics);
     assert_non_null(scene);
@@ -413,22 +404,6 @@ static void door_of_geometry_closes(void **state) {
     assert_null(load_walls("{file: rooms.xml}]\nevents: [{at: 5, close: door-8}", &diagnostics));
     assert_non_null(strstr(diagnostics.items[0].hint, "door-7"));
     jox_diag_free(&diagnostics);
-}
-
-static int make_folder(void **state) {
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state) {
-    (void)state;
-    static const char *const NAMES[] = {"plan.wkt", "bad.wkt", "run.sqlite", "rooms.xml"};
-    for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
-        char path[128];
-        snprintf(path, sizeof path, "%s/%s", folder, NAMES[n]);
-        unlink(path);
-    }
-    return rmdir(folder);
 }
 
 int main(void) {
@@ -446,5 +421,5 @@ int main(void) {
         cmocka_unit_test(scene_reads_walls_from_recording),
         cmocka_unit_test(errors_in_wall_files_are_shown),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

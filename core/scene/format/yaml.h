@@ -49,6 +49,8 @@ typedef struct JoxYamlFiles {
    the list; NULL with errors. */
 JoxYaml *jox_yaml_read(JoxArena *arena, const char *path, const char *text, size_t length,
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics);
+/* Gives diagnostics the lines of these files. */
+void jox_yaml_attach_sources(const JoxYamlFiles *files, JoxDiagnostics *diagnostics);
 /* Whether two trees hold the same, whatever their positions. Both may be NULL. */
 bool jox_yaml_same(const JoxYaml *a, const JoxYaml *b);
 /* Returns a map's value; NULL if `map` is NULL, not a map, or lacks the key. */

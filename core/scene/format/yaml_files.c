@@ -350,3 +350,9 @@ JoxYaml *jox_yaml_read(JoxArena *arena, const char *path, const char *text, size
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics) {
     return read_yaml_file(arena, path, text, length, files, diagnostics, (JoxPosition){0});
 }
+
+void jox_yaml_attach_sources(const JoxYamlFiles *files, JoxDiagnostics *diagnostics) {
+    for (uint32_t i = 0; i < files->count; i++)
+        jox_diag_attach_source(diagnostics, files->items[i].path, files->items[i].text,
+                               files->items[i].length);
+}
