@@ -49,14 +49,17 @@ static void load_kept_scene(Kept *kept) {
     jox_overlay_use(before);
 }
 
-/* Answers a request: the files that the child read, and how it ended. */
+/* Answers a request: with the files that the child read and how it ended, or, if it was ended, at
+   which file and why. */
 static void send_answer(const Kept *kept, int end, const CliVetted *what) {
-    const JoxText *why = &what->why;
-    for (size_t f = 0; end >= 0 && f < what->files->count; f++)
+    if (end < 0) {
+        cli_send(kept->socket, CLI_ENDED, what->file, what->why.data, what->why.length);
+        return;
+    }
+    for (size_t f = 0; f < what->files->count; f++)
         cli_send(kept->socket, CLI_FILE, what->files->files[f].path, what->files->files[f].text,
                  what->files->files[f].length);
-    cli_send(kept->socket, end >= 0 ? (CliSent)end : CLI_ENDED, end >= 0 ? "" : what->file,
-             end >= 0 ? "" : why->data, end >= 0 ? 0 : why->length);
+    cli_send(kept->socket, (CliSent)end, "", "", 0);
 }
 
 static void free_vetted(CliVetted *what) {
@@ -159,7 +162,8 @@ static bool wait_for_answer(const CliKeeper *keeper, const JoVetting *what) {
     return true;
 }
 
-/* Receives the answer to a request; returns as JoVetter.vet does. */
+/* Receives the answer to a request; returns as JoVetter.vet does, without a reason if the keeper is
+   gone. */
 static bool receive_answer(const CliKeeper *keeper, JoVetting *what) {
     CliSource source = {.from = keeper->socket, .stop = -1};
     bool wanted = true;
@@ -172,9 +176,6 @@ static bool receive_answer(const CliKeeper *keeper, JoVetting *what) {
         else if (kind == CLI_ENDED) {
             snprintf(what->file, sizeof what->file, "%s", got.name);
             snprintf(what->why, sizeof what->why, "%s", got.text);
-        } else if (kind < 0) {
-            snprintf(what->why, sizeof what->why,
-                     "the process that has edited files read is gone; begin the run anew");
         }
         cli_free_received(&got);
         if (kind != CLI_FILE)
@@ -185,15 +186,14 @@ static bool receive_answer(const CliKeeper *keeper, JoVetting *what) {
 static bool ask_keeper(void *context, JoVetting *what) {
     CliKeeper *keeper = context;
     pthread_mutex_lock(&keeper->lock);
-    const bool asked = send_vetting_request(keeper, what),
-               heard = asked && receive_answer(keeper, what);
+    const bool read = send_vetting_request(keeper, what) && receive_answer(keeper, what);
     pthread_mutex_unlock(&keeper->lock);
-    if (!asked)
+    if (!read && !*what->why)
         snprintf(what->why, sizeof what->why,
                  "the process that has edited files read is gone; begin the run anew");
     if (!*what->file && what->behaviour_count)
         snprintf(what->file, sizeof what->file, "%s", what->behaviours[0]);
-    return heard;
+    return read;
 }
 
 CliKeeper *cli_keeper_begin(const CliCommand *command, const JoSceneDef *def,
