@@ -1,4 +1,4 @@
--- Walks to a goal of its own and stops there. By ORCA: not fit for capacities.
+-- Walks to its own goal and stops there. By ORCA: not fit for capacities.
 return machine {
   name = "antipodal", version = 1, start = "Walk",
   defaults = { speed = 1.3, perception = 5, horizon = 2 },

@@ -1,4 +1,4 @@
--- Lies until two hold on to it, and lets itself be carried: it stands on no feet, so that it goes where it is pulled.
+-- Lies until two agents hold it, and is then carried: without friction of feet it moves where it is pulled.
 -- By ORCA: not fit for capacities.
 memory { safe = false }
 

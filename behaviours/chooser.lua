@@ -1,11 +1,11 @@
--- Leaves by the nearer of two doors, or, once it would take too long, by the farther one: from time to time people
--- compare their way to each door and those who stand before it.
+-- Leaves by the nearer of two doors, or by the farther one if that is quicker: from time to time people compare their
+-- way to each door and the number of people before it.
 local crowd = require "crowd"
 
--- Seconds to get out by a door: the way there, then those in front, of whom two a second get through.
+-- Time to get out by a door, s: for the way there, then for the people in front, of whom two a second pass it.
 local function way_out(door, front) return distance(door) / own.speed + count(front) / 2 end
 
--- Whoever comes through a door is out, also where the crowd carried them through the one that they had not chosen.
+-- An agent that passes either door has left, also if the crowd carried it through the one that it had not chosen.
 local through = crosses(own.near) | crosses(own.far)
 
 local gain = way_out(own.near, own.near_front) - way_out(own.far, own.far_front)

@@ -1,4 +1,4 @@
--- Waits on the platform until the doors open, boards, and rides standing: then it is a stander.
+-- Waits on the platform until the doors open, boards, and then becomes a stander.
 local crowd = require "crowd"
 
 return machine {

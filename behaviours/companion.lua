@@ -1,4 +1,4 @@
--- Walks to a goal with its party: who is apart from it may wait, or walks to it first; who is close walks on.
+-- Walks to a goal with its party: an agent that is apart from the party waits, or walks to it first.
 local crowd = require "crowd"
 local mate = nearest "teammates"
 local apart = distance(mate):above(2.5) & sees(mate)

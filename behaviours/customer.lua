@@ -1,4 +1,4 @@
--- Stands in a queue, is served for a while at its head, and leaves. Who comes first is served first.
+-- Stands in a queue, is served at its head, and leaves. Customers are served in the order in which they come.
 local crowd = require "crowd"
 
 return machine {
@@ -9,7 +9,7 @@ return machine {
     Queue = { steer = queue(own.counter), max_speed = 1.2,
       { to = "Service", when = first_in(own.counter) & near(own.counter, 0.5) } },
 
-    -- The one who is served still heads the queue: the next waits behind.
+    -- The customer who is served still heads the queue; the next one waits behind.
     Service = { steer = queue(own.counter), lasts = uniform(4, 8),
       { to = "Leave",   when = lasted } },
 

@@ -1,5 +1,5 @@
--- A person drives this agent; touching the ball kicks it at an opponent. Left alone for 8 s it plays on by itself,
--- until it is driven again. By ORCA: not fit for capacities.
+-- A person drives this agent; touching the ball kicks it at an opponent. If nobody drives it for 8 s, it plays by
+-- itself until it is driven again. By ORCA: not fit for capacities.
 local ball = nearest "ball"
 local mine_to_kick = grounded(ball) & inside(ball, own.court)
 local driven = now.driven:above(0)

@@ -1,4 +1,4 @@
--- Hears the alarm, takes some time to believe it, passes it on, and leaves by whatever exit is reached soonest.
+-- Hears the alarm, hesitates, passes it on, and leaves by the exit that it reaches first.
 local crowd = require "crowd"
 
 return machine {
@@ -10,7 +10,7 @@ return machine {
       { to = "Hesitate", when = after(own.alarm) },
       { to = "Hesitate", when = heard("alarm", 5) } },
 
-    -- The time before people move is long and differs much: it decides more than their speed.
+    -- The time before people move is long and differs much; it matters more than their speed.
     Hesitate = { steer = hold, lasts = normal(6, 3, 1, 15),
       { to = "Leave",    when = lasted } },
 

@@ -1,5 +1,5 @@
--- Stands before a stage as near as it gets; at a "surge" presses towards it for some seconds. What stands in the way,
--- as a barrier does, is pushed too.
+-- Stands before a stage, as near as it can; at a signal "surge" it presses towards the stage for some seconds, and
+-- pushes bodies in the way too, such as barriers.
 return machine {
   name = "fan", version = 1, start = "Watch",
   own = { stage = "stage" },

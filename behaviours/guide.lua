@@ -1,4 +1,4 @@
--- Leads a tour: walks from stop to stop, tells its story at each, and waits for whoever falls behind.
+-- Leads a tour: walks from stop to stop, tells its story at each, and waits for tourists who fall behind.
 local crowd = require "crowd"
 local far_behind = neighbours("tourists"):below(4)
 

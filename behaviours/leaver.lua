@@ -1,6 +1,6 @@
--- Waits for its own time, then leaves by one of two exits: a way is worth less the longer it is, and more the more
--- people who can be seen have chosen it; `used_to` is what being used to the first is worth. Who sees that its exit is
--- shut turns to the other one.
+-- Waits for its pre-movement time, then leaves by one of two exits: it prefers the shorter way, and the exit that more
+-- people whom it sees have chosen; `used_to` is a bonus for the first exit, out of habit, m. If it sees that its exit
+-- is shut it turns to the other one.
 local crowd = require "crowd"
 local others = neighbours("anyone"):in_state("ToSecond") - neighbours("anyone"):in_state("ToFirst")
 local second_is_better = distance(own.first) - distance(own.second) + own.sway * others - own.used_to -- metres

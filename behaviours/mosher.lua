@@ -1,4 +1,4 @@
--- Dances in a pit: runs about in it, into whoever is there, and rests at its edge; at a "drop" all dance.
+-- Dances in a pit: runs about in it and into others, and rests at its edge; at a signal "drop" all dance.
 local mine = memory { dances = 0 }
 
 return machine {
@@ -10,7 +10,7 @@ return machine {
     Rest = { steer = seek(home), lasts = uniform(3, 9),
       { to = "Dance", when = lasted | heard "drop" } },
 
-    -- Others are run into, not avoided; who is hit hard is pushed out of its way.
+    -- The dancer does not avoid others, and pushes those whom it hits hard out of its way.
     Dance = { steer = wander(own.pit), speed = 3 * own.wild, push = 150 * own.wild, ignore = { "mosher", "fan" },
       set = { dances = mine.dances + 1 }, lasts = uniform(4, 10), colour = "purple",
       { to = "Rest", when = lasted } },

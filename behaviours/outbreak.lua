@@ -1,5 +1,5 @@
--- People among whom an infection spreads by touch: who sees it, or hears of it, flees, hides behind doors and stays
--- there. Who is bitten turns after some seconds, and hunts the healthy whom it sees, until police hold it.
+-- An infection spreads by touch: people who see an infected person, or hear the signal, flee and hide behind doors. A
+-- bitten person turns infected after some seconds, and hunts healthy people whom it sees, until police hold it.
 local mine = memory { ill = false }
 local infected = nearest("anyone"):in_state("Infected")
 local prey = nearest "healthy"

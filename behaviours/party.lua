@@ -1,5 +1,5 @@
--- Walks to a goal and stays with its party: who is ahead of it stands until it has come up, so that all get there
--- together, at the pace of the slowest.
+-- Walks to a goal with its party: a member that is ahead of the others stands until they have come up, so that all
+-- arrive together, at the pace of the slowest.
 local crowd = require "crowd"
 
 return machine {

@@ -1,5 +1,5 @@
--- A line of police: stands in a row at its post, and at each order "advance" goes on to the next line, pushing the
--- infected before it. A group gives its lines: set: {first: line_1, second: line_2, last: line_3}.
+-- One of a line of police: stands in a row on a line, and at each signal "advance" moves on to the next line, pushing
+-- infected people before it. A group gives its lines: set: {first: line_1, second: line_2, last: line_3}.
 return machine {
   name = "police", version = 1, start = "Post",
   own = { first = "line_1", second = "line_2", last = "line_3" },

@@ -1,4 +1,4 @@
--- Polite: looks far ahead, never pushes, gives way wholly. By ORCA: not fit for capacities.
+-- Polite: looks far ahead, never pushes, takes most of the avoidance itself. By ORCA: not fit for capacities.
 return machine {
   name = "polite", version = 1, start = "Walk",
   defaults = { speed = 1.6, max_speed = 2, perception = 5, horizon = 2, yield = 0.9 },

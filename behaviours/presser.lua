@@ -1,5 +1,5 @@
 -- Presses towards a goal round the walls. By ORCA: not fit for capacities.
--- Pushes whoever is ahead while it is slower than it wants to be.
+-- Pushes agents ahead while it is slower than it wants to be.
 return machine {
   name = "presser", version = 1, start = "Walk",
   defaults = { speed = normal(1.3, 0.15, 0.8, 1.8), perception = 3, horizon = 0.5 },

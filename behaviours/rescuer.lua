@@ -1,5 +1,5 @@
--- Goes to who lies nearest, takes hold, waits for a second pair of hands, and carries them to a refuge with it; then
--- comes back for the next. By ORCA: not fit for capacities.
+-- Goes to the nearest casualty, takes hold, waits for a second rescuer, and carries the casualty to a refuge with it;
+-- then comes back for the next one. By ORCA: not fit for capacities.
 local lying   = nearest("casualties"):in_state("Lie")
 local carried = nearest("casualties"):in_state("Carried")
 local safe    = nearest("casualties"):in_state("Safe")

@@ -1,6 +1,6 @@
--- Comes to a place of a square where there is something to see, and stays. Who has a `drive`, the speed in m/s that its
--- feet would like, presses on; the way in which it presses turns towards that in which the crowd carries it, by up to a
--- radian for each `carry` metres: a polarity that aligns with the velocity, as Gu et al. (2025) propose. Others stand.
+-- Walks to a place in a square and stays. An agent with a `drive`, the speed in m/s at which its feet push, presses
+-- on; the direction of its pressing turns towards that in which the crowd carries it, by up to 1 rad for each `carry`
+-- metres: a polarity that aligns with the velocity, as Gu et al. (2025) propose. Agents without a drive stand.
 local crowd = require "crowd"
 
 local mine = memory { way = 0, at = 0, drive = 0, carry = 1 }

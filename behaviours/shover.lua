@@ -1,13 +1,13 @@
--- Stands, then gives whoever is ahead one shove of `strength` newtons at most, which lasts `time` seconds.
+-- Stands, then gives the agent ahead one shove of at most `strength` newtons, which lasts `time` seconds.
 
--- How hard a person shoves, as a share of the hardest, over the share of the time: measured on the last of five in a
+-- Force of a shove, as a share of its maximum, over the share of its duration: measured on the last of five people in a
 -- row (Feldmann and Adrian 2023, as force per mass over 0.725 s).
 local measured = {
   { 0, 0 }, { 0.14, 0.18 }, { 0.26, 0.17 }, { 0.33, 0.84 }, { 0.40, 1 }, { 0.47, 0.98 }, { 0.54, 0.79 },
   { 0.66, 0.78 }, { 0.73, 0.42 }, { 0.87, 0.30 }, { 0.94, 0.06 }, { 1, 0 },
 }
 
--- What goes straight from knot to knot, as an expression of x: from each knot on it bends by the change of the slope.
+-- Piecewise linear function through the knots, as an expression of x: each knot adds a change of slope from there on.
 local function through(knots, x)
   local value, slope = knots[1][2], 0
   for i = 1, #knots - 1 do

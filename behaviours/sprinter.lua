@@ -1,4 +1,4 @@
--- Runs for the end zone past those who would stop it; tears itself away from who holds it, or goes down. By ORCA: not
+-- Runs for the end zone past tacklers; tears itself away from agents that hold it, or goes down. By ORCA: not
 -- fit for capacities.
 memory { home = false, down = false }
 

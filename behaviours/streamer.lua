@@ -1,4 +1,4 @@
--- Walks on for ever the way a line points. By ORCA: not fit for capacities.
+-- Walks for ever in the direction of a line. By ORCA: not fit for capacities.
 return machine {
   name = "streamer", version = 1, start = "Walk",
   defaults = { speed = 1.3, perception = 5, horizon = 2, radius = 0.2 },

@@ -1,4 +1,4 @@
--- Walks on for ever the way a line points by the walking law, out of the way of who comes towards.
+-- Walks for ever in the direction of a line by the walking law, and turns aside for oncoming people.
 local crowd = require "crowd"
 
 return machine {

@@ -3,9 +3,9 @@ local mine     = memory { laps = 0, touched = false, press = 0, way = 0 } -- per
 local at_line  = crosses "start_line"
 local crowded  = density("black_stone"):above(6)        -- people per square metre
 local eager    = max(now.speed, own.speed)               -- present speed alone cannot break a standstill
-local shove    = (150 + mine.way) * eager                -- newtons, in the queue
-local hurry    = mine.press * eager                      -- of those who circle: none, unless a scene says so
-local make_way = max(40, max(mine.press, mine.way)) * eager -- of those who make for a gate
+local shove    = (150 + mine.way) * eager                -- push in the queue, N
+local hurry    = mine.press * eager                      -- push of agents that circle, N: 0 unless a scene sets `press`
+local make_way = max(40, max(mine.press, mine.way)) * eager -- push of agents on their way to a gate, N
 local slowed   = now.speed:below(0.8 * own.speed)
 local pace     = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))
 local done     = mine.laps:at_least(7)
@@ -25,8 +25,8 @@ return machine {
       { to = "ToStone", when = at_line & near("black_stone", 10) & ~crowded & ~mine.touched, chance = 0.03 },
       { to = "Pass",    when = at_line, chance = 0.30 } },
 
-    -- On their last circuit people work outwards. Once it is done they walk on with the others, and out of the crowd,
-    -- until a gate is at hand: who turned back to one that he has passed would hold up all behind him.
+    -- On their last circuit people move outwards. After it they walk on with the others, and out of the crowd, until a
+    -- gate is near: a person who turned back to a gate would hold up everybody behind.
     Outward = { steer = orbit("kaaba", { inward = 0 }) + 0.5 * away_from "kaaba", speed = pace,
       push = hurry, push_when = slowed,
       { to = "Leave",   when = done },
@@ -47,12 +47,12 @@ return machine {
     Touch = { steer = hold, lasts = 3, on_exit = function(me) me.touched = true end,
       { to = "Circle",  when = lasted } },
 
-    -- On each circuit who does not touch the stone greets it from afar; to stop for that is no duty. That 30 % slow
-    -- down for it, 4 to 8 m past the line and for 4 to 10 s, is assumed: no measurement of it is known to us.
+    -- People who do not touch the stone greet it from afar on each circuit, and need not stop for that. That 30 % slow
+    -- down for it, 4 to 8 m past the line and for 4 to 10 s, is an assumption: we know of no measurement.
     Pass = { steer = orbit "kaaba", speed = pace, lasts = uniform(6, 12),
       { to = "Istilam", when = lasted } },
 
-    -- A hard cap: who only wants to go slower is swept along by the stream.
+    -- A hard cap on speed: an agent that only wants to go slower is carried along by the stream.
     Istilam = { steer = orbit "kaaba", face = "black_stone", speed = pace, max_speed = 0.46, lasts = uniform(4, 10),
       { to = "Circle",  when = lasted } },
 

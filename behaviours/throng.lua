@@ -1,4 +1,4 @@
--- Heads for a goal round whatever stands, looks ahead and stops. By ORCA: not fit for capacities.
+-- Walks to a goal round standing people, looks ahead and stops. By ORCA: not fit for capacities.
 -- Held up for a while, it presses until it moves again.
 local crowd = require "crowd"
 

@@ -1,4 +1,4 @@
--- Dodge-ball by hand: fetch a ball in one's own court, aim, throw it. By ORCA: not fit for capacities.
+-- Dodge-ball by hand: fetches a ball in its own court, aims, and throws it. By ORCA: not fit for capacities.
 local ball = nearest "ball"
 local foe  = nearest "opponents"
 local mine = memory { hits = 0, throws = 0 }

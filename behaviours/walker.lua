@@ -1,4 +1,4 @@
--- Walks to a goal by the walking law, by whatever way gets there soonest, and leaves there.
+-- Walks to a goal by the walking law, by the way that takes least time, and leaves there.
 local crowd = require "crowd"
 
 return machine {

@@ -1,4 +1,4 @@
--- Goes from place to place as it likes, stays a while at each, round whatever walls there are.
+-- Walks from place to place, drawn at random, round walls, and stays a while at each.
 local crowd = require "crowd"
 
 return machine {

@@ -1,9 +1,9 @@
--- The claim that the scenes corridor-uo-*.yaml share: people walk one way through a corridor of 1.8 m whose entrance
--- and exit have other widths.
+-- The claim that the scenes corridor-uo-*.yaml share: people walk one way through a corridor 1.8 m wide, with entrances
+-- and exits of other widths.
 local measure = require "measure"
 
--- A claim for `claim`. `words`: id, title and text. `cases`: widths of entrance, corridor and exit, cm; and of the
--- source the specific flow, 1/(m s), the density, 1/m2, and the speed, m/s.
+-- Returns a table for `claim`. `words`: id, title and text. `cases`: for each case the widths of entrance, corridor and
+-- exit, cm, and the source's specific flow, 1/(m s), density, 1/m2, and speed, m/s.
 return function(words, cases)
   local runs, quick, expect, pictures, measured, source = {}, {}, {}, {}, {}, {}
   for i = 1, #cases do

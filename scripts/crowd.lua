@@ -1,15 +1,16 @@
--- How people walk among others and press, as values that behaviours share.
+-- Values that behaviours share: how people walk among others, and how they press.
 local crowd = {}
 
--- Time kept to whoever walks ahead, s, by those who are not eager: what `time_gap` is to all who walk by the walking
--- law (core/walking.md). A group's `haste` (calm, normal, keen) and the crowd itself shorten it.
+-- Time gap to the person ahead, s, of people who are not eager: the `time_gap` of all behaviours that walk by the
+-- walking law (core/walking.md). A group's `haste` (calm, normal, keen) and the crowd itself shorten it.
 crowd.time_gap = 0.922
 
--- Who is eager and hardly gets on leans on those ahead, N; who stands where others walk does so after 5 s.
+-- Push, N, of an eager agent that hardly gets on against the agents ahead; one that stands where others walk pushes
+-- after 5 s.
 crowd.nudge = 32 * eagerness * own.speed
 crowd.held_up = now.speed:below(0.3 * own.speed) & eagerness:above(0.4) | stuck(5)
 
--- Free way ahead as those who do not walk by the law judge it: 0.88 s to whoever walks ahead, m/s; never quite nothing.
+-- Speed, m/s, of agents that walk by ORCA: free distance ahead divided by 0.88 s, and never quite 0.
 crowd.by_headway = clamp(min(headway / 0.88, 0.5 * (5 - density_here)), 0.05, own.speed)
 
 return crowd

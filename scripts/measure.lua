@@ -1,12 +1,12 @@
--- Arithmetic for claims: on lists of numbers, and on the columns that probes leave.
+-- Arithmetic for claims: on lists of numbers, and on the columns of probes' CSV files.
 local measure = {}
 
--- What the constants of the walking law (core/walking.md) were chosen on, by the ids of claims; said by those as what
--- they are calibrated on, and by all others of real crowds as what they were held out from.
+-- Ids of the claims on which the constants of the walking law (core/walking.md) were chosen. These claims name them as
+-- their calibration; all other claims on real crowds name them as data from which they were held out.
 measure.walking_law = "the walking law's constants were chosen on seeds 201 to 216 and 301 to 318 of B1 to B4, C1, "
   .. "F1 to F3, F3b, L1 and W, and touched up once 101 to 110 were seen"
 
--- What the Tawaf's behaviour was chosen on; it walks by ORCA, so that its claims have no level of haste.
+-- Ids of the claims on which the Tawaf's behaviour was chosen; it walks by ORCA, so its claims have no level of haste.
 measure.tawaf = "the Tawaf's chances, durations, speeds and pushes were chosen on seed 1 of 6-7, 8, 9 and 10, "
   .. "chances and gates on seed 101 of 6-7 and 10, too"
 
@@ -16,7 +16,7 @@ function measure.mean(list)
   return sum / #list
 end
 
--- Standard deviation of what a sample is drawn from (n - 1).
+-- Standard deviation of the population of which the list is a sample (n - 1).
 function measure.deviation(list)
   local mean, sum = measure.mean(list), 0
   for i = 1, #list do sum = sum + (list[i] - mean) ^ 2 end
@@ -48,7 +48,7 @@ end
 
 function measure.median(list) return measure.quantile(list, 0.5) end
 
--- How often people crossed, either way, the lines of those flow probes whose names begin with a prefix.
+-- Number of crossings, in both directions, of the lines of all flow probes whose names begin with a prefix.
 function measure.crossings(probes, prefix)
   local sum = 0
   for name, probe in pairs(probes) do
@@ -67,27 +67,27 @@ function measure.slope(x, y)
   return sxy / sxx
 end
 
--- A band about a value: a share of it to either side.
+-- Band around a value: `share` of the value to either side.
 function measure.about(value, share) return { (1 - share) * value, (1 + share) * value } end
 
--- A row of a claim's `expect`: a figure whose mean is to lie within a share of what the source has.
+-- Row of a claim's `expect`: a figure whose mean must lie within a share of the source's value.
 function measure.expected(figure, unit, what, value, share)
   return { figure, unit = unit, what = what, source = string.format("%.2f", value), band = measure.about(value, share) }
 end
 
--- Root of the mean square of a relative deviation from what is expected.
+-- Root mean square of the relative deviations from expected values.
 function measure.rms(list, expected)
   local sum = 0
   for i = 1, #list do sum = sum + (list[i] / expected[i] - 1) ^ 2 end
   return math.sqrt(sum / #list)
 end
 
--- Shares of distributions below a value: functions of x.
+-- Cumulative distribution functions of x.
 function measure.uniform_share(least, greatest)
   return function(x) return math.max(0, math.min(1, (x - least) / (greatest - least))) end
 end
 
--- By the series of the error function, which converges for all x; beyond 6 deviations there is nothing.
+-- Computed by the series of the error function, which converges for all x; 0 or 1 beyond 6 deviations.
 function measure.normal_share(mean, deviation)
   return function(x)
     local z = (x - mean) / deviation
@@ -108,7 +108,7 @@ end
 
 function measure.weibull_share(shape, scale) return function(x) return 1 - math.exp(-(x / scale) ^ shape) end end
 
--- The logarithm of the gamma function: Stirling's series, above 8, and what leads there.
+-- Logarithm of the gamma function: Stirling's series above 8, the recurrence below.
 local function log_gamma(x)
   local below = 0
   while x < 8 do below, x = below + math.log(x), x + 1 end
@@ -130,8 +130,8 @@ function measure.gamma_share(shape, scale)
   end
 end
 
--- Chance that a list which is of the distribution differs from it so much, by the test of Kolmogorov and Smirnov (the
--- series of its limit, with Stephens's correction for short lists).
+-- Probability that a sample of the distribution differs from it at least as much as the list, by the test of Kolmogorov
+-- and Smirnov (series of its limit, with Stephens's correction for short lists).
 function measure.kolmogorov_smirnov(list, share)
   local sorted, n, farthest = {}, #list, 0
   for i = 1, n do sorted[i] = list[i] end
@@ -145,7 +145,7 @@ function measure.kolmogorov_smirnov(list, share)
   return lambda < 0.3 and 1 or math.max(0, math.min(1, chance))
 end
 
--- How many of a list, from `first` on, are not less than the one before: 0 is a steady fall.
+-- Number of items of a list, from `first` on, that are not less than the item before: 0 means a steady fall.
 function measure.rises(list, first)
   local count = 0
   for i = (first or 1) + 1, #list do
@@ -154,7 +154,7 @@ function measure.rises(list, first)
   return count
 end
 
--- How many times of a flow's passages lie before `time`: N(t).
+-- Number of passages of a flow before `time`: N(t).
 function measure.passed(flow, time)
   local count = 0
   for i = 1, flow.n do
@@ -163,7 +163,7 @@ function measure.passed(flow, time)
   return count
 end
 
--- A list without its straight trend: what is left over of a least-squares line through it.
+-- The list without its linear trend: residuals of a least-squares line.
 function measure.detrended(list)
   local order, out = {}, {}
   for i = 1, #list do order[i] = i end
