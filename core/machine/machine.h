@@ -32,14 +32,14 @@ enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
     X(density, density_here, "1/m2",                                                               \
       "people per square metre about the agent, from its neighbours' distances", a->density[i])    \
     X(headway, headway, "m",                                                                       \
-      "free distance ahead to the next neighbour that does not come the other way; perception "    \
-      "if there is none", jox_headway(run, i))                                                            \
+      "free distance ahead to the next neighbour that does not come the other way; the perception " \
+      "radius if there is none", jox_headway(run, i))                                                            \
     X(eagerness, eagerness, "",                                                                    \
       "how eager the agent is to get on, 0 to 1: the crowd about it raises it, within the bounds " \
       "of `haste`", a->eager[i])                                                                   \
     X(pushed, pushed, "N", "magnitude of the net force on the agent",                              \
       jox_length((JoxV2){a->force_x[i], a->force_y[i]}))                                           \
-    X(compression, compression, "N/m", "sum of contact force magnitudes over circumference",       \
+    X(compression, compression, "N/m", "sum of contact force magnitudes, divided by the girth",      \
       a->compression[i])                                                                           \
     X(load, load, "N", JOX_LOAD_MEANING, a->load[i])                                               \
     X(contacts, contacts, "", "agents and bodies touched", a->contacts[i])                         \

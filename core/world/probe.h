@@ -14,31 +14,31 @@
 /* clang-format off */
 #define JOX_PROBES(X)                                                                               \
     X(FLOW, flow, LINE, "", "door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}",               \
-      "a line of two points: passages from its right to its left, N(t), lapses between them; in "    \
-      "reports also its level of service, stop-and-go and queue growth")                               \
+      "a line of two points: passages from its right to its left, their number over time, intervals "  \
+      "between them; in reports also its level of service, stop-and-go and queue growth")                               \
     X(MEASURE, measure, RING, "every|cutoff|during",                                                \
       "front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5, during: [[2, 0], [2, 2]]}", \
       "a polygon: people, classical and Voronoi density, mean speed and specific flow in it")       \
     X(TRANSIT, transit, LINES, "",                                                                  \
       "passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}",                  \
-      "two lines: the time that people take from the first to the second")                          \
+      "two lines: time that each person takes from the first to the second")                          \
     X(DISPLACEMENT, displacement, FLAG, "onset|rest|along",                                         \
       "block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}",      \
-      "true: how far each person is from where first seen, and how fast a push travels")            \
+      "true: distance of each person from its first position, and speed at which a push travels")            \
     X(MAP, map, TABLE, "every", "fields:  {map: {}, every: 2}",                                     \
       "fields: density, speed, crowd pressure, compression")                                        \
     X(WINDING, winding, POINT, "", "laps:    {winding: [0, 0]}",                                    \
-      "turns of each person about this point, anti-clockwise")                                      \
+      "number of anti-clockwise turns of each person about this point")                                      \
     X(FAILURES, failures, SECONDS, "", "solved:  {failures: 1}",                                    \
-      "share of agent-steps whose 2-D program failed, in bins of this length")                      \
+      "share of agent-steps whose 2-D linear program had no solution, in intervals of this length")                      \
     X(LANES, lanes, TABLE, "every", "order:   {lanes: {area: [[-2, -2], [4, 2]]}}",                 \
-      "order parameter of lanes between opposite ways")                                             \
+      "order parameter of lanes of people who walk in opposite directions")                                             \
     X(OSCILLATION, oscillation, TABLE, "every", "swirl:   {oscillation: {area: [[-2, -2], [4, 2]], span: 4}, every: 0.1}", \
-      "whether a crowd turns round as a whole: spectra of the directions and speeds in its windows") \
+      "whether a dense crowd oscillates as a whole: spectra of directions and speeds in windows of an area") \
     X(VISIT, visit, STATES, "", "arrival: {visit: [Run, Arrived]}",                                 \
-      "two states: the time that people take from entering the first to entering the second, and whether they keep their order") \
+      "two states: time that people take from entering the first to entering the second, and whether they keep their order") \
     X(LOG, log, FLAG, "", "actions: {log: true}",                                                    \
-      "true: each time that somebody enters a state, kicks or throws a body, or is hit by one, and how both stood when the step began")
+      "true: a row for each time that a person enters a state, kicks or throws a body, or is hit by one, with both positions at the beginning of that step")
 /* clang-format on */
 
 typedef enum JoxProbeKind {

@@ -32,35 +32,35 @@ function Number:is(n) end
 
 ---@class jostle.Target
 local Target = {}
---- of `nearest` and `neighbours`: only agents in a state of this name
+--- restricts `nearest` and `neighbours` to agents in a state of this name
 ---@param name string
 ---@return jostle.Number
 function Number:in_state(name) end
---- of `nearest` and `neighbours`: only agents in a state of this name
+--- restricts `nearest` and `neighbours` to agents in a state of this name
 ---@param name string
 ---@return jostle.Target
 function Target:in_state(name) end
---- the same: only agents whose machine has this name
+--- restricts them to agents whose machine has this name
 ---@param name string
 ---@return jostle.Number
 function Number:of_machine(name) end
---- the same: only agents whose machine has this name
+--- restricts them to agents whose machine has this name
 ---@param name string
 ---@return jostle.Target
 function Target:of_machine(name) end
---- the same: only agents of a group of the scene
+--- restricts them to agents of this group of the scene
 ---@param name string
 ---@return jostle.Number
 function Number:of_group(name) end
---- the same: only agents of a group of the scene
+--- restricts them to agents of this group of the scene
 ---@param name string
 ---@return jostle.Target
 function Target:of_group(name) end
---- the same: only those whose public memory of this name is true, or is a number within bounds, both included
+--- restricts them to agents whose public memory of this name is true, or is a number from least to greatest
 ---@param name string
 ---@return jostle.Number
 function Number:where(name, ...) end
---- the same: only those whose public memory of this name is true, or is a number within bounds, both included
+--- restricts them to agents whose public memory of this name is true, or is a number from least to greatest
 ---@param name string
 ---@return jostle.Target
 function Target:where(name, ...) end
@@ -72,40 +72,40 @@ function Target:where(name, ...) end
 ---@operator mul(number|jostle.Number): jostle.Steering
 
 ---@class jostle.Machine
----@field name? string how messages and mods call it
----@field version? number set by the author, shown in messages
----@field start? string where agents begin
+---@field name? string name of the behaviour in messages and for mods
+---@field version? number a number for messages, chosen by the author
+---@field start? string state in which agents begin
 ---@field defaults? jostle.State values for all states, drawn once per agent
----@field own? table own values besides the parameters, drawn once per agent: numbers, distributions, or places by name; a group may set them
----@field public? string|string[] memory that others may ask for, by `theirs` and `:where`
----@field counts? table memory that counts by itself, in all states
----@field renamed? table<string, string> old name = new name, of states, own values and memory, which agents keep at a reload. A scene, mod or other behaviour that uses the old name gets a message with the new one
----@field states? table<string, jostle.State> name = state
+---@field own? table own values besides the parameters, drawn once per agent: numbers, distributions, or places by name; a group of the scene may set them
+---@field public? string|string[] memory that other agents may read, by `theirs` and `:where`
+---@field counts? table memory that counts by itself, in all states; see `circuits`
+---@field renamed? table<string, string> old name = new name, for states, own values and memory that were renamed: agents keep them at a reload. A scene, mod or other behaviour that uses the old name gets an error that names the new one
+---@field states? table<string, jostle.State> name of a state = its table
 
 ---@class jostle.State
----@field steer? jostle.Steering|fun(me: jostle.Me): number, number where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s
----@field lasts? number|jostle.Number|jostle.Drawn drawn on entering; see `lasted`, s
+---@field steer? jostle.Steering|fun(me: jostle.Me): number, number where the agent wants to go: a steering word, a weighted sum of them, or function(me) that returns vx, vy in m/s
+---@field lasts? number|jostle.Number|jostle.Drawn duration of the state, drawn on entering it; see `lasted`, s
 ---@field removes? boolean the agent leaves the world on entering
----@field lies? boolean the live page of a running scene shows the agent as lying; nothing else changes
----@field become? string on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name
----@field push_when? jostle.Condition pushes only while this holds
----@field push_toward? string|jostle.Target|jostle.Number pushes that way; else the way it wants to go
----@field push_weight? "equal"|"nearest" shares the push among all in the way, or gives it to the nearest
----@field push_only? string|string[] pushes only agents with these tags
----@field ignore? string|string[] does not avoid agents and bodies with these tags
----@field face? string|jostle.Target|jostle.Number looks at; else where it walks
----@field approach? string|jostle.Target|jostle.Number a body or agent: not avoided in advance, only not overlapped; agents are kept apart by contacts alone, where forces are on
+---@field lies? boolean the live page of a running scene shows the agent as lying down; nothing else changes
+---@field become? string on entering, the agent changes to another machine, at its start; it keeps its body, the values that the scene gave it, and memory of the same name
+---@field push_when? jostle.Condition the agent pushes only while this holds
+---@field push_toward? string|jostle.Target|jostle.Number direction in which the agent pushes; without it the direction in which it wants to go
+---@field push_weight? "equal"|"nearest" "equal" shares the push among all agents in the way, "nearest" gives it to the nearest
+---@field push_only? string|string[] the agent pushes only agents with these tags
+---@field ignore? string|string[] the agent does not avoid agents and bodies with these tags
+---@field face? string|jostle.Target|jostle.Number where the agent looks; without it in its walking direction
+---@field approach? string|jostle.Target|jostle.Number body or agent that the agent does not avoid in advance; it only does not overlap it. Agents are then kept apart by contacts alone, where forces are on
 ---@field kick? table kicks a body that it touches, with no wall between
----@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s, where hands reach it and there is room to hold it; it is carried in front, its middle at 1.2 m, nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and falls where there is none. Hands reach over what is lower than the lowest point of what they hold
----@field grasp? string|jostle.Target|jostle.Number takes hold of somebody within 0.5 m, and pulls and is pulled until it comes into a state without `grasp` or 1 m is between them; the agent that is held is dragged, or carried while its own `damping` is 0; see `has` and `holders`
----@field grip? number the greatest force with which it holds on; else 300, N
+---@field take? string|jostle.Target|jostle.Number body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body
+---@field grasp? string|jostle.Target|jostle.Number agent to take hold of, if it is within 0.5 m. Both pull each other until the holder comes into a state without `grasp`, or 1 m is between them. The held agent is dragged, or carried while its own `damping` is 0; see `has` and `holders`
+---@field grip? number greatest force with which the agent holds on; default 300, N
 ---@field throw? table throws the body that it carries, from its own side of walls
----@field colour? string of agents in this state where people are coloured by state; without it one is chosen; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
----@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
----@field set? table on entering, memory = number, condition or true/false; team = name of a team and tags = tag or list of tags, replacing those it had: of the scene, or new ones
----@field counts? table memory that counts while in this state
----@field on_enter? fun(me: jostle.Me) called on entering
----@field on_exit? fun(me: jostle.Me) called on leaving
+---@field colour? string colour of agents in this state where people are coloured by state; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes. Default: one is chosen
+---@field signal? string|table signal that the agent gives on entering, and again after each interval with { name, every = seconds }
+---@field set? table values to set on entering: memory = number, condition or true/false; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
+---@field counts? table memory that counts while the agent is in this state; see `circuits`
+---@field on_enter? fun(me: jostle.Me) called when an agent enters the state
+---@field on_exit? fun(me: jostle.Me) called when an agent leaves the state
 ---@field speed? number|jostle.Number|jostle.Drawn wanted speed, m/s; 0 to 20, default 1.3
 ---@field max_speed? number|jostle.Number|jostle.Drawn hard cap on speed; only a contact impulse exceeds it, m/s; 0 to 30, default 1.8
 ---@field perception? number|jostle.Number|jostle.Drawn radius within which neighbours and bodies are seen, m; 0 to 100, default 3
@@ -128,16 +128,16 @@ function Target:where(name, ...) end
 ---@field turn? number|jostle.Number|jostle.Drawn share of the radius that an agent under way saves in contacts by turning a shoulder; 0 to 0.6, default 0.4
 
 ---@class jostle.Transition
----@field to? string where it leads
----@field when? jostle.Condition|fun(me: jostle.Me): boolean absent: always; the first that holds wins
----@field chance? number rolled each time `when` turns true
----@field set? table memory, team and tags, as of a state
----@field signal? string calls out
+---@field to? string state to which it leads
+---@field when? jostle.Condition|fun(me: jostle.Me): boolean the transition is taken when this holds; of several that hold, the first. Without it: at once
+---@field chance? number probability that it is taken, drawn each time that `when` becomes true
+---@field set? table values to set when it is taken: memory, team and tags, as in a state
+---@field signal? string signal that the agent gives when it is taken
 ---@field on_take? fun(me: jostle.Me) called when it is taken
----@field id? string how mods name it; else its target, with #2, #3 for repeats
+---@field id? string name for mods; default: the name in `to`, with #2, #3 for repeats
 
 ---@class jostle.Me
----@field id number the agent's number, never used again
+---@field id number number of the agent, never used for another one
 ---@field x number position east, m
 ---@field y number position north, m
 ---@field vx number velocity east, m/s
@@ -148,51 +148,51 @@ function Target:where(name, ...) end
 ---@field pushed number magnitude of the net force, N
 ---@field compression number sum of contact force magnitudes over circumference, N/m
 ---@field load number greatest push borne from any one direction: over directions d, the greatest sum of the positive parts of f.d over its contacts f, N
----@field team number 0 is none
+---@field team number number of its team; 0: none
 ---@field state string name of its state; nil of a neighbour without a machine
 ---@field machine string name of its machine; nil of a neighbour without one
----@field goal string can be set
----@field neighbours jostle.Me[] views of the agents that `nearest "anyone"` chooses from: nearest first, within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. As they were before the step; memory set in them changes after it, and memory that their machine lacks is nil
----@field signal fun(name: string) calls out: me.signal("alarm")
+---@field goal string its goal; can be set
+---@field neighbours jostle.Me[] views of the agents that it sees, nearest first: those within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. A view shows the agent as it was before the step; memory that is set in it changes after the step; memory that its machine lacks is nil
+---@field signal fun(name: string) gives a signal: me.signal("alarm")
 ---@field [string] any a parameter, or what memory declares
 
---- `inside(place) or inside(target, place)`: the agent, or a target, is in a place; of a point, line or queue no wall or closed gate may lie between, except solids that contain the point
+--- `inside(place) or inside(target, place)`: the agent, or the target, is in the place; at a point, line or queue no wall or closed gate may lie between, except a solid that contains the point
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function inside(a1, a2) end
 
---- `crosses(line)`: the last step crossed a line, from its right to its left
+--- `crosses(line)`: the agent crossed the line in the last step, from the line's right to its left
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function crosses(a1) end
 
---- `near(target, metres)`: the target is nearer than so many metres; of a place, no wall or closed gate may lie between, except walls that its nearest point lies on or in
+--- `near(target, metres)`: the target is nearer than this distance, m; if it is a place, no wall or closed gate may lie between, except walls that its nearest point lies on or in
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Condition
 function near(a1, a2) end
 
---- `touches(target)`: the gap to the target is below 5 cm
+--- `touches(target)`: the gap between the agent and the target is below 5 cm
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function touches(a1) end
 
---- `first_in(queue)`: the agent heads the queue that it steers in
+--- `first_in(queue)`: the agent is at the head of the queue that it steers in
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function first_in(a1) end
 
---- `after(seconds)`: the agent has been in this state for so many seconds
+--- `after(seconds)`: the agent has been in this state for at least this time, s
 ---@param a1 number|jostle.Number
 ---@return jostle.Condition
 function after(a1) end
 
---- `lasted`: the duration that `lasts` drew has passed
+--- `lasted`: the duration that `lasts` drew for this state is over
 ---@type jostle.Condition
 lasted = nil
 
---- `stuck(seconds)`: the agent has not moved by 0.25 m for so many seconds
+--- `stuck(seconds)`: the agent has not moved by 0.25 m for this time, s
 ---@param a1 number|jostle.Number
 ---@return jostle.Condition
 function stuck(a1) end
@@ -207,7 +207,7 @@ function hit_by(a1) end
 ---@return jostle.Condition
 function grounded(a1) end
 
---- `incoming(target, metres)`: the target, going on as it moves, passes within so many metres in the next 2 s
+--- `incoming(target, metres)`: the target, if it keeps its velocity, passes within this distance, m, during the next 2 s
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Condition
@@ -223,53 +223,53 @@ function kicked(a1) end
 ---@return jostle.Condition
 function has(a1) end
 
---- `sees(target)`: the target is there, within perception, with no wall and no tall body between
+--- `sees(target)`: the target exists and is within perception, with no wall and no tall body between
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function sees(a1) end
 
---- `heard(name [, metres])`: somebody within perception (and so many metres), with no wall of 1.3 m or more between, gave the signal in the last step, or the scene gives it now; bodies are no hindrance
+--- `heard(name [, metres])`: an agent within perception (and within this distance, m) gave the signal in the last step, with no wall of 1.3 m or more between; or the scene gives it now. Bodies between do not matter
 ---@param a1 string
 ---@param a2? number|jostle.Number
 ---@return jostle.Condition
 function heard(a1, a2) end
 
---- `shut(place)`: a gate at the place, or within half a metre of it, is closed, and the agent sees that: within perception, with no other wall before it; bodies are no hindrance
+--- `shut(place)`: a gate at the place, or within 0.5 m of it, is closed, and the agent sees it: within perception, with no other wall between. Bodies between do not matter
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function shut(a1) end
 
---- `open(gate)`: the walls of this name are open, wherever they are: all know it, as of a door that is announced
+--- `open(gate)`: the walls of this name are open. Agents know it wherever they are, as of a door whose opening is announced
 ---@param a1 string
 ---@return jostle.Condition
 function open(a1) end
 
---- `density(place)` in 1/m2: people per square metre in a place; of a point, line or queue: within 2 m
+--- `density(place)` in 1/m2: people per square metre in a place; at a point, line or queue: within 2 m of it
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Number
 function density(a1) end
 
---- `count(place)`: people in a place
+--- `count(place)`: number of people in a place
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Number
 function count(a1) end
 
---- `queued(queue)`: people who steer in a queue, on their way to their place in it too
+--- `queued(queue)`: number of people who steer in the queue, also those on their way to their place in it
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Number
 function queued(a1) end
 
---- `distance(target)` in m: to the target, 0 in a place; infinite where there is none
+--- `distance(target)` in m: distance to the target; 0 in a place, infinite if there is no such target
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Number
 function distance(a1) end
 
---- `neighbours(tag)`: agents seen, with no wall and no tall body between, that bear a tag, or are "anyone", "teammates", "opponents": of its `neighbours` nearest, and in a crowd of at most 64 of all within perception; the methods with a colon select among them
+--- `neighbours(tag)`: number of agents that the agent sees and that bear the tag, or are "anyone", "teammates" or "opponents". Seen are its `neighbours` nearest, and in a crowd of at most 64 all agents, within perception, with no wall and no tall body between. `:in_state` and the like select among them
 ---@param a1 string
 ---@return jostle.Number
 function neighbours(a1) end
 
---- `theirs(target, name)`: memory of another agent that its machine makes `public`, true as 1; 0 if there is no such agent or memory
+--- `theirs(target, name)`: value of this memory of the target, an agent, if its machine makes it `public`; true is 1. 0 if there is no such agent or memory
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2 string
 ---@return jostle.Number
@@ -279,7 +279,7 @@ function theirs(a1, a2) end
 ---@type jostle.Number
 density_here = nil
 
---- `headway` in m: free distance ahead to the next neighbour that does not come the other way; perception if there is none
+--- `headway` in m: free distance ahead to the next neighbour that does not come the other way; the perception radius if there is none
 ---@type jostle.Number
 headway = nil
 
@@ -291,7 +291,7 @@ eagerness = nil
 ---@type jostle.Number
 pushed = nil
 
---- `compression` in N/m: sum of contact force magnitudes over circumference
+--- `compression` in N/m: sum of contact force magnitudes, divided by the girth
 ---@type jostle.Number
 compression = nil
 
@@ -311,13 +311,13 @@ holders = nil
 ---@type jostle.Number
 time_in_state = nil
 
---- `min(a, b)`: the lesser of two
+--- `min(a, b)`: the smaller of two numbers
 ---@param a1 number|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Number
 function min(a1, a2) end
 
---- `max(a, b)`: the greater of two
+--- `max(a, b)`: the greater of two numbers
 ---@param a1 number|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Number
@@ -333,7 +333,7 @@ function abs(a1) end
 ---@return jostle.Number
 function sqrt(a1) end
 
---- `clamp(a, least, greatest)`: kept between two bounds
+--- `clamp(a, least, greatest)`: a, kept within two bounds
 ---@param a1 number|jostle.Number
 ---@param a2 number|jostle.Number
 ---@param a3 number|jostle.Number
@@ -344,34 +344,34 @@ function clamp(a1, a2, a3) end
 ---@type table<string, jostle.Number>
 now = {}
 
---- `own.NAME`: the agent's own value: drawn from `defaults`, or given by the scene's group, which may be a place too
+--- `own.NAME`: the agent's own value: drawn from `defaults` or `own`, unless its group in the scene sets it; a number or a place
 ---@type table<string, jostle.Number>
 own = {}
 
---- `nearest(tag)`: the nearest body or agent seen, with no wall and no tall body between, that bears a tag, or of "anyone", "opponents" or "teammates"; the methods with a colon select among agents
+--- `nearest(tag)`: the nearest body or agent that bears the tag, or the nearest agent of "anyone", "opponents" or "teammates", that the agent sees: with no wall and no tall body between. `:in_state` and the like select among agents
 ---@param a1 string
 ---@return jostle.Target
 function nearest(a1) end
 
---- `one_of(set)`: a member of a set of places, drawn on entering the state; `goal` from then on
+--- `one_of(set)`: a member of a set of places, drawn on entering the state; from then on it is the agent's `goal`
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Target
 function one_of(a1) end
 
---- `goal`: the place that one_of drew last, or that a function set
+--- `goal`: the place that `one_of` drew last, or that a function or the scene set
 ---@type jostle.Target
 goal = nil
 
---- `home`: the agent's own post: where it arrived, or took up its present machine
+--- `home`: the place where the agent entered the world, or took up its present machine
 ---@type jostle.Target
 home = nil
 
---- `seek(target)`: straight to the target: a line is passed, at a point one stops
+--- `seek(target)`: straight to the target; the agent passes over a line, and stops at a point
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function seek(a1) end
 
---- `field(place)`: the shortest way to the place round walls and large bodies; of a set, to the nearest member
+--- `field(place)`: the shortest way to the place, round walls and large bodies; to a set: to the member that is nearest by that way
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function field(a1) end
@@ -381,49 +381,49 @@ function field(a1) end
 ---@return jostle.Steering
 function away_from(a1) end
 
---- `orbit(place [, options])`: round a place, counter-clockwise; options inward, density_near, density_far, far, beyond shape the density about it
+--- `orbit(place [, options])`: round a place, counter-clockwise. Options: inward, density_near, density_far, far and beyond set how dense the crowd about it may be
 ---@return jostle.Steering
 function orbit(...) end
 
---- `queue(place)`: to one's place in a queue, in order of arrival
+--- `queue(place)`: to the agent's place in a queue, in order of arrival
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function queue(a1) end
 
---- `along(place)`: in a line's direction, or along a queue to its head
+--- `along(place)`: in the direction of a line, or along a queue to its head
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function along(a1) end
 
---- `follow(target [, metres])`: behind the target, at a distance
+--- `follow(target [, metres])`: to a position behind the target, at this distance, m
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? number
 ---@return jostle.Steering
 function follow(a1, a2) end
 
---- `together([metres])`: towards the teammates seen, once they are farther than that
+--- `together([metres])`: towards the teammates that the agent sees, if they are farther away than this distance, m
 ---@param a1? number
 ---@return jostle.Steering
 function together(a1) end
 
---- `drift(x, y)`: in the direction x east and y north, numbers or expressions; a length of 1 is the wanted speed
+--- `drift(x, y)`: in the direction x east and y north, numbers or expressions; a length of 1 means the wanted speed
 ---@param a1 number|jostle.Number
 ---@param a2 number|jostle.Number
 ---@return jostle.Steering
 function drift(a1, a2) end
 
---- `wander([place])`: walks about, turning gradually, and back from walls; with a place: within it
+--- `wander([place])`: walks about: turns gradually, and away from walls; with a place: stays within it
 ---@param a1? string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function wander(a1) end
 
---- `formation(target [, metres])`: to the agent's place in a row, so far apart: along a line, or behind an agent and across the direction it looks in; in the order in which they stand
+--- `formation(target [, metres])`: to the agent's place in a row, with this distance, m, from one to the next: along a line, or behind an agent and across the direction in which it looks. Agents keep the order in which they stand
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? number
 ---@return jostle.Steering
 function formation(a1, a2) end
 
---- `gather(place [, degrees])`: to the agent's spot among those who wait in a polygon, round walls and fixed bodies: they fill it from its front, which lies in that direction, anti-clockwise from +x, 0.9 m apart, or closer, to 0.51 m and 1.2 breadths, where they are many; those for whom there is no room stand about it
+--- `gather(place [, degrees])`: to the agent's spot in a crowd that waits in a polygon, round walls and fixed bodies. The crowd fills the polygon from its front, which lies in this direction, degrees anti-clockwise from +x; agents stand 0.9 m apart, or closer where they are many, to 0.51 m and 1.2 breadths. Agents for whom there is no room stand around it
 ---@param a1 string|jostle.Target|jostle.Number
 ---@param a2? number
 ---@return jostle.Steering
@@ -433,15 +433,15 @@ function gather(a1, a2) end
 ---@type jostle.Steering
 spread = nil
 
---- `evade`: sideways, out of the way of oncoming agents; to the right of one straight ahead
+--- `evade`: sideways, out of the way of oncoming agents; to the right of one that is straight ahead
 ---@type jostle.Steering
 evade = nil
 
---- `hold`: stands
+--- `hold`: the agent stands still
 ---@type jostle.Steering
 hold = nil
 
---- `player`: a person, or the input log, drives this agent
+--- `player`: a person at the live page, or the input log, drives this agent
 ---@type jostle.Steering
 player = nil
 
@@ -453,7 +453,7 @@ function normal(...) end
 ---@return jostle.Drawn
 function lognormal(...) end
 
---- `gamma(shape, scale [, least, greatest])`: a gamma distribution, of mean shape times scale, drawn once per agent
+--- `gamma(shape, scale [, least, greatest])`: a gamma distribution; its mean is shape times scale, drawn once per agent
 ---@return jostle.Drawn
 function gamma(...) end
 
@@ -461,20 +461,20 @@ function gamma(...) end
 ---@return jostle.Drawn
 function weibull(...) end
 
---- `uniform(least, greatest)`: even between two bounds, drawn once per agent
+--- `uniform(least, greatest)`: a uniform distribution between two bounds, drawn once per agent
 ---@return jostle.Drawn
 function uniform(...) end
 
---- `choose(a, b, ...)`: one of up to 8 values, all alike, drawn once per agent
+--- `choose(a, b, ...)`: one of up to 8 values, with equal probability, drawn once per agent
 ---@return jostle.Drawn
 function choose(...) end
 
---- `circuits(place)`: for `counts`: net counter-clockwise turns about a place since its start line was first crossed; walking back counts down
+--- `circuits(place)`: for `counts`: net number of counter-clockwise turns about a place since the agent first crossed its start line; turns back are subtracted
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return any
 function circuits(a1) end
 
---- `memory { name = value, ... }`: what each agent remembers: numbers and booleans, kept through reloads; the result gives the values as expressions
+--- `memory { name = value, ... }`: declares the memory of each agent: numbers and booleans, kept through reloads. The result is a table of their values as expressions
 ---@return any
 function memory(...) end
 
@@ -497,6 +497,6 @@ function replace(behaviour) end
 ---@type any
 none = nil
 
---- `settings.NAME`: in a mod: the values of its settings, plain numbers
+--- `settings.NAME`: in a mod: the value of a setting, a plain number
 ---@type table<string, jostle.Number>
 settings = {}

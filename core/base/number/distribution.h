@@ -22,11 +22,13 @@ enum { JOX_DIST_CHOICES = 8 };
       "a number whose logarithm has a normal distribution of this mean and deviation",             \
       "lognormal(4.6, 0.97, 0, 600)")                                                              \
     X(GAMMA, gamma, "shape, scale" JOX_DIST_BOUNDED,                                               \
-      "a gamma distribution, of mean shape times scale", "gamma(1.3, 100, 0, 600)")                \
+      "a gamma distribution; its mean is shape times scale", "gamma(1.3, 100, 0, 600)")            \
     X(WEIBULL, weibull, "shape, scale" JOX_DIST_BOUNDED, "a Weibull distribution",                 \
       "weibull(1.2, 140, 0, 600)")                                                                 \
-    X(UNIFORM, uniform, "least, greatest", "even between two bounds", "uniform(0.8, 1.2)")         \
-    X(CHOOSE, choose, "a, b, ...", "one of up to 8 values, all alike", "choose(0.8, 1, 1.2)")
+    X(UNIFORM, uniform, "least, greatest", "a uniform distribution between two bounds",            \
+      "uniform(0.8, 1.2)")                                                                         \
+    X(CHOOSE, choose, "a, b, ...", "one of up to 8 values, with equal probability",                \
+      "choose(0.8, 1, 1.2)")
 
 typedef enum JoxDistKind {
     JOX_DIST_CONSTANT,

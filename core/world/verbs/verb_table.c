@@ -21,100 +21,100 @@
 const JoxVerb jox_input_verbs[] = {
     [JOX_INPUT_PLAYER] = {"player", {ID("AGENT"), SPEED("VX", 20), SPEED("VY", 20)}, 3, 3,
      "player 0 1.5 0",
-     "from here on the player of the agent with this id wants that velocity", "player", jox_perform_player},
+     "sets the velocity that the player of the agent with this id wants from now on", "player", jox_perform_player},
     [JOX_INPUT_THROW] = {"throw",
      {CALLED("BODY"), METRES("X"), METRES("Y"), METRES("Z"), SPEED("VX", 100), SPEED("VY", 100),
       SPEED("VZ", 100), SPIN("WX"), SPIN("WY"), SPIN("WZ")}, 7, 10,
      "throw ball here 5 0 3",
-     "throws a body of the scene by its name, from a point, or, with `here` in place of the point, "
-     "from where it is; who carries it loses it", "throw", jox_perform_throw},
+     "throws a body of the scene, given by name, from a point, or, with `here` in place of the "
+     "point, from where it is; an agent that carries it loses it", "throw", jox_perform_throw},
     [JOX_INPUT_BOX] = {"box",
      {METRES("X"), METRES("Y"), METRES("Z"), SPEED("VX", 100), SPEED("VY", 100), SPEED("VZ", 100),
       {"SIZE", JOX_WORD_NUMBER, 0.05, 5, "m"}, {"MASS", JOX_WORD_NUMBER, 0.1, 1e4, "kg"}}, 8, 8,
      "box 1 2 1.5 5 0 3 0.4 10",
-     "a new cube; of more than 200 the oldest is taken out", "throw", jox_perform_box},
+     "adds a cube; if there are more than 200, the oldest is removed", "throw", jox_perform_box},
     [JOX_INPUT_GRAB] = {"grab", {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z")}, 4, 4,
      "grab 0 1 2 0.5",
-     "from here on the centre of the body in this row is pulled to a point, with up to 4,000 N "
-     "besides its weight and at up to 6 m/s", "drag", jox_perform_grab},
+     "pulls the centre of the body in this slot to a point from now on, with up to 4,000 N besides "
+     "its weight and at up to 6 m/s", "drag", jox_perform_grab},
     [JOX_INPUT_DRAG] = {"drag", {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z")}, 4, 4,
-     "drag 0 1 3 0.5", "moves the point to which it is pulled", "drag", jox_perform_drag},
-    [JOX_INPUT_RELEASE] = {"release", {ID("BODY")}, 1, 1, "release 0", "lets the body go", "drag",
+     "drag 0 1 3 0.5", "moves the point to which the body is pulled", "drag", jox_perform_drag},
+    [JOX_INPUT_RELEASE] = {"release", {ID("BODY")}, 1, 1, "release 0", "stops pulling the body", "drag",
      jox_perform_release},
     [JOX_INPUT_PUSH] = {"push", {ID("AGENT"), FORCE("FX"), FORCE("FY")}, 3, 3, "push 7 300 0",
-     "a force on the agent with this id, during the step", "push",
+     "applies a force to the agent with this id, during the step", "push",
      jox_perform_push},
     [JOX_INPUT_OPEN] = {"open", {CALLED("WALL")}, 1, 1, "open gate",
-     "opens the walls of a name", "gates", jox_perform_open},
+     "opens the walls of this name", "gates", jox_perform_open},
     [JOX_INPUT_CLOSE] = {"close", {CALLED("WALL")}, 1, 1, "close gate",
-     "closes them; who stands in one is moved out", "gates", jox_perform_close},
+     "closes the walls of this name; people who stand in one are moved out", "gates", jox_perform_close},
     [JOX_INPUT_SIGNAL] = {"signal", {CALLED("NAME")}, 1, 1, "signal run",
-     "everybody hears the name, wherever they are", "signals", jox_perform_signal},
+     "gives a signal, which every agent hears, wherever it is", "signals", jox_perform_signal},
     [JOX_INPUT_SET] = {"set",
      {CALLED("MACHINE"), CALLED("STATE"), CALLED("PARAMETER"),
       {"VALUE", JOX_WORD_NUMBER, -1e9, 1e9, ""}}, 4, 4,
      "set walker Walk speed 1.2",
-     "a parameter of a state (or of `defaults`) of a machine, for all who are in it and who will "
-     "be, until the behaviour is reloaded", "parameters", NULL},
+     "sets a parameter of a state (or of `defaults`) of a machine, for all agents that are or come "
+     "in this state, until the behaviour is reloaded", "parameters", NULL},
     [JOX_INPUT_BEGAN] = {"began",
      {CALLED("SEED"), {"DT", JOX_WORD_NUMBER, 0.001, 0.2, "s"}}, 2, 2, "began 1 0.05",
      "seed and time step of the run that was logged", NULL, NULL},
     [JOX_INPUT_MADE] = {"made", {{"PATH", JOX_WORD_PATH, 0, 0, ""}, CALLED("SHA256")}, 2, 2,
      "made scenes/office.yaml f845cd",
-     "a file that it was made of; a replay says which have changed", NULL, NULL},
+     "a file from which the run was loaded; a replay names files that have changed", NULL, NULL},
     [JOX_INPUT_BEFORE] = {"before", {FILES}, 1, 1, "before 1",
-     "files that are about to be reloaded, as they were when the run began: a replay begins with "
+     "texts of files that are reloaded later, as they were when the run began: a replay begins with "
      "them", NULL, NULL},
     [JOX_INPUT_FILES] = {"files", {FILES}, 1, 1, "files 1",
-     "files that were saved and went live, together; a replay takes them from here, not from the "
-     "disk", NULL, NULL},
+     "texts of files that were saved and replaced the old ones together; a replay reads them from "
+     "here, not from the disk", NULL, NULL},
     [JOX_INPUT_SPAWN] = {"spawn", {CALLED("GROUP"), METRES("X"), METRES("Y")}, 3, 3,
      "spawn visitors 3 4.5",
-     "a new agent of a group; moved to the nearest free spot where it would stand at a wall or in "
-     "somebody", JOX_VERB_PROGRAM, jox_perform_spawn},
-    [JOX_INPUT_REMOVE] = {"remove", {ID("AGENT")}, 1, 1, "remove 7", "takes an agent out",
+     "adds an agent of a group; it begins on the nearest free spot if it would overlap a wall or an "
+     "agent", JOX_VERB_PROGRAM, jox_perform_spawn},
+    [JOX_INPUT_REMOVE] = {"remove", {ID("AGENT")}, 1, 1, "remove 7", "removes the agent with this id",
      JOX_VERB_PROGRAM, jox_perform_remove},
     [JOX_INPUT_TELEPORT] = {"teleport", {ID("AGENT"), METRES("X"), METRES("Y")}, 3, 3,
-     "teleport 7 3 4.5", "moves an agent there, or to the nearest free spot, at rest",
+     "teleport 7 3 4.5", "moves the agent to a point, or to the nearest free spot, at rest",
      JOX_VERB_PROGRAM, jox_perform_teleport},
     [JOX_INPUT_GOAL] = {"goal", {ID("AGENT"), CALLED("PLACE")}, 2, 2, "goal 7 exit",
-     "from here on the agent's goal is this place", JOX_VERB_PROGRAM, jox_perform_goal},
+     "makes this place the agent's goal", JOX_VERB_PROGRAM, jox_perform_goal},
     [JOX_INPUT_STATE] = {"state", {ID("AGENT"), CALLED("STATE")}, 2, 2, "state 7 Flee",
      "the agent enters a state of its behaviour", JOX_VERB_PROGRAM, jox_perform_state},
     [JOX_INPUT_MEMORY] = {"memory",
      {ID("AGENT"), CALLED("NAME"), {"VALUE", JOX_WORD_NUMBER, -1e15, 1e15, ""}}, 3, 3,
-     "memory 7 hits 2", "sets a value that the agent remembers; truth is 0 or 1", JOX_VERB_PROGRAM,
+     "memory 7 hits 2", "sets a value of the agent's memory; false is 0, true is 1", JOX_VERB_PROGRAM,
      jox_perform_memory},
     [JOX_INPUT_PARAMETER] = {"parameter",
      {ID("AGENT"), CALLED("NAME"), {"VALUE", JOX_WORD_NUMBER, -1e9, 1e9, ""}}, 3, 3,
-     "parameter 7 speed 1.6", "an agent's own value of a parameter, in all states that set none",
+     "parameter 7 speed 1.6", "sets the agent's own value of a parameter, which holds in all states that do not set it",
      JOX_VERB_PROGRAM, jox_perform_parameter},
     [JOX_INPUT_IMPULSE] = {"impulse",
      {ID("BODY"), IMPULSE("IX"), IMPULSE("IY"), IMPULSE("IZ"), METRES("X"), METRES("Y"),
       METRES("Z")}, 4, 7,
-     "impulse 0 20 0 0", "gives the body in this row an impulse, at a point or at its centre",
+     "impulse 0 20 0 0", "applies an impulse to the body in this slot, at a point or at its centre",
      JOX_VERB_PROGRAM, jox_perform_impulse},
     [JOX_INPUT_PLACE] = {"place",
      {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z"), TURN("QX"), TURN("QY"), TURN("QZ"),
       TURN("QW")}, 4, 8,
      "place 0 1 2 0.5",
-     "moves the body in this row, at rest; turned by a quaternion, or as it is", JOX_VERB_PROGRAM,
+     "moves the body in this slot to a point, at rest, and turns it by a quaternion if one is given", JOX_VERB_PROGRAM,
      jox_perform_place},
     [JOX_INPUT_VELOCITY] = {"velocity",
      {ID("BODY"), SPEED("VX", 100), SPEED("VY", 100), SPEED("VZ", 100), SPIN("WX"), SPIN("WY"),
       SPIN("WZ")}, 4, 7,
-     "velocity 0 1 0 0", "sets how the body in this row moves and turns", JOX_VERB_PROGRAM,
+     "velocity 0 1 0 0", "sets velocity and spin of the body in this slot", JOX_VERB_PROGRAM,
      jox_perform_velocity},
-    [JOX_INPUT_DELETE] = {"delete", {ID("BODY")}, 1, 1, "delete 0", "takes the body in this row out",
+    [JOX_INPUT_DELETE] = {"delete", {ID("BODY")}, 1, 1, "delete 0", "removes the body in this slot",
      JOX_VERB_PROGRAM, jox_perform_delete},
     [JOX_INPUT_WALL] = {"wall",
      {CALLED("NAME"), METRES("X0"), METRES("Y0"), METRES("X1"), METRES("Y1"), METRES("X2"),
       METRES("Y2"), METRES("X3"), METRES("Y3")}, 5, 9,
      "wall barrier 0 0 4 0",
-     "a new wall, thin between two points or a solid with four corners; who stands there is moved "
-     "out", JOX_VERB_PROGRAM, jox_perform_wall},
+     "adds a wall, thin between two points, or a solid with four corners; people who stand there "
+     "are moved out", JOX_VERB_PROGRAM, jox_perform_wall},
     [JOX_INPUT_UNWALL] = {"unwall", {CALLED("NAME")}, 1, 1, "unwall barrier",
-     "takes out the walls of a name that came by `wall`", JOX_VERB_PROGRAM, jox_perform_unwall}};
+     "removes the walls of this name that `wall` added", JOX_VERB_PROGRAM, jox_perform_unwall}};
 /* clang-format on */
 const uint32_t jox_input_verb_count = sizeof jox_input_verbs / sizeof *jox_input_verbs;
 static_assert(sizeof jox_input_verbs / sizeof *jox_input_verbs <= JOX_INPUT_MOST_VERBS,
@@ -161,17 +161,19 @@ void jox_input_append_reference(JoxText *out) {
     jox_text_add(
         out,
         "# Input logs\n\n"
-        "What people did to a running scene, and files that were saved meanwhile, with the step in "
-        "which it took\neffect. `jostle run SCENE --log-input FILE` writes one, `jostle run SCENE "
+        "An input log lists what people did to a running scene, and files that were saved "
+        "meanwhile, "
+        "with the step in which each\ntook effect. `jostle run SCENE --log-input FILE` writes one, "
+        "`jostle run SCENE "
         "--input FILE` plays it back to the\nsame hash, for any number of threads. A scene may "
         "name one too: `input: FILE`.\n\n"
         "Text, one entry a line: `TICK VERB ...`. Ticks count steps from 0 and never decrease; "
-        "several lines may have the\nsame. `#` starts a comment. A name with blanks stands in "
+        "several lines may have the\nsame. `#` starts a comment. A name with blanks is written in "
         "double quotes, where `\\\"` and `\\\\` are a quote and a\nbackslash.\n\n"
         "    40 push 7 300 0\n"
         "    52 throw \"red ball\" here 5 0 3   # from where it lies\n"
         "    60 open gate\n\n"
-        "| line, behind its tick | numbers | what it does | example |\n|---|---|---|---|\n");
+        "| line, after its tick | numbers | what it does | example |\n|---|---|---|---|\n");
     for (uint32_t v = 0; v < jox_input_verb_count; v++) {
         jox_text_add(out, "| `");
         jox_input_append_usage(&jox_input_verbs[v], out);
@@ -181,10 +183,10 @@ void jox_input_append_reference(JoxText *out) {
                         jox_input_verbs[v].example);
     }
     jox_text_add(out,
-                 "\n`began` and `made` open a log: a replay with another seed, step or file says "
-                 "so. Behind `before N` and `files N`\nfollow N files: a line `PATH BYTES`, so "
-                 "many bytes, and the end of a line. What lies on the disk under those\npaths is "
-                 "not read in a replay.\n\n"
+                 "\nA log begins with `began` and `made`: a replay with another seed, step or file "
+                 "says so. After `before N` and `files N`\nfollow N files: a line `PATH BYTES`, "
+                 "then so many bytes, then the end of a line. A replay does not read\nthese files "
+                 "from the disk.\n\n"
                  "    118 files 1\n"
                  "    behaviours/numbers.lua 12\n"
                  "    return 1.25\n"
