@@ -34,8 +34,8 @@ typedef struct JoxNeighbours {
     JoxMotion *motions; /* motion per agent, as perceived; valid until they move */
     /* Contacts do not depend on perception. If the list above may lack an agent within touching
        range, the JOX_MOST_NEIGHBOURS nearest within that range are stored here, from i *
-       JOX_MOST_NEIGHBOURS on, nearest first; else touch_count[i] is JOX_TOUCH_IS_SEEN. NULL: the
-       list above suffices for all agents. */
+       JOX_MOST_NEIGHBOURS on, nearest first; else touch_count[i] is JOX_TOUCH_AMONG_NEIGHBOURS.
+       NULL: the list above suffices for all agents. */
     uint32_t *touch_index;
     uint8_t *touch_count;
 } JoxNeighbours;
@@ -44,7 +44,7 @@ typedef struct JoxNeighbours {
 void jox_neighbours_reserve(JoxNeighbours *neighbours, uint32_t agents, uint32_t stride);
 void jox_neighbours_free(JoxNeighbours *neighbours);
 
-enum { JOX_TOUCH_IS_SEEN = 255 };
+enum { JOX_TOUCH_AMONG_NEIGHBOURS = 255 };
 /* m: greatest gap of two agents at which a contact is considered, however fast they approach; and
    the gap below which it always is. */
 #define JOX_TOUCH_MOST 0.15f

@@ -21,7 +21,7 @@ typedef struct JoxChunkList {
 /* Makes room for `room` items of `size` bytes in every chunk, on the stepping thread; keeps none.
    The caller then empties each chunk's list before adding to it. */
 void jox_chunks_reserve(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size);
-static inline void jox_chunk_empty(JoxChunkList *list, uint32_t chunk) {
+static inline void jox_chunk_clear(JoxChunkList *list, uint32_t chunk) {
     list->counts[chunk] = 0;
 }
 /* Returns the number of items in all chunks. */

@@ -48,7 +48,7 @@ static inline JoxV3 jox_cross3(JoxV3 a, JoxV3 b) {
 static inline float jox_dot3(JoxV3 a, JoxV3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-static inline JoxV3 jox_turn3(const float m[9], JoxV3 v) {
+static inline JoxV3 jox_transform3(const float m[9], JoxV3 v) {
     return (JoxV3){m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
                    m[6] * v.x + m[7] * v.y + m[8] * v.z};
 }
@@ -62,7 +62,7 @@ static inline float jox_body_inverse_mass(const JoxObject *body, JoxV3 point, Jo
     JoxV3 arm = {point.x - body->position.x, point.y - body->position.y,
                  point.z - body->position.z};
     JoxV3 turn = jox_cross3(arm, (JoxV3){normal.x, normal.y, 0.0f});
-    return body->inverse_mass + jox_dot3(turn, jox_turn3(body->inverse_inertia, turn));
+    return body->inverse_mass + jox_dot3(turn, jox_transform3(body->inverse_inertia, turn));
 }
 
 /* A cached exp(-damping * time), computed anew when either changes. Initialise with damping -1. */
@@ -82,32 +82,11 @@ static inline JoxV2 jox_forced_velocity(JoxV2 velocity, JoxV2 force, float mass,
     return jox_add(jox_scale(velocity, decay), jox_scale(force, dt / mass));
 }
 
-/* (11) Returns the speed along the unit vector of a force of `size` newtons that the force alone
-   would give. The feet wear down motion along the force, but do not slow motion against it: else
-   the faintest force from ahead would brake a walker as hard as the feet can. */
-static inline float jox_forced_speed(JoxV2 velocity, JoxV2 force_unit, float size, float mass,
-                                     float decay, float dt) {
-    float along = jox_dot(velocity, force_unit);
-    return (along > 0.0f ? along * decay : along) + size * dt / mass;
-}
-
 /* (9) Returns the force on each of n agents ahead of one that a force did not move by `shortfall`
    m/s. */
 static inline JoxV2 jox_resistance(JoxV2 force_unit, float shortfall, float absorb, float mass,
                                    uint32_t n, float dt) {
     return jox_scale(force_unit, absorb * mass * shortfall / ((float)n * dt));
-}
-
-/* (8) Returns whether an agent slows down rather than turns: the change of velocity points against
-   the mean of both velocities, within an angle with this cosine. The paper prints the new velocity
-   instead, which has no direction after a full stop. */
-static inline bool jox_slows(JoxV2 before, JoxV2 after, float cosine) {
-    JoxV2 change = jox_sub(after, before), way = jox_add(after, before);
-    float against = -jox_dot(change, way); /* |before|^2 - |after|^2 */
-    if (!(against > 0.0f))
-        return false;
-    return cosine <= 0.0f ||
-           against * against > cosine * cosine * jox_length2(change) * jox_length2(way);
 }
 
 /* (8) Returns the change of velocity, cut to the length of the old velocity: else a turn would

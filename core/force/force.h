@@ -111,8 +111,9 @@ void jox_force_infer(JoxForces *forces);
    contact and the next begin. */
 JoxV2 jox_force_of_bodies(const JoxForces *forces, uint32_t agent);
 /* Returns the part of that agent's inferred force, N, that infer has just added for the slowing of
-   others (equation 8; the rest is equation 9); *kept: share that remains of the previous force. */
-JoxV2 jox_force_slowed(const JoxForces *forces, uint32_t agent, float *kept);
+   others (equation 8; the rest is equation 9); *remaining: share of the previous force that the
+   filter leaves. */
+JoxV2 jox_force_from_slowing(const JoxForces *forces, uint32_t agent, float *remaining);
 
 /* Load of a driven body on the agents in its way, in the last contact. */
 typedef struct JoxDriveLoad {

@@ -1,5 +1,5 @@
-/* What all rooms of force share: JoxForces, and small helpers on one agent. stages/forces.c creates
-   and frees it. Scratch memory grows to its peak and stays; the struct that holds an array owns
+/* JoxForces, and small helpers on one agent, for all rooms of force. stages/forces.c creates and
+   frees it. Scratch memory grows to its peak and stays; the struct that holds an array owns
    it. */
 #ifndef JOX_FORCE_FORCES_H
 #define JOX_FORCE_FORCES_H
@@ -13,10 +13,10 @@
 
 /* Data of an agent, other than its motion, that contacts need: one load fetches all of it. m,
    kg. */
-typedef struct JoxBuild {
+typedef struct JoxAgentRecord {
     float breadth, radius, mass;
     uint32_t id;
-} JoxBuild;
+} JoxAgentRecord;
 
 typedef struct JoxPushes JoxPushes;     /* push/pushes.h */
 typedef struct JoxSupports JoxSupports; /* support/supports.h */
@@ -31,7 +31,7 @@ struct JoxForces {
     JoIsa isa;      /* instruction set of the kernels */
     JoxDecay decay; /* that of the first agent in a step, as most agents have its damping */
     JoxStageMemory *memory, own_memory; /* from begin on; own_memory: used where none was given */
-    JoxBuild *builds;                   /* per agent, for finding contacts; in stage memory */
+    JoxAgentRecord *records;            /* per agent, for finding contacts; in stage memory */
     float widest;                       /* greatest radius, m */
     bool has_bodies;                    /* there are bodies that agents can meet */
 
@@ -44,10 +44,10 @@ struct JoxForces {
 
 /* Finds the agents in reach of agent i within its bracing cone about `axis`: their indices, nearest
    first. Returns how many. */
-uint32_t jox_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
+uint32_t jox_find_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
 /* Returns whether a wall stands between two points near an agent, no farther apart than the grid of
    walls serves: no force passes it. */
-bool jox_force_is_walled_off(const JoxForces *forces, JoxV2 from, JoxV2 to);
+bool jox_wall_stops_force(const JoxForces *forces, JoxV2 from, JoxV2 to);
 /* Returns the circumference of an agent, over which forces are spread, m. */
 static inline float jox_circumference(float radius) {
     return (float)JOX_TURN * radius;
@@ -101,7 +101,7 @@ static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
 }
 
 /* Returns the most agents that any chunk has. */
-static inline uint32_t jox_chunk_agents(const JoxForces *f) {
+static inline uint32_t jox_most_chunk_agents(const JoxForces *f) {
     const uint32_t count = f->step.agents->count;
     return count < JOX_FORCE_GRAIN ? count : JOX_FORCE_GRAIN;
 }

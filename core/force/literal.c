@@ -66,7 +66,7 @@ static bool decelerates(JoxV2 change, JoxV2 velocity, float cosine) {
 static void share_in_cone(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 force) {
     uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
     if (axis.x != 0.0f || axis.y != 0.0f)
-        n = jox_people_in_cone(f, i, jox_unit(axis), found);
+        n = jox_find_people_in_cone(f, i, jox_unit(axis), found);
     for (uint32_t k = 0; k < n; k++)
         jox_transfers_add(f, chunk, i, found[k], jox_scale(force, 1.0f / (float)n));
     if (!n)

@@ -8,24 +8,24 @@
 /* Length of a run, in which the list of a chunk is split. The first runs of all chunks are stored
    together, then the second ones, and so on: with few transfers per chunk, few pages are
    written. */
-enum { RUN = 16 };
+enum { RUN_LENGTH = 16 };
 
-void jox_transfers_begin(JoxForces *f) {
-    const uint32_t most = jox_chunk_agents(f) * (f->step.neighbours->stride + 1);
-    jox_chunks_reserve(&f->transfers.list, f->chunks, (most + RUN - 1) / RUN * RUN,
-                       sizeof(JoxTransfer));
+void jox_transfers_reserve(JoxForces *f) {
+    const uint32_t most = jox_most_chunk_agents(f) * (f->step.neighbours->stride + 1);
+    jox_chunks_reserve(&f->transfers.list, f->chunks,
+                       (most + RUN_LENGTH - 1) / RUN_LENGTH * RUN_LENGTH, sizeof(JoxTransfer));
 }
 
 /* Returns the first entry of a run of a chunk. */
 static JoxTransfer *get_run(const JoxForces *f, uint32_t chunk, uint32_t run) {
-    return (JoxTransfer *)f->transfers.list.items + ((size_t)run * f->chunks + chunk) * RUN;
+    return (JoxTransfer *)f->transfers.list.items + ((size_t)run * f->chunks + chunk) * RUN_LENGTH;
 }
 
 void jox_transfers_add(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
     const uint32_t at = f->transfers.list.counts[chunk]++;
     JOX_ASSERT(to < f->step.agents->count);
     JOX_ASSERT(chunk < f->chunks && at < f->transfers.list.room);
-    get_run(f, chunk, at / RUN)[at % RUN] =
+    get_run(f, chunk, at / RUN_LENGTH)[at % RUN_LENGTH] =
         (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
 }
 
@@ -54,7 +54,7 @@ uint32_t jox_transfers_sort(JoxForces *f) {
     memset(f->transfers.starts, 0, ((size_t)n + 1) * sizeof *f->transfers.starts);
     for (uint32_t c = 0; c < f->chunks; c++)
         for (uint32_t k = 0; k < f->transfers.list.counts[c]; k++)
-            f->transfers.starts[get_run(f, c, k / RUN)[k % RUN].to]++;
+            f->transfers.starts[get_run(f, c, k / RUN_LENGTH)[k % RUN_LENGTH].to]++;
     uint32_t sum = 0;
     for (uint32_t i = 0; i <= n; i++) {
         sum += f->transfers.starts[i];
@@ -62,7 +62,7 @@ uint32_t jox_transfers_sort(JoxForces *f) {
     }
     for (uint32_t c = 0; c < f->chunks; c++)
         for (uint32_t k = 0; k < f->transfers.list.counts[c]; k++) {
-            const JoxTransfer *t = &get_run(f, c, k / RUN)[k % RUN];
+            const JoxTransfer *t = &get_run(f, c, k / RUN_LENGTH)[k % RUN_LENGTH];
             f->transfers.sorted[--f->transfers.starts[t->to]] = *t;
         }
     JOX_ASSERT(f->transfers.starts[0] == 0 && f->transfers.starts[n] == total);
@@ -85,7 +85,7 @@ typedef struct SumTask {
     float *x, *y;
 } SumTask;
 
-static void sum_received_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void add_received(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const SumTask *task = context;
     JoxForces *f = task->forces;
@@ -109,8 +109,7 @@ static void sum_received_chunk(void *context, uint32_t begin, uint32_t end, uint
 
 void jox_transfers_sum(JoxForces *f, float *x, float *y) {
     SumTask task = {f, x, y};
-    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_received_chunk,
-                     &task);
+    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, add_received, &task);
 }
 
 void jox_transfers_free(JoxTransfers *transfers) {

@@ -23,7 +23,7 @@ typedef struct JoxTransfers {
 } JoxTransfers;
 
 /* Makes room for the transfers of a stage. */
-void jox_transfers_begin(struct JoxForces *forces);
+void jox_transfers_reserve(struct JoxForces *forces);
 /* Adds a force, N, that agent i of a chunk gives agent `to`. */
 void jox_transfers_add(struct JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to,
                        JoxV2 force);

@@ -3,7 +3,7 @@
 #include "base/assert.h"
 #include "force/forces.h"
 
-bool jox_force_is_walled_off(const JoxForces *f, JoxV2 from, JoxV2 to) {
+bool jox_wall_stops_force(const JoxForces *f, JoxV2 from, JoxV2 to) {
     /* Tests from either end, as the grid lists edges up to half of the distance only. */
     const JoxWallGrid *walls = f->in.walls;
     return walls && (jox_wall_grid_has_wall_between(walls, from, to) ||
@@ -17,12 +17,12 @@ static uint32_t drop_walled_off(const JoxForces *f, uint32_t i, uint32_t *found,
     uint32_t n = 0;
     for (uint32_t k = 0; k < count; k++) {
         found[n] = found[k];
-        n += !jox_force_is_walled_off(f, at, jox_add(at, jox_offset(a, i, found[k])));
+        n += !jox_wall_stops_force(f, at, jox_add(at, jox_offset(a, i, found[k])));
     }
     return n;
 }
 
-uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
+uint32_t jox_find_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];

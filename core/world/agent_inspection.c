@@ -174,7 +174,7 @@ void jox_inspect_after_infer(JoxInspection *all, const JoxAgents *a, const JoxFo
         JoxV2 hit = jox_sub((JoxV2){a->force_x[i], a->force_y[i]}, seen->summed);
         seen->forces[JOX_FORCE_PART_body] = jox_add(seen->forces[JOX_FORCE_PART_body], hit);
         JOX_CHECK(check_sum(seen, (JoxV2){a->force_x[i], a->force_y[i]}));
-        JoxV2 added = jox_force_slowed(forces_of, i, &kept);
+        JoxV2 added = jox_force_from_slowing(forces_of, i, &kept);
         seen->slowed = jox_add(jox_scale(seen->slowed, kept), added);
     }
 }

@@ -172,7 +172,7 @@ static bool find_plain_touch(JoxForces *f, uint32_t i, uint32_t other, bool wall
 static uint32_t plain_contacts(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
-    bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_IS_SEEN;
+    bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS;
     uint32_t count = seen ? jox_touch_candidate_counts(near, f->widest)[i] : near->touch_count[i],
              found = 0;
     for (uint32_t k = 0; k < count; k++) {
@@ -183,7 +183,7 @@ static uint32_t plain_contacts(JoxForces *f, uint32_t i, bool walls, JoxFoundPai
             continue;
         JoxFoundPair pair;
         if (find_plain_touch(f, i, other, walls, &pair))
-            jox_pair_insert(out, found++, &pair);
+            jox_insert_pair(out, found++, &pair);
     }
     JOX_ASSERT(found <= JOX_MOST_NEIGHBOURS);
     return found;
@@ -217,7 +217,7 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
         assert_true(wall[k].edge == walls[k].edge && wall[k].gap == walls[k].gap);
     seen->pairs += f->contacts->found.pair_count[i];
     seen->walls += count;
-    seen->alone += c->neighbours.touch_count[i] != JOX_TOUCH_IS_SEEN;
+    seen->alone += c->neighbours.touch_count[i] != JOX_TOUCH_AMONG_NEIGHBOURS;
 }
 
 static void compare_find_crowd(JoIsa isa, uint32_t number, Seen *seen) {

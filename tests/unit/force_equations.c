@@ -68,24 +68,6 @@ static void slowing_throws_forward(void **state) {
     assert_near(force.x * 3 * 0.05, 0.8 * 70 * 1.5, 1e-3);
 }
 
-static void slowing_differs_from_turning(void **state) {
-    (void)state;
-    /* Half-angle 60: from (1, 0) to 0.9 at 90 degrees the change is (-1, 0.9), the mean (0.5,
-       0.45): the cosine between them is -0.095 / (1.3454 * 0.6727) = -0.105. */
-    JoxV2 before = {1.0f, 0.0f};
-    float cosine = jox_parameter_store(JOX_PARAM_brace_angle, 60);
-    assert_false(jox_slows(before, jox_v2(0.0f, 0.9f), cosine));
-    assert_true(jox_slows(before, jox_v2(0.0f, 0.0f), cosine));
-    assert_true(jox_slows(before, jox_v2(0.5f, 0.0f), cosine));
-    assert_true(jox_slows(before, jox_v2(-0.5f, 0.0f), cosine));
-    assert_false(jox_slows(before, jox_v2(1.0f, 0.0f), cosine));
-    assert_false(jox_slows(before, jox_v2(1.1f, 0.0f), cosine));
-    /* To 0.5 at 90 degrees: -0.75 / (1.1180 * 1.1180) = -0.6, within 60 degrees, not within 50. */
-    assert_true(jox_slows(before, jox_v2(0.0f, 0.5f), cosine));
-    assert_false(jox_slows(before, jox_v2(0.0f, 0.5f), 0.6428f));
-    assert_true(jox_slows(before, jox_v2(0.0f, 0.9f), -0.5f)); /* a cone of more than a half turn */
-}
-
 static void a_turn_is_no_harder_than_a_stop(void **state) {
     (void)state;
     JoxV2 before = {2.0f, 0.0f}, after = {-1.9f, 0.0f};
@@ -126,7 +108,6 @@ int main(void) {
         cmocka_unit_test(damped_force_settles),
         cmocka_unit_test(resistance_passes_the_shortfall_on),
         cmocka_unit_test(slowing_throws_forward),
-        cmocka_unit_test(slowing_differs_from_turning),
         cmocka_unit_test(a_turn_is_no_harder_than_a_stop),
         cmocka_unit_test(own_force_never_reverses_the_motion),
         cmocka_unit_test(the_filter_keeps_the_impulse_and_its_delay),

@@ -37,7 +37,7 @@ static void close_with(Crowd *c, JoxObjects *objects) {
 static JoxV3 turn_box(const JoxObject *box, const JoxImpulse *impulse) {
     JoxV3 arm = {impulse->point.x - box->position.x, impulse->point.y - box->position.y,
                  impulse->point.z - box->position.z};
-    return jox_turn3(box->inverse_inertia, jox_cross3(arm, impulse->impulse));
+    return jox_transform3(box->inverse_inertia, jox_cross3(arm, impulse->impulse));
 }
 
 /* Returns the energy after a contact over that before; the box is at rest. */

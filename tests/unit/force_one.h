@@ -8,6 +8,27 @@
 #include "force/push/pass_on.h"
 #include "force/stages/kernels.h"
 
+/* (11) Returns the speed along the unit vector of a force of `size` newtons that the force alone
+   would give. The feet wear down motion along the force, but do not slow motion against it: else
+   the faintest force from ahead would brake a walker as hard as the feet can. */
+static inline float find_forced_speed(JoxV2 velocity, JoxV2 force_unit, float size, float mass,
+                                      float decay, float dt) {
+    float along = jox_dot(velocity, force_unit);
+    return (along > 0.0f ? along * decay : along) + size * dt / mass;
+}
+
+/* (8) Returns whether an agent slows down rather than turns: the change of velocity points against
+   the mean of both velocities, within an angle with this cosine. The paper prints the new velocity
+   instead, which has no direction after a full stop. */
+static inline bool does_slow_down(JoxV2 before, JoxV2 after, float cosine) {
+    JoxV2 change = jox_sub(after, before), way = jox_add(after, before);
+    float against = -jox_dot(change, way); /* |before|^2 - |after|^2 */
+    if (!(against > 0.0f))
+        return false;
+    return cosine <= 0.0f ||
+           against * against > cosine * cosine * jox_length2(change) * jox_length2(way);
+}
+
 /* (10) Returns the net force, N. */
 static JoxV2 plain_sum_terms(const JoxAgents *a, uint32_t i) {
 #define PLUS_X(X, keep, role, name, label) +a->name##_x[i]
@@ -37,7 +58,7 @@ static void plain_bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 mo
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
     JOX_ASSERT(jox_is_unit(normal));
-    float wanted = jox_forced_speed(velocity, normal, size, mass, decay, plan.interval);
+    float wanted = find_forced_speed(velocity, normal, size, mass, decay, plan.interval);
     float pressed = jox_dot(contact, normal) / mass, driven = jox_dot(moving, normal) / mass;
     /* Contacts act within this step only, however long the plan is kept. */
     wanted -= pressed * (plan.interval - step);
@@ -99,7 +120,7 @@ static bool plain_slows_down(const JoxForces *f, uint32_t i) {
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     const JoxV2 old = jox_velocity_before(f, i);
     return (old.x != 0.0f || old.y != 0.0f) && absorb > 0.0f &&
-           jox_slows(before, after, jox_param(a, JOX_PARAM_brace_angle, i)) &&
+           does_slow_down(before, after, jox_param(a, JOX_PARAM_brace_angle, i)) &&
            jox_length(jox_slowing(before, after)) * absorb >= f->options.least * dt;
 }
 

@@ -177,7 +177,27 @@ static void test_sum(void **state) {
     }
 }
 
+static void slowing_differs_from_turning(void **state) {
+    (void)state;
+    /* Half-angle 60: from (1, 0) to 0.9 at 90 degrees the change is (-1, 0.9), the mean (0.5,
+       0.45): the cosine between them is -0.095 / (1.3454 * 0.6727) = -0.105. */
+    JoxV2 before = {1.0f, 0.0f};
+    float cosine = jox_parameter_store(JOX_PARAM_brace_angle, 60);
+    assert_false(does_slow_down(before, jox_v2(0.0f, 0.9f), cosine));
+    assert_true(does_slow_down(before, jox_v2(0.0f, 0.0f), cosine));
+    assert_true(does_slow_down(before, jox_v2(0.5f, 0.0f), cosine));
+    assert_true(does_slow_down(before, jox_v2(-0.5f, 0.0f), cosine));
+    assert_false(does_slow_down(before, jox_v2(1.0f, 0.0f), cosine));
+    assert_false(does_slow_down(before, jox_v2(1.1f, 0.0f), cosine));
+    /* To 0.5 at 90 degrees: -0.75 / (1.1180 * 1.1180) = -0.6, within 60 degrees, not within 50. */
+    assert_true(does_slow_down(before, jox_v2(0.0f, 0.5f), cosine));
+    assert_false(does_slow_down(before, jox_v2(0.0f, 0.5f), 0.6428f));
+    /* a cone of more than a half turn */
+    assert_true(does_slow_down(before, jox_v2(0.0f, 0.9f), -0.5f));
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sum)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sum),
+                                       cmocka_unit_test(slowing_differs_from_turning)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -169,8 +169,8 @@ static float find_sight(const JoxAgents *a, float reach) {
 static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_t i, float seen,
                              Other *all) {
     float range = find_sight(a, jox_touch_reach(n, jox_param(a, JOX_PARAM_radius, i)));
-    assert_int_equal(n->touch_count[i] == JOX_TOUCH_IS_SEEN, seen >= range);
-    if (n->touch_count[i] == JOX_TOUCH_IS_SEEN)
+    assert_int_equal(n->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS, seen >= range);
+    if (n->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS)
         return;
     uint32_t count = list_reference(a, i, range, all);
     count = count < JOX_MOST_NEIGHBOURS ? count : JOX_MOST_NEIGHBOURS;

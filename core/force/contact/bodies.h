@@ -8,7 +8,7 @@
 
 /* Zero-initialise; it owns its arrays. */
 typedef struct JoxTouches {
-    JoxChunkList found; /* of JoxTouch, in the order in memory */
+    JoxChunkList found; /* items are JoxTouch, in the order in memory */
     JoxTouch *items;    /* sorted by agent id, then row */
     uint32_t *first;    /* per agent, valid where `number` is not 0 */
     uint8_t *number;    /* per agent; valid where there is any touch */
@@ -39,30 +39,30 @@ void jox_touches_reserve(JoxForces *forces);
 /* Finds the touches of agents [begin, end) of one chunk. */
 void jox_touches_find(JoxForces *forces, uint32_t begin, uint32_t end);
 /* Sorts those of all chunks. */
-void jox_touches_collect(JoxForces *forces);
+void jox_touches_sort(JoxForces *forces);
 void jox_touches_free(JoxTouches *touches, JoxDrives *drives);
 
-static inline uint32_t jox_touches_of(const JoxTouches *touches, uint32_t agent) {
+static inline uint32_t jox_touch_number_of(const JoxTouches *touches, uint32_t agent) {
     return touches->count ? touches->number[agent] : 0;
 }
 
 /* ---- bodies_solve.c ---- */
 
 /* Starts the solve: supports and motions of bodies, targets, first impulses. */
-void jox_touches_begin(JoxForces *forces);
+void jox_touches_start_solve(JoxForces *forces);
 /* Solves all touches once; returns the greatest change of an impulse, N s. */
-float jox_touches_pass(JoxForces *forces);
+float jox_touches_solve_once(JoxForces *forces);
 /* Gives the bodies the opposite of the impulses that agents got, and keeps these. */
-void jox_touches_finish(JoxForces *forces);
+void jox_touches_give_impulses(JoxForces *forces);
 
 /* ---- bodies_driven.c ---- */
 
 /* Finds the drives of the touched bodies, and scales kept impulses down to the limits. */
-void jox_drives_begin(JoxForces *forces);
+void jox_drives_find(JoxForces *forces);
 /* Scales the impulses ahead of drives over their limit down, after each pass. */
-void jox_drives_limit(JoxForces *forces);
+void jox_drives_limit_impulses(JoxForces *forces);
 /* Writes the loads of all drives, and slows bodies that reached their limit. */
-void jox_drives_finish(JoxForces *forces);
+void jox_drives_slow_bodies(JoxForces *forces);
 
 /* ---- bodies_motion.c ---- */
 

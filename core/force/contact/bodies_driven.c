@@ -9,7 +9,7 @@
 #include "force/contact/contacts.h"
 #include "force/support/supports.h"
 
-static const float MET = 0.999f; /* share of the limit that counts as reached */
+static const float LIMIT_REACHED = 0.999f; /* share of the limit that counts as reached */
 
 static float measure_level_speed(JoxV3 velocity) {
     return jox_length(jox_v2(velocity.x, velocity.y));
@@ -52,7 +52,7 @@ static void sum_drives(JoxForces *f) {
                 touches->items[k].ahead * touches->items[k].impulse;
 }
 
-void jox_drives_begin(JoxForces *f) {
+void jox_drives_find(JoxForces *f) {
     JoxDrives *drives = &f->contacts->drives;
     JoxTouches *touches = &f->contacts->touches;
     drives->count = 0;
@@ -75,7 +75,7 @@ void jox_drives_begin(JoxForces *f) {
     }
 }
 
-void jox_drives_limit(JoxForces *f) {
+void jox_drives_limit_impulses(JoxForces *f) {
     JoxDrives *drives = &f->contacts->drives;
     JoxTouches *touches = &f->contacts->touches;
     sum_drives(f);
@@ -106,7 +106,7 @@ static float find_way_share(const JoxForces *f, uint32_t drive) {
     return jox_clampf(share, 0.0f, 1.0f);
 }
 
-void jox_drives_finish(JoxForces *f) {
+void jox_drives_slow_bodies(JoxForces *f) {
     JoxDrives *drives = &f->contacts->drives;
     JoxTouches *touches = &f->contacts->touches;
     JoxSupports *supports = f->supports;
@@ -118,7 +118,7 @@ void jox_drives_finish(JoxForces *f) {
         JoxDriveLoad *load = &drives->loads[d];
         *load = (JoxDriveLoad){.row = drive->row,
                                .force = drive->pressed / (float)f->step.timing.dt,
-                               .met = drive->pressed >= MET * drive->most,
+                               .met = drive->pressed >= LIMIT_REACHED * drive->most,
                                .share = 1.0f,
                                .agent = JOX_NO_INDEX};
         for (uint32_t k = 0; k < touches->count; k++) {

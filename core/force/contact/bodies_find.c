@@ -30,8 +30,8 @@ static bool find_touch(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *t
 void jox_touches_reserve(JoxForces *f) {
     const uint32_t n = f->step.agents->count;
     JoxTouches *touches = &f->contacts->touches;
-    jox_chunks_reserve(&touches->found, f->chunks, jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED,
-                       sizeof(JoxTouch));
+    jox_chunks_reserve(&touches->found, f->chunks,
+                       jox_most_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxTouch));
     JOX_RESERVE(touches->first, touches->first_capacity, n);
     JOX_RESERVE(touches->number, touches->number_capacity, n);
 }
@@ -41,7 +41,7 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxAgents *a = f->step.agents;
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxTouch *list = (JoxTouch *)touches->found.items + (size_t)chunk * touches->found.room;
-    jox_chunk_empty(&touches->found, chunk);
+    jox_chunk_clear(&touches->found, chunk);
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 at = {a->x[i], a->y[i]};
         float reach = jox_param(a, JOX_PARAM_radius, i) + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
@@ -74,7 +74,7 @@ static int compare_touches(const void *a, const void *b, const void *context) {
     return (x->object > y->object) - (x->object < y->object);
 }
 
-void jox_touches_collect(JoxForces *f) {
+void jox_touches_sort(JoxForces *f) {
     JoxTouches *touches = &f->contacts->touches;
     const JoxAgents *a = f->step.agents;
     uint32_t count = 0;

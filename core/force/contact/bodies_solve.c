@@ -7,14 +7,14 @@
 #include "force/contact/contacts.h"
 #include "force/support/supports.h"
 
-void jox_touches_begin(JoxForces *f) {
+void jox_touches_start_solve(JoxForces *f) {
     const JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_TOUCHES];
     JoxTouches *touches = &f->contacts->touches;
     const JoxAgents *a = f->step.agents;
     size_t at = 0;
     if (!touches->count)
         return;
-    jox_supports_begin(f, touches->items, touches->count);
+    jox_supports_start_solve(f, touches->items, touches->count);
     for (uint32_t k = 0; k < touches->count; k++) {
         JoxTouch *t = &touches->items[k];
         const JoxObject *body = &f->step.objects->rows[t->object];
@@ -26,21 +26,21 @@ void jox_touches_begin(JoxForces *f) {
         t->mass = 1.0f / (1.0f / jox_param(a, JOX_PARAM_mass, t->agent) + give);
         t->target = jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution,
                                        (float)f->step.timing.dt);
-        t->impulse = jox_kept_impulse(kept, &at, a->id[t->agent], t->object);
+        t->impulse = jox_find_kept_impulse(kept, &at, a->id[t->agent], t->object);
         JOX_ASSERT(t->mass > 0.0f);
     }
-    jox_drives_begin(f);
+    jox_drives_find(f);
     for (uint32_t k = 0; k < touches->count; k++)
         jox_touch_apply_impulse(f, &touches->items[k], touches->items[k].impulse);
 }
 
 /* Runs in ascending agent id, on one thread: touches are few. */
-float jox_touches_pass(JoxForces *f) {
+float jox_touches_solve_once(JoxForces *f) {
     const JoxV2 *velocities = f->contacts->solve.velocities;
     JoxTouches *touches = &f->contacts->touches;
     if (!touches->count)
         return 0.0f;
-    float most = jox_supports_pass(f);
+    float most = jox_supports_solve_once(f);
     for (uint32_t k = 0; k < touches->count; k++) {
         JoxTouch *t = &touches->items[k];
         float speed = jox_dot(velocities[t->agent], t->normal) - jox_touch_speed_after(f, t);
@@ -48,13 +48,13 @@ float jox_touches_pass(JoxForces *f) {
         t->impulse = jox_maxf(0.0f, t->before + (t->target - speed) * t->mass);
         jox_touch_apply_impulse(f, t, t->impulse - t->before);
     }
-    jox_drives_limit(f);
+    jox_drives_limit_impulses(f);
     for (uint32_t k = 0; k < touches->count; k++)
         most = jox_maxf(most, fabsf(touches->items[k].impulse - touches->items[k].before));
     return most;
 }
 
-void jox_touches_finish(JoxForces *f) {
+void jox_touches_give_impulses(JoxForces *f) {
     JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_TOUCHES];
     JoxTouches *touches = &f->contacts->touches;
     const JoxAgents *a = f->step.agents;
@@ -63,8 +63,8 @@ void jox_touches_finish(JoxForces *f) {
     JOX_RESERVE(kept->items, kept->capacity, touches->count);
     kept->count = touches->count;
     if (touches->count && !f->options.literal) {
-        jox_supports_finish(f, touches->items, touches->count);
-        jox_drives_finish(f);
+        jox_supports_find_held_shares(f, touches->items, touches->count);
+        jox_drives_slow_bodies(f);
     }
     for (uint32_t k = 0; k < touches->count; k++) {
         const JoxTouch *t = &touches->items[k];

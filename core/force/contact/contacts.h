@@ -10,7 +10,7 @@
 #include "force/contact/layout.h"
 #include "force/contact/wall_load.h"
 
-/* What the solve changes. */
+/* Motion of the agents while contacts are solved. */
 typedef struct JoxContactSolve {
     JoxV2 *velocities;   /* per agent, m/s, in stage memory */
     float *inverse_mass; /* per agent, 1/kg, in stage memory */
@@ -40,7 +40,7 @@ void jox_literal_contacts(JoxForces *forces);
 /* crush_load.c: measures compression and load of one agent from the impulses. */
 void jox_load_measure(JoxForces *forces, uint32_t agent);
 /* crush_load.c: returns whether neither walls nor pushes press on any of agents [begin, end). */
-bool jox_loads_are_none(const JoxForces *forces, uint32_t begin, uint32_t end);
+bool jox_have_no_loads(const JoxForces *forces, uint32_t begin, uint32_t end);
 /* planes.c: makes the half-planes of contacts. */
 void jox_contact_planes_make(JoxForces *forces);
 /* check.c asserts that no agent occurs twice in a colour, that no contact pulls, and that the

@@ -112,7 +112,7 @@ static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
         const float force = p->impulse * per_second + p->squeeze;
         add_force_if(out, jox_scale(p->normal, p->first == i ? force : -force), force > 0.0f);
     }
-    for (uint32_t k = 0; k < jox_touches_of(touches, i) && has_room(out); k++) {
+    for (uint32_t k = 0; k < jox_touch_number_of(touches, i) && has_room(out); k++) {
         const JoxTouch *t = &touches->items[touches->first[i] + k];
         add_force_if(out, jox_scale(t->normal, t->impulse * per_second), t->impulse > 0.0f);
     }
@@ -130,7 +130,7 @@ static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
     memset(out->y + out->count, 0, 4 * sizeof *out->y);
 }
 
-bool jox_loads_are_none(const JoxForces *f, uint32_t begin, uint32_t end) {
+bool jox_have_no_loads(const JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxPushes *pushes = f->pushes;
     uint32_t loads = pushes->any ? f->transfers.starts[end] - f->transfers.starts[begin] : 0;
     float reactions = 0.0f;

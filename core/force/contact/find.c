@@ -10,13 +10,13 @@
 static JoxFindKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void find_contacts_of_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     JoxFoundContacts *found = &f->contacts->found;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
-    jox_chunk_empty(&found->pairs, chunk);
-    jox_chunk_empty(&found->walls, chunk);
+    jox_chunk_clear(&found->pairs, chunk);
+    jox_chunk_clear(&found->walls, chunk);
     found->overlaps[chunk] = 0;
     KERNELS[f->isa](f, begin, end);
     if (f->has_bodies)
@@ -32,10 +32,10 @@ static bool has_full_list(const JoxNeighbours *near, uint32_t count) {
 void jox_contacts_find(JoxForces *f) {
     JoxFoundContacts *found = &f->contacts->found;
     uint32_t n = f->step.agents->count;
-    jox_chunks_reserve(&found->pairs, f->chunks, jox_chunk_agents(f) * JOX_MOST_NEIGHBOURS,
+    jox_chunks_reserve(&found->pairs, f->chunks, jox_most_chunk_agents(f) * JOX_MOST_NEIGHBOURS,
                        sizeof(JoxFoundPair));
     jox_chunks_reserve(&found->slots, f->chunks, found->pairs.room, sizeof(JoxPairSlot));
-    jox_chunks_reserve(&found->walls, f->chunks, jox_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
+    jox_chunks_reserve(&found->walls, f->chunks, jox_most_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
                        sizeof(JoxFoundWall));
     JOX_RESERVE(found->first_pair, found->first_pair_capacity, n + JOX_LANES);
     JOX_RESERVE(found->pair_count, found->pair_count_capacity, n + JOX_LANES);
@@ -45,7 +45,7 @@ void jox_contacts_find(JoxForces *f) {
     if (f->has_bodies)
         jox_touches_reserve(f);
     found->has_full_list = n && has_full_list(f->step.neighbours, n);
-    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, find_chunk, f);
+    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, find_contacts_of_chunk, f);
     for (uint32_t c = 0; c < f->chunks; c++)
         f->totals.pairs += found->overlaps[c];
 }

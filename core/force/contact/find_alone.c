@@ -23,15 +23,15 @@ static bool is_touch_list_full(const JoxNeighbours *near, uint32_t i) {
 uint32_t jox_find_contacts_alone(JoxForces *f, uint32_t i, bool walls, JoxFoundPair *out) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
-    const bool seen = !near->touch_count || near->touch_count[i] == JOX_TOUCH_IS_SEEN;
+    const bool covered = !near->touch_count || near->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS;
     const uint32_t count =
-        seen ? jox_touch_candidate_counts(near, f->widest)[i] : near->touch_count[i];
+        covered ? jox_touch_candidate_counts(near, f->widest)[i] : near->touch_count[i];
     JoxFindPacket packet = {.f = f, .first = i, .lanes = 1, .walls = walls};
     JoxContactSelf self = jox_load_contact_self(a, i);
     self.least_id = INT32_MIN; /* the loop below compares the ids itself */
     for (uint32_t k = 0; k < count; k++) {
-        const uint32_t other = seen ? near->index[jox_neighbour_at(near, i, k)]
-                                    : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
+        const uint32_t other = covered ? near->index[jox_neighbour_at(near, i, k)]
+                                       : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
         JoxContactCandidates m;
         if (a->id[other] < a->id[i] &&
             (!is_touch_list_full(near, other) || is_in_touch_list(near, other, i)))

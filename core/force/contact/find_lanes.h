@@ -73,7 +73,7 @@ static inline uint32_t jox_find_touching(const JoxForces *f, const JoxContactSel
     lanes &= jm_bits(jf_lt(m->distance2, most * most));
     if (!lanes)
         return 0;
-    jf_records_at(&f->builds[0].breadth, others, build);
+    jf_records_at(&f->records[0].breadth, others, build);
     lanes &= ~jm_bits(ji_less(jf_bits(build[3]), self->least_id));
     const JoxFloats sum = self->breadth + build[0], slack = whole - sum;
     m->distance = jf_sqrt(m->distance2);
@@ -146,7 +146,7 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
                                    .target = target[lane],
                                    .mass = mass[lane]};
         JOX_ASSERT(jox_is_unit(pair.normal));
-        jox_pair_insert(p->found[lane], p->count[lane]++, &pair);
+        jox_insert_pair(p->found[lane], p->count[lane]++, &pair);
     }
 }
 

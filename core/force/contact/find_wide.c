@@ -6,7 +6,7 @@
 #include "geom/wall_grid_lanes.h"
 
 /* Adds the contacts of lanes whose neighbour list covers touch range. */
-static void add_seen_contacts(JoxFindPacket *p, uint32_t lanes) {
+static void add_covered_contacts(JoxFindPacket *p, uint32_t lanes) {
     const JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
@@ -26,18 +26,18 @@ static void add_seen_contacts(JoxFindPacket *p, uint32_t lanes) {
 }
 
 /* Returns the lanes whose neighbour list covers touch range. */
-static uint32_t find_seen_lanes(const JoxFindPacket *p) {
+static uint32_t find_covered_lanes(const JoxFindPacket *p) {
     const uint8_t *touch_count = p->f->step.neighbours->touch_count;
     if (p->f->contacts->found.has_full_list)
         return 0;
     if (!touch_count)
         return p->lanes;
     const JoxInts count = ji_load_bytes(touch_count + p->first);
-    return p->lanes & jm_bits(ji_equal(count, ji_set(JOX_TOUCH_IS_SEEN)));
+    return p->lanes & jm_bits(ji_equal(count, ji_set(JOX_TOUCH_AMONG_NEIGHBOURS)));
 }
 
 /* Writes that no agent of the packet touches anything. */
-static void write_none(const JoxFindPacket *p) {
+static void write_no_contacts(const JoxFindPacket *p) {
     JoxFoundContacts *lists = &p->f->contacts->found;
     const uint32_t i = p->first, chunk = i / JOX_FORCE_GRAIN;
     const uint32_t found = chunk * lists->pairs.room + lists->pairs.counts[chunk];
@@ -48,8 +48,8 @@ static void write_none(const JoxFindPacket *p) {
     ji_store_bytes(lists->wall_count + i, ji_set(0));
 }
 
-/* Writes the contacts of each lane; finds those of lanes that are not in `seen` first. */
-static void write_each(JoxFindPacket *p, uint32_t seen) {
+/* Writes the contacts of each lane; finds those of lanes that are not in `covered` first. */
+static void write_contacts(JoxFindPacket *p, uint32_t covered) {
     JoxForces *f = p->f;
     JoxFoundContacts *lists = &f->contacts->found;
     const uint32_t chunk = p->first / JOX_FORCE_GRAIN;
@@ -60,7 +60,7 @@ static void write_each(JoxFindPacket *p, uint32_t seen) {
     uint32_t *n = &lists->pairs.counts[chunk], *w = &lists->walls.counts[chunk];
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
-        if (!(seen >> lane & 1))
+        if (!(covered >> lane & 1))
             p->count[lane] = jox_find_contacts_alone(f, i, p->walls >> lane & 1, p->found[lane]);
         JOX_ASSERT(*n + p->count[lane] <= lists->pairs.room);
         lists->first_pair[i] = chunk * lists->pairs.room + *n;
@@ -80,7 +80,7 @@ static void write_each(JoxFindPacket *p, uint32_t seen) {
 static void find_packet(JoxFindPacket *p) {
     const JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
-    const uint32_t seen = find_seen_lanes(p);
+    const uint32_t covered = find_covered_lanes(p);
     p->walls = p->walled = 0;
     if (f->in.walls) {
         const JoxFloats touch = jf_set(JOX_TOUCH_LEAST + JOX_TOUCH_MOST);
@@ -91,14 +91,14 @@ static void find_packet(JoxFindPacket *p) {
             p->walls & ~jm_bits(jox_wall_grid_clear_lanes(f->in.unhidden2, p->first, reach));
     }
     ji_store(p->count, ji_set(0));
-    if (seen)
-        add_seen_contacts(p, seen);
+    if (covered)
+        add_covered_contacts(p, covered);
     const JoxInts none = ji_set(0);
-    const uint32_t touching = ~jm_bits(ji_equal(ji_load(p->count), none)) | p->walled | ~seen;
+    const uint32_t touching = ~jm_bits(ji_equal(ji_load(p->count), none)) | p->walled | ~covered;
     if (touching & p->lanes)
-        write_each(p, seen);
+        write_contacts(p, covered);
     else
-        write_none(p);
+        write_no_contacts(p);
 }
 
 void JOX_WIDE(jox_find_packets)(JoxForces *f, uint32_t begin, uint32_t end) {

@@ -64,7 +64,7 @@ uint32_t jox_find_contacts_alone(JoxForces *forces, uint32_t agent, bool walls, 
 uint32_t jox_find_wall_contacts(const JoxForces *forces, uint32_t agent,
                                 JoxFoundWall out[JOX_CONTACT_MOST_WALLS]);
 /* Inserts a contact into a list of `count`, sorted by id. */
-static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const JoxFoundPair *pair) {
+static inline void jox_insert_pair(JoxFoundPair *list, uint32_t count, const JoxFoundPair *pair) {
     for (; count > 0 && list[count - 1].other_id > pair->other_id; count--)
         list[count] = list[count - 1];
     list[count] = *pair;

@@ -11,7 +11,7 @@ static JoxStartKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 /* Advances *at through the kept impulses, as contacts come in ascending order of ids. */
-float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other) {
+float jox_find_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other) {
     const JoxKeptImpulse *items = kept->items;
     while (*at < kept->count &&
            (items[*at].id < id || (items[*at].id == id && items[*at].other < other)))
@@ -20,7 +20,7 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
     return found ? items[*at].impulse : 0.0f;
 }
 
-static inline const JoxFoundPair *get_found(const JoxForces *f, uint32_t i) {
+static inline const JoxFoundPair *get_found_pairs(const JoxForces *f, uint32_t i) {
     const JoxFoundContacts *found = &f->contacts->found;
     return (const JoxFoundPair *)found->pairs.items + found->first_pair[i];
 }
@@ -87,7 +87,7 @@ static void colour_pairs(JoxForces *f) {
 }
 
 /* Counts the pairs of each colour that agents [begin, end) found. */
-static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void count_colours(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)end, (void)worker;
     JoxForces *f = context;
     JoxFoundContacts *found = &f->contacts->found;
@@ -102,7 +102,7 @@ static void count_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
 }
 
 /* Turns the counts of pairs, per chunk and colour, into the place of the first one. */
-static void start_colours(JoxForces *f) {
+static void find_colour_starts(JoxForces *f) {
     JoxPairs *pairs = &f->contacts->pairs;
     uint32_t sum = 0;
     pairs->colours = 0;
@@ -122,7 +122,7 @@ static void start_colours(JoxForces *f) {
 
 /* Writes the pairs that agents [begin, end) found into the ranges of their colours, with the kept
    impulses. */
-static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void place_pairs(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     const JoxKeptImpulses *last = &f->contacts->kept[JOX_KEPT_PAIRS];
@@ -131,7 +131,7 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     const JoxAgents *a = f->step.agents;
     uint32_t *next = pairs->colour_sizes[begin / JOX_FORCE_GRAIN];
     for (uint32_t i = begin; i < end; i++) {
-        const JoxFoundPair *found = get_found(f, i);
+        const JoxFoundPair *found = get_found_pairs(f, i);
         const JoxPairSlot *slots = get_slots(f, i);
         size_t kept = lists->pair_count[i] ? pairs->orders[i].first_kept : 0;
         for (uint32_t k = 0; k < lists->pair_count[i]; k++) {
@@ -145,7 +145,7 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
                           found[k].target,
                           found[k].mass,
                           found[k].squeeze,
-                          jox_kept_impulse(last, &kept, a->id[i], found[k].other_id)};
+                          jox_find_kept_impulse(last, &kept, a->id[i], found[k].other_id)};
             pairs->ends[pairs->end_starts[i] + slots[k].first_end] = (JoxPairEnd){at, j};
             pairs->ends[pairs->end_starts[j] + slots[k].second_end] = (JoxPairEnd){at, i};
         }
@@ -153,7 +153,7 @@ static void place_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
 }
 
 /* Lists the contacts with walls, in ascending order of agent ids. */
-static void lay_walls(JoxForces *f) {
+static void lay_out_walls(JoxForces *f) {
     const JoxKeptImpulses *last = &f->contacts->kept[JOX_KEPT_WALLS];
     JoxFoundContacts *lists = &f->contacts->found;
     JoxWallContacts *walls = &f->contacts->walls;
@@ -181,7 +181,7 @@ static void lay_walls(JoxForces *f) {
                 .normal = found[k].normal,
                 .along = found[k].along,
                 .target = jox_contact_target(found[k].gap, speed, jox_at(e, i), dt),
-                .impulse = jox_kept_impulse(last, &kept, a->id[i], found[k].edge)};
+                .impulse = jox_find_kept_impulse(last, &kept, a->id[i], found[k].edge)};
         }
     }
     walls->groups[walls->group_count] = walls->count;
@@ -210,7 +210,7 @@ static void reserve_layout(JoxForces *f, uint32_t pair_count, uint32_t wall_coun
 }
 
 /* Computes the velocities of a chunk of agents without contacts. */
-static void start_chunk(JoxForces *f, uint32_t chunk) {
+static void compute_start_velocities(JoxForces *f, uint32_t chunk) {
     const uint32_t count = f->step.agents->count, begin = chunk * JOX_FORCE_GRAIN;
     const uint32_t end = begin + JOX_FORCE_GRAIN;
     KERNELS[f->isa](f, begin, end < count ? end : count);
@@ -225,16 +225,16 @@ typedef struct Layout {
     uint32_t pairs, walls; /* numbers found */
 } Layout;
 
-static void lay_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void lay_out_part(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Layout *layout = context;
     for (uint32_t part = begin; part < end; part++)
         if (part >= STARTS)
-            start_chunk(layout->forces, part - STARTS);
+            compute_start_velocities(layout->forces, part - STARTS);
         else if (part == PAIRS && layout->pairs)
             colour_pairs(layout->forces);
         else if (part == WALLS && layout->walls)
-            lay_walls(layout->forces);
+            lay_out_walls(layout->forces);
 }
 
 void jox_contacts_lay_out(JoxForces *f) {
@@ -250,19 +250,19 @@ void jox_contacts_lay_out(JoxForces *f) {
     pairs->count = pairs->colours = 0;
     if (layout.pairs || layout.walls || touched)
         jox_parallel_for(f->chunks > 1 ? f->step.pool : NULL,
-                         STARTS + (f->options.literal ? 0 : f->chunks), 1, lay_part, &layout);
+                         STARTS + (f->options.literal ? 0 : f->chunks), 1, lay_out_part, &layout);
     JOX_ASSERT(walls->count == layout.walls);
     if (layout.pairs) {
-        jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, count_chunk, f);
-        start_colours(f);
-        jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, place_chunk, f);
+        jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, count_colours, f);
+        find_colour_starts(f);
+        jox_parallel_for(f->step.pool, agents, JOX_FORCE_GRAIN, place_pairs, f);
         return;
     }
     memset(pairs->end_starts, 0, ((size_t)agents + 1) * sizeof *pairs->end_starts);
 }
 
 /* Keeps the impulses of the pairs that agents [begin, end) found, in ascending order of ids. */
-static void keep_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void keep_pair_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_PAIRS];
@@ -270,7 +270,7 @@ static void keep_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     JoxPairs *pairs = &f->contacts->pairs;
     const uint32_t *id = f->step.agents->id;
     for (uint32_t i = begin; i < end; i++) {
-        const JoxFoundPair *found = get_found(f, i);
+        const JoxFoundPair *found = get_found_pairs(f, i);
         const JoxPairSlot *slots = get_slots(f, i);
         uint32_t n = lists->pair_count[i] ? pairs->orders[i].first_pair : 0;
         for (uint32_t k = 0; k < lists->pair_count[i]; k++) {
@@ -282,7 +282,7 @@ static void keep_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     }
 }
 
-void jox_contacts_keep(JoxForces *f) {
+void jox_contacts_keep_impulses(JoxForces *f) {
     JoxKeptImpulses *of_pairs = &f->contacts->kept[JOX_KEPT_PAIRS];
     JoxKeptImpulses *of_walls = &f->contacts->kept[JOX_KEPT_WALLS];
     JoxWallContacts *walls = &f->contacts->walls;
@@ -291,7 +291,7 @@ void jox_contacts_keep(JoxForces *f) {
     JOX_RESERVE(of_pairs->items, of_pairs->capacity, pairs->count);
     of_pairs->count = pairs->count;
     if (pairs->count)
-        jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, keep_chunk, f);
+        jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, keep_pair_impulses, f);
     JOX_RESERVE(of_walls->items, of_walls->capacity, walls->count);
     of_walls->count = walls->count;
     for (uint32_t k = 0; k < walls->count; k++)

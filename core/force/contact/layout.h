@@ -73,14 +73,14 @@ typedef struct JoxKeptImpulses {
 /* Lays out the contacts found, each with the impulse of the last step, and computes the velocities
    that the solve starts from. */
 void jox_contacts_lay_out(JoxForces *forces);
-/* Keeps the impulses of agents and walls for the next step; jox_touches_finish keeps those of
-   bodies. */
-void jox_contacts_keep(JoxForces *forces);
+/* Keeps the impulses of agents and walls for the next step; jox_touches_give_impulses keeps those
+   of bodies. */
+void jox_contacts_keep_impulses(JoxForces *forces);
 void jox_pairs_free(JoxPairs *pairs);
 
 /* Returns the kept impulse of a contact, N s; 0 for a new one. Called in ascending order of ids;
  *at is the place in the list, 0 at first. */
-float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other);
+float jox_find_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other);
 
 /* start_wide.c: computes `velocities` and `inverse_mass` of agents [begin, end), the start of the
    solve. Both have room for whole blocks of JOX_LANES. One function for each instruction set. */

@@ -67,7 +67,7 @@ static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane
     const JoxTouches *touches = &f->contacts->touches;
     const float time = (float)f->step.timing.planning_time;
     uint32_t n = 0;
-    for (uint32_t k = 0; k < jox_touches_of(touches, i); k++) {
+    for (uint32_t k = 0; k < jox_touch_number_of(touches, i); k++) {
         const JoxTouch *t = &touches->items[touches->first[i] + k];
         if (!(t->impulse > 0.0f || t->gap <= 0.0f))
             continue;

@@ -25,7 +25,7 @@ static inline void add_along(JoxV2 *velocity, JoxV2 normal, float change) {
 }
 
 /* Applies the impulses that the contacts of a colour start with. */
-static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void apply_colour_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Pass *pass = context;
     JoxForces *f = pass->forces;
@@ -64,7 +64,7 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
     pass->residuals[pass->chunk + begin / PAIR_GRAIN] = most;
 }
 
-static void warm_walls(JoxForces *f) {
+static void apply_wall_impulses(JoxForces *f) {
     JoxWallContacts *walls = &f->contacts->walls;
     JoxContactSolve *solve = &f->contacts->solve;
     for (uint32_t k = 0; k < walls->count; k++) {
@@ -99,7 +99,7 @@ static uint32_t count_chunks(uint32_t count, uint32_t grain) {
 }
 
 /* Runs one pass over all contacts; returns the greatest change of an impulse, N s. */
-static float run_pass(JoxForces *f) {
+static float solve_once(JoxForces *f) {
     JoxContactSolve *solve = &f->contacts->solve;
     JoxWallContacts *walls = &f->contacts->walls;
     JoxPairs *p = &f->contacts->pairs;
@@ -112,14 +112,14 @@ static float run_pass(JoxForces *f) {
     }
     jox_parallel_for(f->step.pool, walls->group_count, WALL_GRAIN, solve_walls, &pass);
     pass.chunk += count_chunks(walls->group_count, WALL_GRAIN);
-    float most = jox_touches_pass(f);
+    float most = jox_touches_solve_once(f);
     for (uint32_t k = 0; k < pass.chunk; k++)
         most = jox_maxf(most, solve->residuals[k]);
     return most;
 }
 
 /* Applies the kept impulses of all contacts, which make the solve converge sooner. */
-static void begin_solve(JoxForces *f) {
+static void apply_first_impulses(JoxForces *f) {
     JoxContactSolve *solve = &f->contacts->solve;
     const JoxPairs *p = &f->contacts->pairs;
     uint32_t chunks = count_chunks(f->contacts->walls.group_count, WALL_GRAIN);
@@ -128,19 +128,19 @@ static void begin_solve(JoxForces *f) {
     JOX_RESERVE(solve->residuals, solve->residual_capacity, chunks);
     for (uint32_t c = 0; c < p->colours; c++) {
         Pass pass = {.forces = f, .first = p->starts[c]};
-        jox_parallel_for(f->step.pool, p->starts[c + 1] - p->starts[c], PAIR_GRAIN, warm_colour,
-                         &pass);
+        jox_parallel_for(f->step.pool, p->starts[c + 1] - p->starts[c], PAIR_GRAIN,
+                         apply_colour_impulses, &pass);
     }
-    warm_walls(f);
-    jox_touches_begin(f);
+    apply_wall_impulses(f);
+    jox_touches_start_solve(f);
 }
 
 void jox_contacts_solve(JoxForces *f) {
-    begin_solve(f);
+    apply_first_impulses(f);
     f->totals.passes = 0;
     float enough = f->options.tolerance * (float)f->step.timing.dt, most = INFINITY;
     while (most > enough && f->totals.passes < f->options.iterations) {
-        most = run_pass(f);
+        most = solve_once(f);
         f->totals.passes++;
     }
     f->totals.residual = most / (float)f->step.timing.dt;

@@ -17,7 +17,7 @@ static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
         sum = jox_add(sum, (JoxV2){p->normal.x * impulse, p->normal.y * impulse});
         *contacts += size > 0.0f || p->target >= 0.0f;
     }
-    for (uint32_t k = 0; k < jox_touches_of(touches, i); k++) {
+    for (uint32_t k = 0; k < jox_touch_number_of(touches, i); k++) {
         const JoxTouch *touch = &touches->items[touches->first[i] + k];
         sum = jox_add(sum, jox_scale(touch->normal, touch->impulse));
         *contacts += touch->impulse > 0.0f || touch->gap <= 0.0f;
@@ -37,12 +37,12 @@ static void write_contact_force(JoxForces *f, uint32_t i) {
     jox_load_measure(f, i);
 }
 
-static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void write_contact_forces(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
-        if (jox_have_no_contacts(f->contacts, i, last) && jox_loads_are_none(f, i, last))
+        if (jox_have_no_contacts(f->contacts, i, last) && jox_have_no_loads(f, i, last))
             continue; /* the columns are zero since the stage began */
         for (uint32_t k = i; k < last; k++)
             write_contact_force(f, k);
@@ -50,7 +50,7 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
 }
 
 /* Adds the forces of walls, which have a list of their own. */
-static void finish_walls(JoxForces *f) {
+static void add_wall_forces(JoxForces *f) {
     JoxWallContacts *walls = &f->contacts->walls;
     JoxAgents *a = f->step.agents;
     float per_second = 1.0f / (float)f->step.timing.dt;
@@ -67,17 +67,17 @@ void jox_force_contact(JoxForces *f) {
     jox_contacts_find(f);
     jox_contacts_lay_out(f);
     if (f->has_bodies)
-        jox_touches_collect(f);
+        jox_touches_sort(f);
     f->contacts->known = true;
     if (f->options.literal)
         jox_literal_contacts(f);
     else if (found->pairs.count || found->walls.count || found->touches.count)
         jox_contacts_solve(f);
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, finish_chunk, f);
-    finish_walls(f); /* in literal mode walls do not press */
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, write_contact_forces, f);
+    add_wall_forces(f); /* in literal mode walls do not press */
     JOX_CHECK(jox_contacts_check(f));
-    jox_contacts_keep(f);
-    jox_touches_finish(f);
+    jox_contacts_keep_impulses(f);
+    jox_touches_give_impulses(f);
     jox_wall_loads_measure(f);
 }
 

@@ -16,7 +16,7 @@ static JoxInferKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shortfall) {
     const JoxAgents *a = f->step.agents;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_find_people_in_cone(f, i, unit, found);
     if (n == 0)
         return;
     const JoxV2 each = jox_resistance(unit, shortfall, jox_param(a, JOX_PARAM_absorb, i),
@@ -48,7 +48,7 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     float absorb = jox_param(a, JOX_PARAM_absorb, i);
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     JoxV2 change = jox_slowing(before, after);
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, jox_unit(before), found);
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_find_people_in_cone(f, i, jox_unit(before), found);
     JoxV2 given = jox_deceleration(change, absorb, mass, n > 0 ? n : 1, dt);
     float lost = 0.5f * mass * (jox_length2(before) - jox_length2(after));
     for (uint32_t k = 0; k < n; k++) {
@@ -69,12 +69,12 @@ static inline bool all_pass_nothing(const uint8_t kinds[8]) {
 }
 
 /* Whole packets are tested by the kernel of the run's instruction set. */
-static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void pass_on_from_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxPassing passing;
-    jox_chunk_empty(&f->transfers.list, chunk);
+    jox_chunk_clear(&f->transfers.list, chunk);
     for (uint32_t i = begin; f->options.literal && i < end; i++)
         jox_literal_pass_on(f, chunk, i);
     if (f->options.literal)
@@ -92,7 +92,7 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
 }
 
 /* Fades the inferred forces of the last step: exponential filter. */
-static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void fade_inferred(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     JoxAgents *a = f->step.agents;
@@ -111,7 +111,7 @@ static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
 }
 
 /* Scales the new transfers to the share of the filter that arrives in this step. */
-static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void scale_transfers(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     float share =
@@ -126,12 +126,12 @@ static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
 
 void jox_force_infer(JoxForces *f) {
     JoxAgents *a = f->step.agents;
-    jox_transfers_begin(f);
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, infer_chunk, f);
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, fade_chunk, f);
+    jox_transfers_reserve(f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, pass_on_from_chunk, f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, fade_inferred, f);
     f->totals.passed = jox_transfers_sort(f);
     if (!f->totals.passed)
         return;
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, scale_chunk, f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, scale_transfers, f);
     jox_transfers_sum(f, a->inferred_x, a->inferred_y);
 }

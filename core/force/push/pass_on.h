@@ -1,4 +1,5 @@
-/* What the kernel of infer tells the plain C around it: which agents pass a force on. */
+/* The kernel of infer, which finds the agents that pass a force on; pass_on.c calls it for one
+   chunk of agents at a time, on several threads, and has them do so. */
 #ifndef JOX_FORCE_PUSH_PASS_ON_H
 #define JOX_FORCE_PUSH_PASS_ON_H
 

@@ -61,7 +61,7 @@ static bool is_target_hidden(const JoxForces *f, uint32_t i, uint32_t other, Jox
     if (!f->in.walls || (unhidden2 && !images && d2 < unhidden2[i] && d2 < unhidden2[other]))
         return false;
     const JoxV2 centre = {a->x[i], a->y[i]};
-    return jox_force_is_walled_off(f, centre, jox_add(centre, offset));
+    return jox_wall_stops_force(f, centre, jox_add(centre, offset));
 }
 
 /* Lists the agents that agent i pushes: in reach, with a tag that it pushes, and no wall between.
@@ -105,7 +105,7 @@ static uint32_t find_body_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Tar
             continue;
         JoxFootprintPoint at = jox_footprint_nearest(body, centre);
         if (at.gap - radius < reach && jox_cone_holds(jox_scale(at.normal, -1.0f), aim, cosine) &&
-            !jox_force_is_walled_off(f, centre, at.point))
+            !jox_wall_stops_force(f, centre, at.point))
             jox_nearest_offer(&nearest, at.gap, row);
     }
     jox_nearest_by_row(&nearest);
@@ -194,15 +194,15 @@ static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
     }
 }
 
-static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void push_from_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     const JoxParameterColumn push = f->step.agents->param[JOX_PARAM_push];
     const uint8_t *on = f->in.push_on;
-    jox_chunk_empty(&f->transfers.list, chunk);
+    jox_chunk_clear(&f->transfers.list, chunk);
     if (f->has_bodies)
-        jox_chunk_empty(&f->pushes->on_bodies, chunk);
+        jox_chunk_clear(&f->pushes->on_bodies, chunk);
     f->pushes->totals[chunk] = (JoxPushTotals){0};
     for (uint32_t i = begin; i < end; i++)
         if (jox_at(push, i) > 0.0f && (!on || on[i]))
@@ -228,11 +228,11 @@ static void apply_body_pushes(JoxForces *f, uint32_t chunk) {
 void jox_force_push(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     JoxPushes *pushes = f->pushes;
-    jox_transfers_begin(f);
+    jox_transfers_reserve(f);
     if (f->has_bodies)
         jox_chunks_reserve(&pushes->on_bodies, f->chunks,
-                           jox_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxBodyPush));
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_chunk, f);
+                           jox_most_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxBodyPush));
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_from_chunk, f);
     int64_t ground_x = 0, ground_y = 0;
     for (uint32_t c = 0; c < f->chunks; c++) {
         f->totals.pushers += pushes->totals[c].pushers;
@@ -248,7 +248,7 @@ void jox_force_push(JoxForces *f) {
         jox_transfers_sum(f, a->push_x, a->push_y);
 }
 
-void jox_pushes_begin(JoxForces *f) {
+void jox_pushes_start_step(JoxForces *f) {
     JoxPushes *pushes = f->pushes;
     const uint32_t n = f->step.agents->count;
     pushes->any = false;

@@ -1,4 +1,5 @@
-/* What the stage push remembers for later stages of the step (push.c). */
+/* Pushes of a step (push.c), as later stages read them: the sorted transfers of JoxForces have the
+   forces on agents until infer, this has the rest. */
 #ifndef JOX_FORCE_PUSH_PUSHES_H
 #define JOX_FORCE_PUSH_PUSHES_H
 
@@ -22,13 +23,13 @@ typedef struct JoxPushTotals {
 typedef struct JoxPushes {
     bool any;         /* agents were pushed: the sorted transfers are this step's pushes */
     JoxV2 *reactions; /* per agent: reaction of its own pushes, N; zero since the step began */
-    JoxChunkList on_bodies; /* of JoxBodyPush */
+    JoxChunkList on_bodies; /* items are JoxBodyPush */
     JoxPushTotals *totals;  /* per chunk */
     size_t reaction_capacity, total_capacity;
 } JoxPushes;
 
 /* Starts a step: makes room for its agents. stages/forces.c zeroes the reactions. */
-void jox_pushes_begin(JoxForces *forces);
+void jox_pushes_start_step(JoxForces *forces);
 void jox_pushes_free(JoxPushes *pushes);
 
 #endif

@@ -8,23 +8,23 @@
 #include "force/stages/kernels.h"
 #include "simd/lanes.h"
 
-static const double TURNING = 1.0;   /* s between the random values of an agent */
-static const double WHOLE = 0x1p+52; /* doubles from this on are whole numbers */
+static const double TURN_INTERVAL = 1.0; /* s between the random values of an agent */
+static const double TWO_TO_52 = 0x1p+52; /* doubles from this on are whole numbers */
 
-/* Returns the greatest whole number up to x, for 0 <= x, far below WHOLE. */
+/* Returns the greatest whole number up to x, for 0 <= x, far below TWO_TO_52. */
 static inline double floor_small(double x) {
-    const double nearest = (x + WHOLE) - WHOLE;
+    const double nearest = (x + TWO_TO_52) - TWO_TO_52;
     return nearest - (nearest > x ? 1.0 : 0.0);
 }
 
 /* Maps the first 24 bits of a draw to 0 ... 1. */
 static inline float map_to_share(uint64_t draw) {
-    return (float)(jox_double_of(draw >> 40 | jox_double_bits(WHOLE)) - WHOLE) * 0x1p-24f;
+    return (float)(jox_double_of(draw >> 40 | jox_double_bits(TWO_TO_52)) - TWO_TO_52) * 0x1p-24f;
 }
 
-/* Moments of the random values around a time, in units of TURNING: `base` is the last whole one,
-   and knots[k] is the moment of base + k. An agent's phase is up to one unit ahead, so that it may
-   need the second and third knot, or, where that rounds up, the third and fourth. */
+/* Moments of the random values around a time, in units of TURN_INTERVAL: `base` is the last whole
+   one, and knots[k] is the moment of base + k. An agent's phase is up to one unit ahead, so that it
+   may need the second and third knot, or, where that rounds up, the third and fourth. */
 typedef struct Moments {
     double base;
     uint64_t knots[4];
@@ -33,13 +33,14 @@ typedef struct Moments {
 static Moments find_moments(double time) {
     Moments m = {.base = floor_small(time)};
     for (int k = 0; k < 4; k++)
-        m.knots[k] = jox_random_moment(
-            jox_double_bits(m.base + (double)k + WHOLE) - jox_double_bits(WHOLE), JOX_DRAW_TURN);
+        m.knots[k] = jox_random_moment(jox_double_bits(m.base + (double)k + TWO_TO_52) -
+                                           jox_double_bits(TWO_TO_52),
+                                       JOX_DRAW_TURN);
     return m;
 }
 
 /* Returns the breadth of an agent that wants to get on among others, m. It turns a shoulder to them
-   by a share of `turn`, which runs linearly from one random value to the next within TURNING
+   by a share of `turn`, which runs linearly from one random value to the next within TURN_INTERVAL
    seconds: a pure function of id and time. */
 static inline float compute_breadth(uint64_t stream, const Moments *m, uint32_t id, double time,
                                     float radius, float turn) {
@@ -57,7 +58,7 @@ static inline float compute_breadth(uint64_t stream, const Moments *m, uint32_t 
 void JOX_WIDE(jox_breadth_packets)(const JoxForces *f, uint32_t begin, uint32_t end) {
     const JoxAgents *a = f->step.agents;
     const uint64_t stream = jox_random_stream(f->step.timing.seed);
-    const double time = f->step.timing.time / TURNING;
+    const double time = f->step.timing.time / TURN_INTERVAL;
     const Moments moments = find_moments(time);
     const JoxFloats least2 = jf_set(JOX_STANDS * JOX_STANDS), zero = jf_set(0.0f);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {

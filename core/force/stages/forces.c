@@ -60,7 +60,7 @@ void jox_forces_free(JoxForces *f) {
 }
 
 /* Zeroes the columns of agents [begin, end) that do not carry over from the last step. */
-static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
+static void zero_columns(const JoxForces *f, uint32_t begin, uint32_t end) {
     JoxAgents *a = f->step.agents;
 #define ZERO_SCRATCH(column) jox_mem_fill((column) + begin, 0, (end - begin) * sizeof *(column));
 #define ZERO_STATE(column)
@@ -77,22 +77,22 @@ static void zero_chunk(const JoxForces *f, uint32_t begin, uint32_t end) {
 
 /* Begins the step for the agents of a chunk: zeroes columns, computes breadths, and packs the
    builds. */
-static void begin_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void begin_agents(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
     JoxAgents *a = f->step.agents;
-    zero_chunk(f, begin, end);
+    zero_columns(f, begin, end);
     KERNELS[f->isa](f, begin, end);
     for (uint32_t i = begin; i < end; i += JOX_AGENTS_PADDING)
-        jox_interleave(&f->builds[i], a->breadth + i, jox_params(a, JOX_PARAM_radius, i),
+        jox_interleave(&f->records[i], a->breadth + i, jox_params(a, JOX_PARAM_radius, i),
                        jox_params(a, JOX_PARAM_mass, i), a->id + i,
                        end - i < JOX_AGENTS_PADDING ? (end - i + 3) / 4 * 4 : JOX_AGENTS_PADDING);
 }
 
 /* Returns the stage memory for so many agents, bytes: builds, padded to fours, and what
    contact/layout.c takes. */
-static size_t measure_memory(size_t agents) {
-    return jox_stage_memory_bytes(agents + 3, sizeof(JoxBuild)) +
+static size_t measure_stage_memory(size_t agents) {
+    return jox_stage_memory_bytes(agents + 3, sizeof(JoxAgentRecord)) +
            jox_stage_memory_bytes(agents, sizeof(uint64_t)) +
            jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxV2)) +
            jox_stage_memory_bytes(agents + JOX_LANES, sizeof(float));
@@ -113,14 +113,14 @@ void jox_force_begin(JoxForces *f, const JoxStep *step, const JoxForceInputs *in
     uint32_t n = a->count;
     f->chunks = (n + JOX_FORCE_GRAIN - 1) / JOX_FORCE_GRAIN;
     JOX_RESERVE(f->transfers.starts, f->transfers.start_capacity, (size_t)n + 1);
-    jox_pushes_begin(f);
-    jox_stage_memory_begin(f->memory, measure_memory(n));
-    f->builds = jox_stage_memory_take(f->memory, (size_t)n + 3, sizeof *f->builds);
+    jox_pushes_start_step(f);
+    jox_stage_memory_begin(f->memory, measure_stage_memory(n));
+    f->records = jox_stage_memory_take(f->memory, (size_t)n + 3, sizeof *f->records);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = jox_param_greatest(a, JOX_PARAM_radius);
     if (n)
         jox_decay(&f->decay, jox_param(a, JOX_PARAM_damping, 0), (float)timing->dt);
-    jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_chunk, f);
+    jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_agents, f);
     f->has_bodies = n && step->objects && step->objects->grid.columns;
 }
 

@@ -12,10 +12,10 @@ JoxV2 jox_force_of_bodies(const JoxForces *f, uint32_t agent) {
     return jox_scale(sum, 1.0f / (float)f->step.timing.dt);
 }
 
-JoxV2 jox_force_slowed(const JoxForces *f, uint32_t agent, float *kept) {
+JoxV2 jox_force_from_slowing(const JoxForces *f, uint32_t agent, float *remaining) {
     const JoxAgents *a = f->step.agents;
     JoxV2 sum = {0.0f, 0.0f};
-    *kept =
+    *remaining =
         1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.timing.dt, f->options.filter));
     if (!f->totals.passed)
         return sum;

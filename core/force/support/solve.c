@@ -13,14 +13,14 @@
 #include "force/support/supports.h"
 
 enum {
-    SWEEPS = 2, /* over the supports, per pass over all contacts */
-    WHOLE = 6   /* passes in which all are solved: few bodies need no more, and settle as without
-                   skipping */
+    SWEEPS = 2,     /* over the supports, per pass over all contacts */
+    FULL_PASSES = 6 /* passes in which all are solved: few bodies need no more, and settle as
+                 without skipping */
 };
 
 /* Share of the tolerance: the error that a contact may have when it is tested, and as much again
    until it is tested anew. */
-static const float LITTLE = 0.125f;
+static const float SETTLED_SHARE = 0.125f;
 
 /* Returns the velocity of the first body relative to the second along an axis, m/s. */
 static inline float measure_speed(const JoxBodyMotion *first, const JoxBodyMotion *second,
@@ -42,7 +42,7 @@ static inline void apply_impulse(JoxBodyMotion *first, JoxBodyMotion *second,
     second->unrest += axis->sway[1] * size;
 }
 
-void jox_supports_warm(JoxSupports *supports) {
+void jox_supports_apply_first_impulses(JoxSupports *supports) {
     for (uint32_t k = 0; k < supports->count; k++) {
         const JoxSupport *s = &supports->items[k];
         apply_impulse(&supports->motions[s->rows[0]], &supports->motions[s->rows[1]], &s->normal,
@@ -121,7 +121,7 @@ static inline bool is_settled(const JoxBodyMotion *first, const JoxBodyMotion *s
    N s. `whole`: solves all of them. */
 static float sweep_supports(JoxForces *f, bool whole) {
     JoxSupports *supports = f->supports;
-    const float little = LITTLE * f->options.tolerance * (float)f->step.timing.dt;
+    const float little = SETTLED_SHARE * f->options.tolerance * (float)f->step.timing.dt;
     float most = 0.0f;
     for (uint32_t k = 0; k < supports->count; k++) {
         JoxSupportWatch *w = &supports->watches[k];
@@ -136,8 +136,8 @@ static float sweep_supports(JoxForces *f, bool whole) {
     return most;
 }
 
-float jox_supports_pass(JoxForces *f) {
-    const bool whole = f->totals.passes < WHOLE;
+float jox_supports_solve_once(JoxForces *f) {
+    const bool whole = f->totals.passes < FULL_PASSES;
     float most = 0.0f;
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         most = sweep_supports(f, whole);

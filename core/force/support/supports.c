@@ -45,7 +45,7 @@ void jox_body_apply_impulse(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impul
     const JoxObject *body = &f->step.objects->rows[row];
     JoxBodyMotion *m = &supports->motions[row];
     JoxV3 turn = jox_cross3(find_arm(body, point), impulse);
-    JoxV3 turned = jox_turn3(body->inverse_inertia, turn);
+    JoxV3 turned = jox_transform3(body->inverse_inertia, turn);
     m->velocity += to_four(impulse) * body->inverse_mass;
     m->spin += to_four(turned);
     m->unrest += sqrtf(jox_dot3(impulse, impulse) * body->inverse_mass + jox_dot3(turn, turned));
@@ -117,7 +117,7 @@ static JoxSupportAxis make_axis(const JoxForces *f, const uint32_t rows[2], JoxV
         axis.lever[side] = to_four(lever);
         if (!f->supports->motions[rows[side]].solved)
             continue;
-        JoxV3 turning = jox_turn3(body->inverse_inertia, lever);
+        JoxV3 turning = jox_transform3(body->inverse_inertia, lever);
         axis.turning[side] = to_four(turning);
         axis.inverse_mass[side] = body->inverse_mass;
         float sway2 = body->inverse_mass + jox_dot3(lever, turning);
@@ -158,7 +158,7 @@ static void add_support(JoxForces *f, const JoxObjectContact *c) {
     JOX_ASSERT(isfinite(s->normal.mass) && s->normal.mass > 0.0f && isfinite(s->target));
 }
 
-void jox_supports_begin(JoxForces *f, const JoxTouch *touches, uint32_t count) {
+void jox_supports_start_solve(JoxForces *f, const JoxTouch *touches, uint32_t count) {
     JoxSupports *supports = f->supports;
     const JoxObjects *objects = f->step.objects;
     const JoxObjectContacts contacts = jox_objects_contacts(objects);
@@ -176,7 +176,7 @@ void jox_supports_begin(JoxForces *f, const JoxTouch *touches, uint32_t count) {
         if (first || (c->second != JOX_NO_OBJECT && supports->motions[c->second].solved))
             add_support(f, c);
     }
-    jox_supports_warm(supports);
+    jox_supports_apply_first_impulses(supports);
     uint32_t pushes; /* sorted by the pusher's id: the order in memory changes no bit */
     const JoxImpulse *push = jox_impulses_sort(&f->impulses, &pushes);
     for (uint32_t k = 0; k < pushes; k++)
@@ -189,7 +189,7 @@ void jox_supports_begin(JoxForces *f, const JoxTouch *touches, uint32_t count) {
 static float find_held_share(const JoxForces *f, uint32_t row) {
     const JoxObject *body = &f->step.objects->rows[row];
     const JoxBodyMotion *m = &f->supports->motions[row];
-    JoxV3 turned = jox_turn3(body->inverse_inertia, m->given_turn);
+    JoxV3 turned = jox_transform3(body->inverse_inertia, m->given_turn);
     float free =
         jox_dot3(m->given, m->given) * body->inverse_mass + jox_dot3(m->given_turn, turned);
     float done = jox_dot3(m->given, add_scaled(to_three(m->velocity), body->velocity, -1.0f)) +
@@ -197,7 +197,7 @@ static float find_held_share(const JoxForces *f, uint32_t row) {
     return free > 0.0f ? 1.0f - jox_clampf(done / free, 0.0f, 1.0f) : 0.0f;
 }
 
-void jox_supports_finish(JoxForces *f, const JoxTouch *touches, uint32_t count) {
+void jox_supports_find_held_shares(JoxForces *f, const JoxTouch *touches, uint32_t count) {
     JoxSupports *supports = f->supports;
     for (uint32_t k = 0; k < count; k++) {
         const JoxTouch *t = &touches[k];

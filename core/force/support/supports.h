@@ -54,14 +54,14 @@ typedef struct JoxSupports {
 
 /* Loads the motions of all bodies, makes the supports of those that the touches press on, and
    applies the first impulses. */
-void jox_supports_begin(JoxForces *forces, const JoxTouch *touches, uint32_t count);
+void jox_supports_start_solve(JoxForces *forces, const JoxTouch *touches, uint32_t count);
 /* Solves the supports once; returns the greatest change of an impulse, N s. */
-float jox_supports_pass(JoxForces *forces);
+float jox_supports_solve_once(JoxForces *forces);
 /* Finds the share of the touches' impulses that supports held. */
-void jox_supports_finish(JoxForces *forces, const JoxTouch *touches, uint32_t count);
+void jox_supports_find_held_shares(JoxForces *forces, const JoxTouch *touches, uint32_t count);
 void jox_supports_free(JoxSupports *supports);
 /* solve.c: applies the impulses that the supports start with. */
-void jox_supports_warm(JoxSupports *supports);
+void jox_supports_apply_first_impulses(JoxSupports *supports);
 
 /* Returns the velocity of a point of a body while contacts are solved, m/s. */
 JoxV3 jox_body_velocity(const JoxForces *forces, uint32_t row, JoxV3 point);

@@ -372,7 +372,7 @@ static void find_touching(const Packet *packet, JoxMask sees) {
         jf_select(sees, jf_load(p->agents->search_radius + packet->first), jf_set(0.0f));
     const uint32_t lacking = packet->lanes & jm_bits(jf_lt(reach, range));
     store_bytes(p->out->touch_count + packet->first, jm_of_bits(packet->lanes),
-                ji_set(JOX_TOUCH_IS_SEEN));
+                ji_set(JOX_TOUCH_AMONG_NEIGHBOURS));
     if (!lacking)
         return;
     float ranges[JOX_WIDTH];
