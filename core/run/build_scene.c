@@ -71,7 +71,7 @@ static void add_places(JoScene *scene) {
 }
 
 /* Reads the log and, since it tells what files were when it began, reads those through it. */
-static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
+static void read_input_log(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
     if (path && !text)
@@ -88,11 +88,11 @@ static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnos
     jox_free(text);
 }
 
-static void complain(void *context, const char *text) {
+static void forward_message(void *context, const char *text) {
     jox_run_tell(context, text);
 }
 
-static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
+static JoxLuaLimits get_script_limits(const JoxSceneSpec *spec) {
     JoxLuaLimits limits = jox_lua_default_limits();
     limits.hook_instructions = (uint64_t)spec->limits.instructions;
     limits.step_instructions = (uint64_t)spec->limits.step_instructions;
@@ -107,7 +107,7 @@ static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
 void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
                    JoxDiagnostics *diagnostics) {
     if (def->input_log)
-        load_input(scene, def->input_log, diagnostics);
+        read_input_log(scene, def->input_log, diagnostics);
     JoxSceneSpec *spec = scene->spec = jox_run_load_spec(def, scene->mods, count, diagnostics);
     if (!spec)
         return;
@@ -129,7 +129,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     scene->world->model.reinserts_bodies = def->resumable;
     jox_world_set_walking(scene->world, &spec->walking);
     if (!def->input_log)
-        load_input(scene, spec->input, diagnostics);
+        read_input_log(scene, spec->input, diagnostics);
     scene->world->state.input = scene->input; /* the world's from here on */
     scene->input = (JoxInputLog){0};
     if (spec->periodic_x || spec->periodic_y) {
@@ -139,9 +139,10 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
             (JoxV2){spec->periodic_x ? size.x : 0.0f, spec->periodic_y ? size.y : 0.0f};
     }
     jox_world_set_walls(scene->world, &spec->walls);
-    const JoxLuaLimits limits = script_limits(spec);
+    const JoxLuaLimits limits = get_script_limits(spec);
     scene->lua = jox_lua_create(&limits);
-    jox_lua_attach(scene->lua, &scene->world->machines, complain, scene); /* loading may print */
+    jox_lua_attach(scene->lua, &scene->world->machines, forward_message,
+                   scene); /* loading may print */
     jox_run_take_names(scene);
     add_bodies(scene, diagnostics);
     add_places(scene);

@@ -10,22 +10,22 @@
 
 /* The listeners of regions, densities and danger each hold one thing that collects, by its address.
  */
-static void *held(const JoScene *scene, const JoxListenerKind *kind) {
+static void *find_collector(const JoScene *scene, const JoxListenerKind *kind) {
     void **self = jox_run_listener(scene, kind);
     return self ? *self : NULL;
 }
 
 /* False with `error` where a resumed scene has nothing sound of it. */
-static bool collect(JoScene *scene, const JoxListenerKind *kind, const void *options,
-                    JoError *error) {
+static bool attach_collector(JoScene *scene, const JoxListenerKind *kind, const void *options,
+                             JoError *error) {
     return jox_run_listener(scene, kind) || jox_run_listen(scene, kind, options, error);
 }
 
 /* ---- regions: in every scene that has some ---- */
 
-static const double SAMPLE = 2.0; /* s between samples of the regions' speeds */
+static const double REGION_INTERVAL = 2.0; /* s between samples of the regions' speeds */
 
-static bool regions_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool begin_regions(void *self, JoScene *scene, const void *options, JoError *error) {
     JoxRegions *regions = *(JoxRegions **)self = jox_regions_create();
     (void)options, (void)error;
     for (uint32_t i = 0; i < scene->spec->region_count; i++)
@@ -34,43 +34,44 @@ static bool regions_begin(void *self, JoScene *scene, const void *options, JoErr
     return true;
 }
 
-static bool regions_frame(void *self, JoScene *scene, JoError *error) {
+static bool sample_regions(void *self, JoScene *scene, JoError *error) {
     const JoxAgents *a = &scene->world->state.agents;
     (void)error;
-    if (jox_run_is_due(scene, SAMPLE) && jo_world_time(scene->world) >= scene->spec->heatmap_from)
+    if (jox_run_is_due(scene, REGION_INTERVAL) &&
+        jo_world_time(scene->world) >= scene->spec->heatmap_from)
         jox_regions_frame(*(JoxRegions **)self, a->x, a->y, a->prev_x, a->prev_y, a->count,
                           scene->world->model.def.dt);
     return true;
 }
 
-static void regions_sections(void *self, JoxSections *s) {
+static void list_region_sections(void *self, JoxSections *s) {
     jox_regions_sections(*(JoxRegions **)self, s);
 }
 
-static void regions_release(void *self) {
+static void free_regions(void *self) {
     jox_regions_free(*(JoxRegions **)self);
 }
 
 static const JoxListenerKind REGIONS = {.name = "speeds of regions",
                                         .size = sizeof(JoxRegions *),
-                                        .begin = regions_begin,
-                                        .frame = regions_frame,
-                                        .sections = regions_sections,
+                                        .begin = begin_regions,
+                                        .frame = sample_regions,
+                                        .sections = list_region_sections,
                                         .goes_on = true,
-                                        .release = regions_release};
+                                        .release = free_regions};
 
 void jox_run_collect_regions(JoScene *scene) {
     if (scene->spec->region_count)
-        collect(scene, &REGIONS, NULL, NULL);
+        attach_collector(scene, &REGIONS, NULL, NULL);
 }
 
 const JoxRegions *jox_run_regions(const JoScene *scene) {
-    return held(scene, &REGIONS);
+    return find_collector(scene, &REGIONS);
 }
 
 /* ---- density: of every run, unless it is told to do without ---- */
 
-static bool local_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool begin_densities(void *self, JoScene *scene, const void *options, JoError *error) {
     JoxV2 low, high;
     (void)options, (void)error;
     jox_run_area(scene, &low, &high);
@@ -80,7 +81,7 @@ static bool local_begin(void *self, JoScene *scene, const void *options, JoError
     return true;
 }
 
-static bool local_frame(void *self, JoScene *scene, JoError *error) {
+static bool sample_densities(void *self, JoScene *scene, JoError *error) {
     JoxLocal *local = *(JoxLocal **)self;
     (void)error;
     if (jox_local_is_due(local, jo_world_time(scene->world)))
@@ -89,33 +90,33 @@ static bool local_frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-static void local_sections(void *self, JoxSections *s) {
+static void list_density_sections(void *self, JoxSections *s) {
     jox_local_sections(*(JoxLocal **)self, s);
 }
 
-static void local_release(void *self) {
+static void free_densities(void *self) {
     jox_local_free(*(JoxLocal **)self);
 }
 
 static const JoxListenerKind LOCAL = {.name = "density",
                                       .size = sizeof(JoxLocal *),
-                                      .begin = local_begin,
-                                      .frame = local_frame,
-                                      .sections = local_sections,
+                                      .begin = begin_densities,
+                                      .frame = sample_densities,
+                                      .sections = list_density_sections,
                                       .goes_on = true,
-                                      .release = local_release};
+                                      .release = free_densities};
 
 bool jox_run_collect_local(JoScene *scene, JoError *error) {
-    return collect(scene, &LOCAL, NULL, error);
+    return attach_collector(scene, &LOCAL, NULL, error);
 }
 
 const JoxLocal *jox_run_local(const JoScene *scene) {
-    return held(scene, &LOCAL);
+    return find_collector(scene, &LOCAL);
 }
 
 const JoxLocal *jox_run_want_pressure(JoScene *scene) {
     if (jox_run_collect_local(scene, NULL))
-        jox_local_enable_pressure(held(scene, &LOCAL));
+        jox_local_enable_pressure(find_collector(scene, &LOCAL));
     return jox_run_local(scene);
 }
 
@@ -141,21 +142,22 @@ typedef struct DangerArea {
 } DangerArea;
 
 /* Of the run's own densities, unless an area is given. */
-static bool danger_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool begin_danger(void *self, JoScene *scene, const void *options, JoError *error) {
     const DangerArea *area = options;
     (void)error;
     JoxDanger *danger = *(JoxDanger **)self =
-        area ? jox_danger_create(area->low, area->high) : jox_danger_create_on(held(scene, &LOCAL));
+        area ? jox_danger_create(area->low, area->high)
+             : jox_danger_create_on(find_collector(scene, &LOCAL));
     jox_danger_add_plan(danger, scene->spec->places, scene->spec->place_count, scene->spec->probes,
                         scene->spec->probe_count);
     return true;
 }
 
 /* Crowd pressure goes by velocities: of an area of its own, the figures measure it themselves. */
-static bool danger_frame(void *self, JoScene *scene, JoError *error) {
+static bool sample_danger(void *self, JoScene *scene, JoError *error) {
     JoxDanger *danger = *(JoxDanger **)self;
     const JoxLocal *local = jox_danger_local(danger);
-    const bool own = local != held(scene, &LOCAL);
+    const bool own = local != find_collector(scene, &LOCAL);
     const bool due = own && jox_local_is_due(local, jo_world_time(scene->world));
     (void)error;
     jox_danger_frame(danger, jox_run_frame(scene, due ? JOX_FRAME_VELOCITIES : 0),
@@ -163,31 +165,31 @@ static bool danger_frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-static void danger_sections(void *self, JoxSections *s) {
+static void list_danger_sections(void *self, JoxSections *s) {
     jox_danger_sections(*(JoxDanger **)self, s);
 }
 
-static void danger_release(void *self) {
+static void free_danger(void *self) {
     jox_danger_free(*(JoxDanger **)self);
 }
 
 static const JoxListenerKind DANGER = {.name = "danger",
                                        .size = sizeof(JoxDanger *),
-                                       .begin = danger_begin,
-                                       .frame = danger_frame,
-                                       .sections = danger_sections,
+                                       .begin = begin_danger,
+                                       .frame = sample_danger,
+                                       .sections = list_danger_sections,
                                        .goes_on = true,
-                                       .release = danger_release};
+                                       .release = free_danger};
 
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
     DangerArea area = {low, high};
-    collect(scene, &DANGER, &area, NULL);
+    attach_collector(scene, &DANGER, &area, NULL);
 }
 
 bool jox_run_collect_danger(JoScene *scene, JoError *error) {
-    return jox_run_collect_local(scene, error) && collect(scene, &DANGER, NULL, error);
+    return jox_run_collect_local(scene, error) && attach_collector(scene, &DANGER, NULL, error);
 }
 
 const JoxDanger *jox_run_danger(const JoScene *scene) {
-    return held(scene, &DANGER);
+    return find_collector(scene, &DANGER);
 }

@@ -16,7 +16,7 @@
 /* ---- actions ---- */
 
 /* Swaps files as a log tells. */
-static bool reload(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+static bool reload_files(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     for (uint32_t f = 0; f < entry->number; f++) {
         const JoxInputFile *file = &entry->files[f];
         jox_overlay_put(&scene->overlay, file->path, file->text, file->length);
@@ -27,7 +27,7 @@ static bool reload(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     return live;
 }
 
-static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+static bool perform_verb(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     const JoxVerb *verb = &jox_input_verbs[entry->verb];
     JOX_ASSERT(entry->verb < jox_input_verb_count);
     if (verb->perform) {
@@ -42,7 +42,7 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
         return jox_run_set(scene, entry->names[0], entry->names[1], entry->names[2],
                            entry->numbers[0], error);
     if (entry->verb == JOX_INPUT_FILES)
-        return reload(scene, entry, error);
+        return reload_files(scene, entry, error);
     return true; /* the others were looked at when the scene was loaded */
 }
 
@@ -54,8 +54,8 @@ void jox_run_record_act(void *context, JoxInputEntry *entry) {
     jox_run_log(scene, entry);
 }
 
-static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
-    if (!do_entry(scene, entry, error))
+static bool perform_and_log(JoScene *scene, JoxInputEntry *entry, JoError *error) {
+    if (!perform_verb(scene, entry, error))
         return false;
     scene->acted_on |= entry->line == 0;
     if (jox_input_verbs[entry->verb].tool) /* a reload is logged as it goes live */
@@ -67,7 +67,7 @@ bool jox_run_input(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     JOX_REQUIRE(scene && entry && !scene->finished && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
-    return perform(scene, entry, error);
+    return perform_and_log(scene, entry, error);
 }
 
 bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
@@ -78,7 +78,7 @@ bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
     JoxText wrong = {0};
     bool good = jox_input_read_line(line, &entry, &wrong);
     if (good) {
-        good = perform(scene, &entry, error);
+        good = perform_and_log(scene, &entry, error);
         jox_input_entry_free(&entry);
     } else {
         jox_error(error, JO_INPUT, "%s", wrong.data);
@@ -92,14 +92,14 @@ void jox_run_inputs(JoScene *scene) {
     while ((next = jox_input_take_due(&scene->world->state.input, scene->world->state.tick))) {
         JoxInputEntry entry = *next;
         JoError error = {0};
-        if (!perform(scene, &entry, &error))
+        if (!perform_and_log(scene, &entry, &error))
             jox_run_say(scene, "%s:%d: t = %.2f s: %s\n", scene->input_path, entry.line,
                         jo_world_time(scene->world), error.text);
     }
 }
 
 /* A name that a line can hold. */
-static bool writable(const char *what, const char *name, JoError *error) {
+static bool check_writable_name(const char *what, const char *name, JoError *error) {
     JoxText why = {0};
     const bool good = jox_input_check_name(what, name, &why);
     if (!good)
@@ -108,10 +108,10 @@ static bool writable(const char *what, const char *name, JoError *error) {
     return good;
 }
 
-static bool named(JoScene *scene, JoxInputVerb verb, const char *what, const char *name,
-                  JoError *error) {
+static bool perform_named(JoScene *scene, JoxInputVerb verb, const char *what, const char *name,
+                          JoError *error) {
     JoxInputEntry entry = {.verb = verb, .names = {(char *)name}};
-    return writable(what, name, error) && perform(scene, &entry, error);
+    return check_writable_name(what, name, error) && perform_and_log(scene, &entry, error);
 }
 
 bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
@@ -126,19 +126,21 @@ bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
         entry.numbers[3 + k] = velocity ? velocity[k] : 0.0;
         entry.numbers[6 + k] = spin ? spin[k] : 0.0;
     }
-    return writable("a body's name", body, error) && perform(scene, &entry, error);
+    return check_writable_name("a body's name", body, error) &&
+           perform_and_log(scene, &entry, error);
 }
 
 bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error) {
     JOX_REQUIRE(scene && wall && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
-    return named(scene, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, "a wall's name", wall, error);
+    return perform_named(scene, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, "a wall's name", wall,
+                         error);
 }
 
 bool jo_scene_signal(JoScene *scene, const char *name, JoError *error) {
     JOX_REQUIRE(scene && name && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
-    return named(scene, JOX_INPUT_SIGNAL, "a signal's name", name, error);
+    return perform_named(scene, JOX_INPUT_SIGNAL, "a signal's name", name, error);
 }

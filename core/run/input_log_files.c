@@ -14,7 +14,7 @@
 
 /* ---- what a run is made of ---- */
 
-static void log_made(JoScene *scene, JoxFiles *told, const char *path, const char *sha256) {
+static void log_file_hash(JoScene *scene, JoxFiles *told, const char *path, const char *sha256) {
     uint32_t before = told->count;
     jox_files_add(told, path);
     JoxInputEntry entry = {.verb = JOX_INPUT_MADE, .names = {(char *)path, (char *)sha256}};
@@ -31,12 +31,12 @@ static void log_origin(JoScene *scene) {
     began.numbers[0] = world->model.def.dt;
     jox_run_log(scene, &began);
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
-        log_made(scene, &told, scene->spec->files[f].path, scene->spec->files[f].sha256);
+        log_file_hash(scene, &told, scene->spec->files[f].path, scene->spec->files[f].sha256);
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            log_made(scene, &told, files[f].path, files[f].sha256);
+            log_file_hash(scene, &told, files[f].path, files[f].sha256);
     }
     jox_files_free(&told);
 }
@@ -84,7 +84,8 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
 
 /* ---- writing ---- */
 
-static void add_file(JoxInputEntry *entry, const char *path, const char *text, size_t length) {
+static void add_entry_file(JoxInputEntry *entry, const char *path, const char *text,
+                           size_t length) {
     for (uint32_t f = 0; f < entry->number; f++)
         if (strcmp(entry->files[f].path, path) == 0)
             return;
@@ -96,8 +97,8 @@ static void add_file(JoxInputEntry *entry, const char *path, const char *text, s
 }
 
 /* The live text of a file that machines are made of; NULL where none is. */
-static const char *live_text(const JoScene *scene, const char *path, const char **sha256,
-                             size_t *length) {
+static const char *find_live_text(const JoScene *scene, const char *path, const char **sha256,
+                                  size_t *length) {
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++) {
         uint32_t count;
@@ -121,7 +122,7 @@ void jox_run_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, 
                        const char *text, size_t length) {
     const char *known;
     size_t live_length;
-    const char *live = live_text(scene, path, &known, &live_length);
+    const char *live = find_live_text(scene, path, &known, &live_length);
     if (live && strcmp(known, sha256) == 0)
         return;
     if (length > JOX_INPUT_LARGEST || strlen(path) > JOX_INPUT_PATH) {
@@ -131,12 +132,12 @@ void jox_run_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, 
                     path);
         return;
     }
-    add_file(&reloaded->files, path, text, length);
+    add_entry_file(&reloaded->files, path, text, length);
     bool first = true;
     for (uint32_t f = 0; f < scene->logged_files.count; f++)
         first &= strcmp(scene->logged_files.paths[f], path) != 0;
     if (live && first)
-        add_file(&reloaded->before, path, live, live_length);
+        add_entry_file(&reloaded->before, path, live, live_length);
 }
 
 void jox_run_log_files(JoScene *scene, JoxReloaded *reloaded) {
@@ -155,13 +156,13 @@ void jox_run_log_files(JoScene *scene, JoxReloaded *reloaded) {
 bool jox_run_is_live(const JoScene *scene, const JoxInputFile *file) {
     const char *sha256;
     size_t length;
-    const char *live = live_text(scene, file->path, &sha256, &length);
+    const char *live = find_live_text(scene, file->path, &sha256, &length);
     return live && length == file->length && memcmp(live, file->text, length) == 0;
 }
 
 /* ---- playing ---- */
 
-static void check_began(const JoScene *scene, const JoxInputEntry *entry) {
+static void compare_beginning(const JoScene *scene, const JoxInputEntry *entry) {
     const JoWorldDef *def = &scene->world->model.def;
     char seed[32];
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)def->seed);
@@ -185,8 +186,9 @@ void jox_run_check_log(const JoScene *scene) {
         const char *sha256;
         size_t length;
         if (entry->verb == JOX_INPUT_BEGAN)
-            check_began(scene, entry);
-        if (entry->verb == JOX_INPUT_MADE && live_text(scene, entry->names[0], &sha256, &length) &&
+            compare_beginning(scene, entry);
+        if (entry->verb == JOX_INPUT_MADE &&
+            find_live_text(scene, entry->names[0], &sha256, &length) &&
             strcmp(sha256, entry->names[1]) != 0)
             jox_run_say(scene,
                         "%s:%d: %s has changed since the log was written: the run may go another "

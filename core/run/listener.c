@@ -63,7 +63,7 @@ void jox_run_release_listeners(JoScene *scene) {
 }
 
 /* What a checkpoint has of a kind of listener; NULL data: nothing. */
-static JoxPiece piece_of(const JoScene *scene, const JoxListenerKind *kind) {
+static JoxPiece find_piece(const JoScene *scene, const JoxListenerKind *kind) {
     char why[200];
     JoxPiece piece;
     for (size_t at = 0; jox_pieces_next(&scene->resumed, &at, &piece, why);)
@@ -79,7 +79,7 @@ bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *se
         jox_error(error, JO_USAGE, "the %s goes on in resumed scenes alone", kind->name);
         return false;
     }
-    const JoxPiece piece = piece_of(scene, kind);
+    const JoxPiece piece = find_piece(scene, kind);
     if (!piece.data) {
         jox_error(error, JO_INPUT, "the checkpoint has nothing of the %s", kind->name);
         return false;
@@ -95,14 +95,14 @@ bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *se
 }
 
 /* A kind that the run was told to collect only now begins now. */
-static bool goes_on(const JoScene *scene, const JoxListenerKind *kind) {
-    return kind->goes_on && scene->resumed.length && piece_of(scene, kind).data;
+static bool continues_from_checkpoint(const JoScene *scene, const JoxListenerKind *kind) {
+    return kind->goes_on && scene->resumed.length && find_piece(scene, kind).data;
 }
 
 bool jox_run_take_up_all(JoScene *scene, JoError *error) {
     for (uint32_t l = 0; l < scene->listeners.count; l++) {
         const JoxListener *listener = &scene->listeners.items[l];
-        if (goes_on(scene, listener->kind) &&
+        if (continues_from_checkpoint(scene, listener->kind) &&
             !jox_run_take_up(scene, listener->kind, listener->self, error))
             return false;
     }
@@ -114,7 +114,7 @@ void *jox_run_listen(JoScene *scene, const JoxListenerKind *kind, const void *op
     JoxListeners *all = &scene->listeners;
     void *self = jox_alloc(1, kind->size);
     if ((kind->begin && !kind->begin(self, scene, options, error)) ||
-        (goes_on(scene, kind) && !jox_run_take_up(scene, kind, self, error))) {
+        (continues_from_checkpoint(scene, kind) && !jox_run_take_up(scene, kind, self, error))) {
         if (kind->release)
             kind->release(self);
         jox_free(self);

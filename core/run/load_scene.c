@@ -24,7 +24,7 @@ JoSceneDef jo_default_scene_def(void) {
 }
 
 /* The def outlives the caller's texts: a reload reads the scene as it was read first. */
-static void keep_def(JoScene *scene, const JoSceneDef *def) {
+static void copy_def(JoScene *scene, const JoSceneDef *def) {
     JoSceneDef *own = &scene->def;
     *own = *def;
     own->path = jox_strdup(def->path);
@@ -53,14 +53,14 @@ static void free_def(JoScene *scene) {
     jox_free(scene->spec_files);
 }
 
-static void to_nobody(void *context, const char *text) {
+static void drop_message(void *context, const char *text) {
     (void)context;
     (void)text;
 }
 
 /* Reads through the scene's overlay from here on, which begins as that of whoever loads it, or lies
    over that while it loads. Returns the latter, to be put back. */
-static const JoxOverlay *use_overlay(JoScene *scene, const JoSceneDef *def) {
+static const JoxOverlay *use_scene_overlay(JoScene *scene, const JoSceneDef *def) {
     const JoxOverlay *before = jox_overlay_use(&scene->overlay);
     const bool lies_over = before && (before->sealed || before->told);
     scene->overlay.under = lies_over ? before : NULL;
@@ -75,13 +75,13 @@ static const JoxOverlay *use_overlay(JoScene *scene, const JoSceneDef *def) {
     return before;
 }
 
-static void leave_overlay(JoScene *scene, const JoxOverlay *before) {
+static void leave_scene_overlay(JoScene *scene, const JoxOverlay *before) {
     jox_overlay_use(before);
     scene->overlay.under = NULL;
 }
 
 /* Frees a scene that did not load: it has no end that anybody waits for. */
-static void discard(JoScene *scene) {
+static void discard_scene(JoScene *scene) {
     if (scene)
         scene->finished = true;
     jo_scene_free(scene);
@@ -90,13 +90,13 @@ static void discard(JoScene *scene) {
 /* Of the mods found, the first with which, and with those before it, the scene does not load; -1:
    it does not load without mods either. Whatever went wrong: the spec, a behaviour, what they
    expect of each other. */
-static int32_t blame(const JoSceneDef *def, uint64_t without) {
+static int32_t find_breaking_mod(const JoSceneDef *def, uint64_t without) {
     for (uint32_t count = 0;; count++) {
         JoxDiagnostics ignored = {0}, now = {0};
         JoScene *scene = jox_alloc(1, sizeof *scene);
         scene->heap = jox_heap_used();
-        scene->message = to_nobody;
-        const JoxOverlay *before = use_overlay(scene, def);
+        scene->message = drop_message;
+        const JoxOverlay *before = use_scene_overlay(scene, def);
         scene->mods = jox_run_find_mods(def, without, &ignored);
         const uint32_t all = scene->mods->count;
         if (count < all) { /* with all of them it fails: that is known */
@@ -104,12 +104,12 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
             jox_run_build(scene, def, count, &now);
             scene->mods->count = all;
         }
-        leave_overlay(scene, before);
+        leave_scene_overlay(scene, before);
         bool fails = count >= all || now.errors > 0;
         int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->number[count - 1] : -1;
         jox_diag_free(&ignored);
         jox_diag_free(&now);
-        discard(scene);
+        discard_scene(scene);
         if (fails)
             return culprit;
     }
@@ -117,33 +117,33 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
 
 /* Loads the scene with the mods found but for those in `without`. NULL: with *culprit among the
    found mods, or -1 and the errors in `diagnostics`. */
-static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
-                        JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
+static JoScene *try_load(const JoSceneDef *def, uint64_t without, int32_t *culprit,
+                         JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
     scene->heap = jox_heap_used();
     scene->message = def->message ? def->message : jox_run_to_stderr;
     scene->message_context = def->message_context;
-    const JoxOverlay *before = use_overlay(scene, def);
+    const JoxOverlay *before = use_scene_overlay(scene, def);
     scene->mods = jox_run_find_mods(def, without, mod_problems);
     *culprit = -1;
     jox_run_build(scene, def, scene->mods->count, diagnostics);
-    leave_overlay(scene, before);
+    leave_scene_overlay(scene, before);
     for (uint32_t f = 0; scene->spec && f < scene->spec->file_count; f++)
         jox_diag_attach_source(diagnostics, scene->spec->files[f].path, scene->spec->files[f].text,
                                scene->spec->files[f].length);
     if (diagnostics->errors == 0) {
-        keep_def(scene, def);
+        copy_def(scene, def);
         return scene;
     }
     bool blames = scene->mods->count > 0;
-    discard(scene);
-    *culprit = blames ? blame(def, without) : -1;
+    discard_scene(scene);
+    *culprit = blames ? find_breaking_mod(def, without) : -1;
     return NULL;
 }
 
 /* What `attempt` found wrong with a mod, and that it is left out. */
-static void leave_out(const JoSceneDef *def, uint64_t without, int32_t culprit,
-                      JoxDiagnostics *problems, JoxDiagnostics *diagnostics) {
+static void leave_out_mod(const JoSceneDef *def, uint64_t without, int32_t culprit,
+                          JoxDiagnostics *problems, JoxDiagnostics *diagnostics) {
     JoxDiagnostics ignored = {0};
     JoxMods *before = jox_run_find_mods(def, without, &ignored);
     JoxMods *after = jox_run_find_mods(def, without | (uint64_t)1 << culprit, &ignored);
@@ -214,7 +214,7 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     for (;;) {
         JoxDiagnostics found = {0}, now = {0};
         int32_t culprit;
-        JoScene *scene = attempt(def, without, &culprit, &found, &now);
+        JoScene *scene = try_load(def, without, &culprit, &found, &now);
         if (scene || culprit < 0 || (without >> culprit & 1)) {
             jox_diag_move(&problems, &found);
             jox_diag_move(diagnostics, &now);
@@ -223,11 +223,11 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
                 return scene;
             }
             jox_diag_move(diagnostics, &problems);
-            discard(scene);
+            discard_scene(scene);
             return NULL;
         }
         jox_diag_free(&found);
-        leave_out(def, without, culprit, &problems, &now);
+        leave_out_mod(def, without, culprit, &problems, &now);
         without |= (uint64_t)1 << culprit;
     }
 }
@@ -256,7 +256,7 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
     return scene;
 }
 
-static JoScene *load_guarded(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+static JoScene *load_on_heap(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
                              JoxHeap *heap, JoError *error) {
     JOX_GUARD (heap, error)
         return NULL;
@@ -271,7 +271,7 @@ JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void 
                            JoError *error) {
     JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path && jox_run_is_whole(def), NULL);
     JoxHeap *heap = jox_heap_create();
-    JoScene *scene = heap ? load_guarded(def, diagnosed, context, heap, error) : NULL;
+    JoScene *scene = heap ? load_on_heap(def, diagnosed, context, heap, error) : NULL;
     if (!heap || jox_heap_has_failed(heap)) {
         jox_memory_error(error);
         jox_run_message(def->message, def->message_context, "out of memory\n");

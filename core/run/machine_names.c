@@ -10,7 +10,7 @@
 #include "run/tally_scores.h"
 #include "run/wall_checks.h"
 
-static bool is_signalled(const JoxMachineRun *machines, const char *text) {
+static bool has_machine_signal(const JoxMachineRun *machines, const char *text) {
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
         for (uint32_t n = 0; n < machine->name_count; n++)
@@ -21,15 +21,15 @@ static bool is_signalled(const JoxMachineRun *machines, const char *text) {
     return false;
 }
 
-static bool is_state(const JoxMachineRun *machines, const char *name) {
+static bool has_state(const JoxMachineRun *machines, const char *name) {
     for (uint32_t m = 0; m < machines->set->count; m++)
         if (jox_machine_state(machines->set->items[m], name) >= 0)
             return true;
     return false;
 }
 
-static void warn_of_state(const JoxMachineRun *machines, JoxPosition at, const char *name,
-                          JoxDiagnostics *diagnostics) {
+static void warn_of_unknown_state(const JoxMachineRun *machines, JoxPosition at, const char *name,
+                                  JoxDiagnostics *diagnostics) {
     const char *names[256];
     char hint[JOX_HINT];
     size_t count = 0;
@@ -40,14 +40,14 @@ static void warn_of_state(const JoxMachineRun *machines, JoxPosition at, const c
                   "no machine of the scene has a state '%s'", name);
 }
 
-static bool is_machine(const JoxMachineRun *machines, const char *name) {
+static bool has_machine_named(const JoxMachineRun *machines, const char *name) {
     for (uint32_t m = 0; m < machines->set->count; m++)
         if (strcmp(machines->set->items[m]->name, name) == 0)
             return true;
     return false;
 }
 
-static bool is_public(const JoxMachineRun *machines, const char *name) {
+static bool has_public_memory(const JoxMachineRun *machines, const char *name) {
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
         for (uint32_t s = 0; s < machine->memory_count; s++)
@@ -58,7 +58,7 @@ static bool is_public(const JoxMachineRun *machines, const char *name) {
 }
 
 /* What the machine that has a part by this name calls it now, where none has it by that name. */
-static const char *renamed(const JoxMachineRun *machines, JoxPart part, const char *name) {
+static const char *find_new_name(const JoxMachineRun *machines, JoxPart part, const char *name) {
     const char *now = NULL;
     for (uint32_t m = 0; m < machines->set->count; m++) {
         if (jox_machine_has(machines->set->items[m], part, name))
@@ -69,7 +69,7 @@ static const char *renamed(const JoxMachineRun *machines, JoxPart part, const ch
 }
 
 /* Whether a group whose agents may run the machine sets the own value. */
-static bool given(const JoScene *scene, const JoxMachine *machine, const char *name) {
+static bool is_set_by_groups(const JoScene *scene, const JoxMachine *machine, const char *name) {
     const JoxSceneSpec *spec = scene->spec;
     bool runs = false;
     for (uint32_t g = 0; g < spec->group_count; g++)
@@ -85,7 +85,7 @@ static bool given(const JoScene *scene, const JoxMachine *machine, const char *n
 }
 
 /* Whether an event of the scene gives the signal. */
-static bool announced(const JoScene *scene, const char *text) {
+static bool has_event_signal(const JoScene *scene, const char *text) {
     for (uint32_t e = 0; e < scene->spec->event_count; e++)
         if (scene->spec->events[e].kind == JOX_EVENT_SIGNAL &&
             strcmp(scene->spec->events[e].name, text) == 0)
@@ -94,7 +94,7 @@ static bool announced(const JoScene *scene, const char *text) {
 }
 
 /* Whether a function of a behaviour may give it. */
-static bool may_be_called(const JoScene *scene, const char *text) {
+static bool may_function_signal(const JoScene *scene, const char *text) {
     const JoxMachineSet *set = &scene->world->model.machines;
     bool may = false;
     for (uint32_t m = 0; m < set->count; m++)
@@ -103,7 +103,7 @@ static bool may_be_called(const JoScene *scene, const char *text) {
 }
 
 /* What an own value is called now that is asked for, and so has a slot, by the name that it had. */
-static const char *renamed_own(const JoxMachine *machine, const char *name) {
+static const char *find_new_own_name(const JoxMachine *machine, const char *name) {
     for (uint32_t r = 0; r < machine->renamed_count; r++)
         if (strcmp(machine->renamed[r].from, name) == 0 &&
             jox_machine_has(machine, JOX_PART_OWN, machine->renamed[r].to))
@@ -117,7 +117,7 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
     for (uint32_t o = 0; o < machine->own_count; o++) {
         const JoxOwnSlot *slot = &machine->own[o];
         if (!*slot->name || slot->declared || jox_parameter_find(slot->name) >= 0 ||
-            given(scene, machine, slot->name))
+            is_set_by_groups(scene, machine, slot->name))
             continue;
         const char *names[JOX_PARAM_COUNT], *near;
         char hint[160];
@@ -125,7 +125,7 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
             names[p] = jox_parameters[p].name;
         near = jox_suggest(slot->name, names, JOX_PARAM_COUNT);
         const char *file = slot->source < count ? files[slot->source].path : machine->path;
-        const char *now = renamed_own(machine, slot->name);
+        const char *now = find_new_own_name(machine, slot->name);
         if (now) {
             jox_diag_renamed(diagnostics,
                              ((JoxPosition){file, slot->line, slot->column, slot->end_column}),
@@ -145,8 +145,8 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
 }
 
 /* Where a state or memory of others is named first. */
-static JoxPosition named_at(const JoxMachine *machine, const JoxName *name, const JoxLuaFile *files,
-                            uint32_t count) {
+static JoxPosition get_name_position(const JoxMachine *machine, const JoxName *name,
+                                     const JoxLuaFile *files, uint32_t count) {
     const char *file = name->source < count ? files[name->source].path : machine->path;
     return (JoxPosition){file, name->line, name->column, name->end_column};
 }
@@ -165,11 +165,11 @@ static JoxPosition find_wait(const JoScene *scene, const JoxMachine *machine, co
                 return step->position;
         }
     }
-    return named_at(machine, name, files, count);
+    return get_name_position(machine, name, files, count);
 }
 
 /* Whether walls of a name are closed from the start and stay so. */
-static bool stays_closed(const JoScene *scene, const char *gate) {
+static bool stays_gate_closed(const JoScene *scene, const char *gate) {
     const JoxWalls *walls = &scene->world->model.all_walls;
     bool closed = false;
     for (uint32_t r = 0; r < walls->ring_count; r++)
@@ -179,12 +179,12 @@ static bool stays_closed(const JoScene *scene, const char *gate) {
 }
 
 /* What a state or memory of others is called now that is named as it was called; else NULL. */
-static const char *renamed_name(const JoxMachineRun *machines, const JoxName *name) {
+static const char *find_new_name_used(const JoxMachineRun *machines, const JoxName *name) {
     const char *now = NULL;
     if (name->uses & JOX_NAME_STATE)
-        now = renamed(machines, JOX_PART_STATE, name->text);
+        now = find_new_name(machines, JOX_PART_STATE, name->text);
     if (!now && (name->uses & JOX_NAME_MEMORY))
-        now = renamed(machines, JOX_PART_MEMORY, name->text);
+        now = find_new_name(machines, JOX_PART_MEMORY, name->text);
     return now;
 }
 
@@ -200,28 +200,28 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             const bool others = name->uses & (JOX_NAME_STATE | JOX_NAME_MEMORY);
-            const JoxPosition at = others ? named_at(machine, name, files, count) : in;
-            const char *now = renamed_name(machines, name);
+            const JoxPosition at = others ? get_name_position(machine, name, files, count) : in;
+            const char *now = find_new_name_used(machines, name);
             if (now) {
                 jox_diag_renamed(diagnostics, at, name->text, now);
                 continue;
             }
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
-            if (heard && !is_signalled(machines, name->text) && !announced(scene, name->text) &&
-                !may_be_called(scene, name->text))
+            if (heard && !has_machine_signal(machines, name->text) &&
+                !has_event_signal(scene, name->text) && !may_function_signal(scene, name->text))
                 jox_diag_warn(diagnostics, find_wait(scene, machine, name, files, count),
                               "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
-            if ((name->uses & JOX_NAME_GATE) && stays_closed(scene, name->text))
+            if ((name->uses & JOX_NAME_GATE) && stays_gate_closed(scene, name->text))
                 jox_diag_warn(diagnostics, find_wait(scene, machine, name, files, count),
                               "never-opened", "Add an event that opens it, or begin with it open",
                               "gate '%s' is closed, and nothing opens it", name->text);
-            if (state && !is_state(machines, name->text))
-                warn_of_state(machines, at, name->text, diagnostics);
-            if ((name->uses & JOX_NAME_MACHINE) && !is_machine(machines, name->text))
+            if (state && !has_state(machines, name->text))
+                warn_of_unknown_state(machines, at, name->text, diagnostics);
+            if ((name->uses & JOX_NAME_MACHINE) && !has_machine_named(machines, name->text))
                 jox_diag_warn(diagnostics, in, "unknown-machine", NULL,
                               "no machine of the scene is called '%s'", name->text);
-            if ((name->uses & JOX_NAME_MEMORY) && !is_public(machines, name->text))
+            if ((name->uses & JOX_NAME_MEMORY) && !has_public_memory(machines, name->text))
                 jox_diag_warn(diagnostics, at, "unknown-memory",
                               "In the machine that remembers it: public = { ... }",
                               "no machine of the scene makes memory '%s' public", name->text);

@@ -6,18 +6,18 @@
 #include "run/run.h"
 #include "run/scene_machines.h"
 
-static const char WAY_OUT[] =
+static const char HINT[] =
     "Where capacities matter: walker.lua, or time_gap = crowd.time_gap in the behaviour's defaults";
 
 /* The first probe whose figures are those of a flow. */
-static const JoxProbeDef *flow_of(const JoxSceneSpec *spec) {
+static const JoxProbeDef *find_flow_probe(const JoxSceneSpec *spec) {
     for (uint32_t p = 0; p < spec->probe_count; p++)
         if (spec->probes[p].kind == JOX_PROBE_FLOW || spec->probes[p].kind == JOX_PROBE_MEASURE)
             return &spec->probes[p];
     return NULL;
 }
 
-static bool goes_somewhere(const JoxState *state) {
+static bool steers_toward_goal(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
         switch (state->steer[t].kind) {
         case JOX_STEER_SEEK:
@@ -49,33 +49,34 @@ static bool keeps_time_gap(const JoxMachine *machine, const JoxState *state) {
     return gap->kind == JOX_VALUE_EXPRESSION || gap->number > 0.0;
 }
 
-static bool is_given(const JoxGroup *group) {
+static bool sets_time_gap(const JoxGroup *group) {
     for (uint32_t s = 0; s < group->set_count; s++)
         if (strcmp(group->set[s].name, jox_parameters[JOX_PARAM_time_gap].name) == 0)
             return true;
     return false;
 }
 
-static const JoxState *by_orca(const JoxMachine *machine) {
+static const JoxState *find_orca_state(const JoxMachine *machine) {
     for (uint32_t s = 0; machine && s < machine->state_count; s++)
-        if (goes_somewhere(&machine->states[s]) && !keeps_time_gap(machine, &machine->states[s]))
+        if (steers_toward_goal(&machine->states[s]) &&
+            !keeps_time_gap(machine, &machine->states[s]))
             return &machine->states[s];
     return NULL;
 }
 
 bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxProbeDef *probe = flow_of(scene->spec);
+    const JoxProbeDef *probe = find_flow_probe(scene->spec);
     for (uint32_t g = 0; probe && g < scene->spec->group_count; g++) {
         const JoxGroup *group = &scene->spec->groups[g];
-        for (uint32_t m = 0; m < group->mix_count && !is_given(group); m++) {
+        for (uint32_t m = 0; m < group->mix_count && !sets_time_gap(group); m++) {
             const int32_t index = jox_run_find_machine(scene, group->mix[m].behaviour);
             const JoxMachine *machine =
                 index < 0 ? NULL : scene->world->model.machines.items[index];
-            const JoxState *state = by_orca(machine);
+            const JoxState *state = find_orca_state(machine);
             if (!state)
                 continue;
-            jox_diag_add(diagnostics, JOX_SEVERITY_NOTE, group->mix[m].position, "orca-flow",
-                         WAY_OUT, NULL, NULL,
+            jox_diag_add(diagnostics, JOX_SEVERITY_NOTE, group->mix[m].position, "orca-flow", HINT,
+                         NULL, NULL,
                          "probe '%.60s' measures a flow, and in state %.60s of %.60s the people of "
                          "group '%.60s' choose velocities by ORCA, which is not fit for capacities",
                          probe->name, state->name, machine->name, group->name);

@@ -21,7 +21,7 @@ typedef struct JoxRunFrame {
 } JoxRunFrame;
 
 /* All states of all machines in one list, which a reload may change, and each person's. */
-static void list_states(JoxRunFrame *f, const JoWorld *world) {
+static void fill_states(JoxRunFrame *f, const JoWorld *world) {
     const JoxMachineRun *machines = &world->machines;
     const JoxAgents *a = &world->state.agents;
     uint32_t first[JOX_MOST_MACHINES + 1] = {1};
@@ -47,7 +47,7 @@ static void list_states(JoxRunFrame *f, const JoWorld *world) {
 }
 
 /* Of the step that was made: a velocity is what one has moved by. */
-static void list_velocities(JoxRunFrame *f, const JoWorld *world) {
+static void fill_velocities(JoxRunFrame *f, const JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
     const float rate = (float)(1.0 / world->model.def.dt);
     JOX_RESERVE(f->vx, f->vx_capacity, a->count + 1);
@@ -60,7 +60,7 @@ static void list_velocities(JoxRunFrame *f, const JoWorld *world) {
     f->frame.vy = f->vy;
 }
 
-static void list_forces(JoxRunFrame *f, const JoxAgents *a) {
+static void fill_forces(JoxRunFrame *f, const JoxAgents *a) {
     JOX_RESERVE(f->force, f->force_capacity, a->count + 1);
     for (uint32_t i = 0; i < a->count; i++)
         f->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
@@ -113,11 +113,11 @@ const JoxFrame *jox_run_frame(JoScene *scene, uint32_t parts) {
         begin_frame(f, scene);
     const uint32_t lacking = parts & ~f->parts;
     if (lacking & JOX_FRAME_VELOCITIES)
-        list_velocities(f, world);
+        fill_velocities(f, world);
     if (lacking & JOX_FRAME_FORCES)
-        list_forces(f, &world->state.agents);
+        fill_forces(f, &world->state.agents);
     if (lacking & JOX_FRAME_STATES)
-        list_states(f, world);
+        fill_states(f, world);
     f->parts |= lacking;
     return &f->frame;
 }

@@ -10,7 +10,7 @@ typedef struct Probes {
     uint32_t count;
 } Probes;
 
-static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool create_probes(void *self, JoScene *scene, const void *options, JoError *error) {
     Probes *p = self;
     const JoxSceneSpec *spec = scene->spec;
     (void)options, (void)error;
@@ -25,7 +25,7 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
     return true;
 }
 
-static bool frame(void *self, JoScene *scene, JoError *error) {
+static bool sample_probes(void *self, JoScene *scene, JoError *error) {
     const Probes *p = self;
     (void)error;
     for (uint32_t n = 0; n < p->count; n++)
@@ -34,7 +34,7 @@ static bool frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-static void sections(void *self, JoxSections *s) {
+static void list_probe_sections(void *self, JoxSections *s) {
     const Probes *p = self;
     uint32_t count = p->count;
     JOX_SECTION(s, "count", count);
@@ -44,7 +44,7 @@ static void sections(void *self, JoxSections *s) {
         jox_probe_sections(p->items[n], s);
 }
 
-static void release(void *self) {
+static void free_probes(void *self) {
     Probes *p = self;
     for (uint32_t n = 0; n < p->count; n++)
         jox_probe_free(p->items[n]);
@@ -53,11 +53,11 @@ static void release(void *self) {
 
 static const JoxListenerKind PROBES = {.name = "probes",
                                        .size = sizeof(Probes),
-                                       .begin = begin,
-                                       .frame = frame,
-                                       .sections = sections,
+                                       .begin = create_probes,
+                                       .frame = sample_probes,
+                                       .sections = list_probe_sections,
                                        .goes_on = true,
-                                       .release = release};
+                                       .release = free_probes};
 
 void jox_run_collect_probes(JoScene *scene) {
     if (scene->spec->probe_count)

@@ -13,13 +13,13 @@ typedef struct Progress {
     int tenth;           /* the last that was shown, where each tenth has a line */
 } Progress;
 
-static bool begin(void *self, JoScene *scene, const void *until, JoError *error) {
+static bool begin_progress(void *self, JoScene *scene, const void *until, JoError *error) {
     (void)scene, (void)error;
     *(Progress *)self = (Progress){.until = *(const double *)until, .begun = jox_clock_wall()};
     return true;
 }
 
-static bool show(void *self, JoScene *scene, JoError *error) {
+static bool show_progress(void *self, JoScene *scene, JoError *error) {
     Progress *p = self;
     double time = jo_world_time(scene->world), now = jox_clock_wall(), wall = now - p->begun;
     double share = time / p->until, left = wall / share - wall;
@@ -39,7 +39,7 @@ static bool show(void *self, JoScene *scene, JoError *error) {
 }
 
 /* That plain functions ran, and what they cost: their authors should know without asking. */
-static bool say_costs(void *self, JoScene *scene, JoError *error) {
+static bool report_function_costs(void *self, JoScene *scene, JoError *error) {
     const JoxLuaTotal total = jox_lua_total(scene->lua, scene->world->state.statistics.wall_s);
     char told[JOX_NOUN];
     (void)self, (void)error;
@@ -50,8 +50,11 @@ static bool say_costs(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-static const JoxListenerKind PROGRESS = {
-    .name = "progress", .size = sizeof(Progress), .begin = begin, .frame = show, .end = say_costs};
+static const JoxListenerKind PROGRESS = {.name = "progress",
+                                         .size = sizeof(Progress),
+                                         .begin = begin_progress,
+                                         .frame = show_progress,
+                                         .end = report_function_costs};
 
 void jo_scene_show_progress(JoScene *scene, double until) {
     JOX_REQUIRE(scene && !scene->world->busy, );
@@ -61,14 +64,14 @@ void jo_scene_show_progress(JoScene *scene, double until) {
 
 /* ---- trace ---- */
 
-static bool say_trace(void *self, JoScene *scene, JoError *error) {
+static bool send_trace(void *self, JoScene *scene, JoError *error) {
     (void)self, (void)error;
     if (scene->world->machines.trace.length)
         jox_run_tell(scene, scene->world->machines.trace.data);
     return true;
 }
 
-static const JoxListenerKind TRACE = {.name = "trace", .size = 1, .frame = say_trace};
+static const JoxListenerKind TRACE = {.name = "trace", .size = 1, .frame = send_trace};
 
 void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
     JOX_REQUIRE(scene && !scene->world->busy, );

@@ -7,7 +7,7 @@
 #include "run/read_scene.h"
 #include "run/run.h"
 
-static bool has_all(const char *const *texts, size_t count) {
+static bool has_all_texts(const char *const *texts, size_t count) {
     for (size_t t = 0; t < count; t++)
         if (!texts || !texts[t])
             return false;
@@ -18,8 +18,8 @@ bool jox_run_is_whole(const JoSceneDef *def) {
     for (size_t f = 0; f < def->file_count; f++)
         if (!def->files || !def->files[f].path || (!def->files[f].text && def->files[f].length))
             return false;
-    return (!def->jobs || def->jobs->run) && has_all(def->overrides, def->override_count) &&
-           has_all(def->mods, def->mod_count);
+    return (!def->jobs || def->jobs->run) && has_all_texts(def->overrides, def->override_count) &&
+           has_all_texts(def->mods, def->mod_count);
 }
 
 /* The def's overrides, with seed and step as two more. */
@@ -46,14 +46,14 @@ JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint
     return spec;
 }
 
-static void add_overlay(JoxOverlay *all, const JoxOverlay *some) {
+static void add_overlay_files(JoxOverlay *all, const JoxOverlay *some) {
     for (size_t f = 0; f < some->count; f++)
         jox_overlay_put(all, some->files[f].path, some->files[f].text, some->files[f].length);
 }
 
 void jox_run_texts(const JoScene *scene, JoxOverlay *out) {
-    add_overlay(out, &scene->overlay);
-    add_overlay(out, &scene->tape);
+    add_overlay_files(out, &scene->overlay);
+    add_overlay_files(out, &scene->tape);
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
         jox_overlay_put(out, scene->spec->files[f].path, scene->spec->files[f].text,
                         scene->spec->files[f].length);
@@ -75,7 +75,7 @@ enum { LARGEST_PATCH = 256 << 10 };
 
 /* What a mod's Lua files change: known to lua/, which alone reads that language. False with an
    error where that is nothing. */
-static bool name_target(JoxModPatch *patch, JoxDiagnostics *diagnostics) {
+static bool find_patch_target(JoxModPatch *patch, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = jox_read_file(patch->path, LARGEST_PATCH, &length);
     char target[128];
@@ -110,7 +110,7 @@ JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnosti
         for (uint32_t m = 0; m < mods->count; m++)
             for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
                 if (mods->items[m].patches[p].lua &&
-                    !name_target(&mods->items[m].patches[p], &targets))
+                    !find_patch_target(&mods->items[m].patches[p], &targets))
                     broken |= (uint64_t)1 << mods->number[m];
         if (!broken) {
             jox_diag_move(diagnostics, &found);

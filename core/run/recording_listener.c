@@ -10,7 +10,8 @@
 #include "run/present_frame.h"
 #include "run/run.h"
 
-static const double FRAME = 0.1; /* s between recorded frames where nothing else is asked for */
+static const double DEFAULT_INTERVAL =
+    0.1; /* s between recorded frames where nothing else is asked for */
 
 typedef struct Recording {
     JoxRecorder *recorder;
@@ -25,7 +26,7 @@ typedef struct Recording {
     } * walls;
     size_t wall_capacity;
     /* By agent's slot: sums over the steps since the recorded frame before, of who is in it. */
-    struct Borne {
+    struct BorneForces {
         float compression, load;
         uint32_t steps, id;
     } * borne;
@@ -35,12 +36,12 @@ typedef struct Recording {
 static const JoxListenerKind RECORDING;
 
 /* Number of an agent's state in jostle_state. */
-static uint32_t state_number(const Recording *r, const JoxAgents *a, uint32_t i) {
+static uint32_t find_state_number(const Recording *r, const JoxAgents *a, uint32_t i) {
     return a->machine[i] == JOX_NO_MACHINE ? UINT32_MAX : r->base[a->machine[i]] + a->state[i];
 }
 
 /* A new version of a machine may have other states, so that it is given numbers of its own. */
-static void name_states(void *self, JoScene *scene, uint32_t index) {
+static void record_machine_states(void *self, JoScene *scene, uint32_t index) {
     Recording *r = self;
     const JoxMachine *machine = scene->world->model.machines.items[index];
     r->base[index] = r->next;
@@ -52,7 +53,7 @@ static void name_states(void *self, JoScene *scene, uint32_t index) {
 
 /* The walkable area: that of the plan from which the scene has its walls, where all people are in
    it and come into being there; else the box about everything. */
-static void write_area(const JoScene *scene, JoxText *wkt) {
+static void write_walkable_area(const JoScene *scene, JoxText *wkt) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
     const uint32_t sources = scene->spec->source_count, starts = world->model.start_count;
@@ -72,7 +73,7 @@ static void write_area(const JoScene *scene, JoxText *wkt) {
     jox_free(points);
 }
 
-static uint64_t shape_of(const JoxWalls *walls, uint32_t r) {
+static uint64_t hash_wall_shape(const JoxWalls *walls, uint32_t r) {
     const struct JoxWallRing *ring = &walls->rings[r];
     const uint32_t what[2] = {ring->count, ring->solid};
     JoxHash hash = jox_hash_begin();
@@ -93,7 +94,7 @@ static void record_walls(Recording *r, const JoxWalls *walls, uint32_t frame) {
         jox_walls_given(walls, at, &closed, &twin);
         JOX_RESERVE_ZEROED(r->walls, r->wall_capacity, number + 1);
         struct Wall *wall = &r->walls[number];
-        const uint64_t shape = shape_of(walls, at);
+        const uint64_t shape = hash_wall_shape(walls, at);
         const bool same = wall->there && wall->shape == shape;
         if (!same || wall->open != walls->rings[at].open)
             jox_recorder_wall(r->recorder, frame, (uint32_t)number, walls, at, !same);
@@ -114,7 +115,7 @@ typedef struct Target {
     bool goes_on;
 } Target;
 
-static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool begin_recording(void *self, JoScene *scene, const void *options, JoError *error) {
     Recording *r = self;
     const Target *target = options;
     const char *path = target->path;
@@ -128,7 +129,7 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
         return r->recorder || jox_run_failed(error, &why);
     }
     r->every = dt >= target->every ? 1 : (uint32_t)(target->every / dt + 0.5);
-    write_area(scene, &wkt);
+    write_walkable_area(scene, &wkt);
     r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);
     jox_text_free(&wkt);
     if (!r->recorder)
@@ -137,7 +138,7 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
                  (uint32_t)((scene->world->state.tick + r->every - 1) / r->every));
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++)
-        name_states(r, scene, m);
+        record_machine_states(r, scene, m);
     for (uint32_t g = 0; g < scene->spec->group_count; g++)
         jox_recorder_group(r->recorder, g, scene->spec->groups[g].name,
                            scene->spec->groups[g].colour);
@@ -145,7 +146,7 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
 }
 
 /* The parts of bodies that are new or came apart. */
-static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
+static void record_body_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
     const JoxBodies *bodies = scene->world->state.bodies;
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
         const uint32_t id = jox_bodies_id(bodies, row);
@@ -168,27 +169,28 @@ static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
 
 /* What people bear changes from step to step: frames have the mean since the one before, so that no
    part of it is lost between them. */
-static void add_borne(Recording *r, const JoxAgents *a) {
+static void add_borne_forces(Recording *r, const JoxAgents *a) {
     JOX_RESERVE_ZEROED(r->borne, r->borne_capacity, a->slot_count);
     for (uint32_t i = 0; i < a->count; i++) {
-        struct Borne *b = &r->borne[a->slot[i]];
+        struct BorneForces *b = &r->borne[a->slot[i]];
         if (b->id != a->id[i])
-            *b = (struct Borne){.id = a->id[i]};
+            *b = (struct BorneForces){.id = a->id[i]};
         b->compression += a->compression[i];
         b->load += a->load[i];
         b->steps++;
     }
 }
 
-static struct Borne take_borne(Recording *r, uint32_t slot) {
-    const struct Borne b = r->borne[slot];
-    r->borne[slot] = (struct Borne){.id = b.id};
-    return (struct Borne){b.compression / (float)b.steps, b.load / (float)b.steps, b.steps, b.id};
+static struct BorneForces take_mean_borne(Recording *r, uint32_t slot) {
+    const struct BorneForces b = r->borne[slot];
+    r->borne[slot] = (struct BorneForces){.id = b.id};
+    return (struct BorneForces){b.compression / (float)b.steps, b.load / (float)b.steps, b.steps,
+                                b.id};
 }
 
 static bool record_frame(void *self, JoScene *scene, JoError *error) {
     Recording *r = self;
-    add_borne(r, &scene->world->state.agents);
+    add_borne_forces(r, &scene->world->state.agents);
     if (scene->world->state.tick % r->every != 0)
         return true;
     const JoxAgents *a = &scene->world->state.agents;
@@ -197,19 +199,19 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     JoxRecordBody *bodies;
     uint32_t count = jox_bodies_count(scene->world->state.bodies), n = 0;
     const uint32_t frame = (uint32_t)(scene->world->state.tick / r->every);
-    record_shapes(r, scene, frame);
+    record_body_shapes(r, scene, frame);
     record_walls(r, &scene->world->model.all_walls, frame);
     JoxRecordRow *rows = jox_recorder_begin_frame(r->recorder, a->count, count, &bodies);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
         const uint32_t i = a->by_rank[rank], id = a->id[i];
-        const struct Borne borne = take_borne(r, a->slot[i]);
+        const struct BorneForces borne = take_mean_borne(r, a->slot[i]);
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
         rows[n++] = (JoxRecordRow){id,
                                    a->x[i],
                                    a->y[i],
                                    a->face_x[i],
                                    a->face_y[i],
-                                   state_number(r, a, i),
+                                   find_state_number(r, a, i),
                                    force,
                                    borne.compression,
                                    borne.load,
@@ -228,7 +230,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     return jox_recorder_submit_frame(r->recorder, frame, &why) || jox_run_failed(error, &why);
 }
 
-static bool end(void *self, JoScene *scene, JoError *error) {
+static bool end_recording(void *self, JoScene *scene, JoError *error) {
     Recording *r = self;
     JoxText message = {0};
     const bool good = jox_recorder_close(r->recorder, &message);
@@ -241,7 +243,7 @@ static bool end(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-static void release(void *self) {
+static void free_recording(void *self) {
     Recording *r = self;
     JOX_ASSERT(!r->recorder);
     jox_free(r->shapes);
@@ -249,12 +251,12 @@ static void release(void *self) {
     jox_free(r->borne);
 }
 
-static bool settle(void *self, JoError *error) {
+static bool settle_recording(void *self, JoError *error) {
     JoxText why = {0};
     return jox_recorder_commit(((Recording *)self)->recorder, &why) || jox_run_failed(error, &why);
 }
 
-static void list_sections(void *self, JoxSections *s) {
+static void list_recording_sections(void *self, JoxSections *s) {
     Recording *r = self;
     size_t shapes = r->shape_capacity, borne = r->borne_capacity;
     JOX_SECTION(s, "every", r->every);
@@ -269,15 +271,15 @@ static void list_sections(void *self, JoxSections *s) {
 
 static const JoxListenerKind RECORDING = {.name = "recording",
                                           .size = sizeof(Recording),
-                                          .begin = begin,
+                                          .begin = begin_recording,
                                           .frame = record_frame,
-                                          .replaced = name_states,
-                                          .sections = list_sections,
-                                          .settle = settle,
-                                          .end = end,
-                                          .release = release};
+                                          .replaced = record_machine_states,
+                                          .sections = list_recording_sections,
+                                          .settle = settle_recording,
+                                          .end = end_recording,
+                                          .release = free_recording};
 
-static bool record(JoScene *scene, const Target *target, JoError *error) {
+static bool attach_recording(JoScene *scene, const Target *target, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
     return jox_run_listen(scene, &RECORDING, target, error) != NULL;
@@ -287,11 +289,12 @@ bool jo_scene_record(JoScene *scene, const char *path, double every, JoError *er
     JOX_REQUIRE(scene && !scene->world->busy && path && every >= 0.0 && every <= 1e6 &&
                     !jox_run_listener(scene, &RECORDING),
                 false);
-    return record(scene, &(Target){path, every > 0.0 ? every : FRAME, false}, error);
+    return attach_recording(scene, &(Target){path, every > 0.0 ? every : DEFAULT_INTERVAL, false},
+                            error);
 }
 
 bool jo_scene_record_on(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && !scene->world->busy && path && !jox_run_listener(scene, &RECORDING),
                 false);
-    return record(scene, &(Target){path, 0.0, true}, error);
+    return attach_recording(scene, &(Target){path, 0.0, true}, error);
 }

@@ -35,7 +35,7 @@ bool jox_reload_use(JoxReload *r, uint32_t part, const char *path) {
 }
 
 /* What a batch is made of counts from here on; if it could not go live, that counts too. */
-static void settle(JoxReload *r, const JoxBatch *batch, bool live) {
+static void account_batch(JoxReload *r, const JoxBatch *batch, bool live) {
     if (live)
         jox_changes_mark_live(&r->changes, batch->parts);
     for (uint32_t c = 0; c < batch->count; c++) {
@@ -58,7 +58,7 @@ void jox_reload_free_retired(JoxReload *r) {
     JoxRetired *retired = (JoxRetired *)atomic_exchange(&r->retired, 0);
     while (retired) {
         JoxRetired *next = retired->next;
-        settle(r, retired->batch, retired->live);
+        account_batch(r, retired->batch, retired->live);
         jox_batch_free(retired->batch);
         for (uint32_t m = 0; m < retired->count; m++)
             jox_loaded_free(retired->machines[m]);
@@ -76,7 +76,7 @@ static JoxChange *add_change(JoxBatch *batch, uint32_t index, const char *path) 
 }
 
 /* Where a machine that is missing would be: beside the one that becomes it. */
-static void place_beside(const char *from, const char *name, char path[1024]) {
+static void write_path_beside(const char *from, const char *name, char path[1024]) {
     const size_t n = strlen(name);
     const bool has_ending = n > 4 && !strcmp(name + n - 4, ".lua");
     char file[JOX_LONGEST_PATH];
@@ -94,7 +94,7 @@ static void add_becomes(JoxReload *r, JoxBatch *batch, uint32_t c, const JoxMach
         if (!next->states[s].become)
             continue;
         if (!jox_run_find_become(scene, next, s, path, &batch->diagnostics)) {
-            place_beside(next->path, next->states[s].become, path);
+            write_path_beside(next->path, next->states[s].become, path);
             jox_files_add(&batch->changes[c].files, path); /* when it is written, try again */
             continue;
         }
@@ -142,7 +142,7 @@ static void load_change(JoxReload *r, JoxBatch *batch, uint32_t c) {
         jox_watch_add(r->watch, batch->changes[c].files.paths[f]);
 }
 
-static void load_plan(JoxReload *r, JoxBatch *batch) {
+static void load_scene_files(JoxReload *r, JoxBatch *batch) {
     JoScene *scene = r->scene;
     batch->spec =
         jox_run_load_spec(&scene->def, scene->mods, scene->mods->count, &batch->diagnostics);
@@ -159,7 +159,7 @@ void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part,
 
 /* Names each mod.yaml that was edited, and each folder whose patches are others: which mods and
    patches there are, in what order and with what settings is settled when a scene begins. */
-static void say_mods(const JoxReload *r, JoxBatch *batch) {
+static void report_mod_changes(const JoxReload *r, JoxBatch *batch) {
     static const char *const LATER[] = {
         [JOX_RELOAD_SHEET] = "changed; what it says of the mod, as of its settings, takes effect",
         [JOX_RELOAD_PATCHES] = "has other files; which patches a mod has takes effect"};
@@ -196,7 +196,7 @@ static void load_parts(JoxReload *r, JoxBatch *batch) {
     for (uint32_t c = 0; c < batch->count; c++)
         load_change(r, batch, c);
     if (batch->parts[JOX_PART_SCENE])
-        load_plan(r, batch);
+        load_scene_files(r, batch);
 }
 
 /* What a vetter read. */
@@ -206,7 +206,7 @@ typedef struct Vetted {
 } Vetted;
 
 /* It may have changed once more since it was noticed. */
-static void keep_file(void *context, const char *path, const char *text, size_t length) {
+static void keep_vetted_file(void *context, const char *path, const char *text, size_t length) {
     Vetted *vetted = context;
     jox_overlay_put(&vetted->files, path, text, length);
     jox_watch_set_known(vetted->watch, path, text, length);
@@ -221,7 +221,7 @@ static void load_vetted(JoxReload *r, JoxBatch *batch) {
                       .behaviour_count = batch->count,
                       .scene = batch->parts[JOX_PART_SCENE],
                       .stop = r->stop,
-                      .read = keep_file,
+                      .read = keep_vetted_file,
                       .read_context = &vetted};
     for (uint32_t c = 0; c < batch->count; c++)
         paths[c] = batch->changes[c].path;
@@ -259,7 +259,7 @@ bool jo_scene_try(JoScene *scene, const JoVetting *what) {
 }
 
 /* Tags that the new versions ask for, against all machines as they will be. */
-static void check_belongings(JoScene *scene, JoxBatch *batch) {
+static void check_batch_tags(JoScene *scene, JoxBatch *batch) {
     const JoxMachineSet *set = &scene->world->model.machines;
     const JoxMachine *machines[2 * JOX_MOST_MACHINES];
     uint32_t count = 0;
@@ -295,13 +295,13 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
         if (parts[m])
             add_change(batch, m, machines->set->items[m]->path);
     if (parts[JOX_PART_MODS])
-        say_mods(r, batch);
+        report_mod_changes(r, batch);
     if (r->watch && scene->vetter && (batch->count || parts[JOX_PART_SCENE]))
         load_vetted(r, batch);
     else
         load_parts(r, batch);
     if (!batch->failed)
-        check_belongings(scene, batch);
+        check_batch_tags(scene, batch);
     if (batch->diagnostics.errors)
         batch->failed = true;
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)

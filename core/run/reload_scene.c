@@ -10,13 +10,13 @@
 #include "run/starting_people.h"
 #include "run/wall_checks.h"
 
-typedef struct Rescene {
+typedef struct SceneReload {
     JoScene *scene;
     JoxSceneSpec *old, *new;
     JoxText done, later; /* what changed; what waits for the next start */
-} Rescene;
+} SceneReload;
 
-static void note(JoxText *list, const char *what) {
+static void add_to_list(JoxText *list, const char *what) {
     jox_text_printf(list, "%s%s", list->length ? ", " : "", what);
 }
 
@@ -30,14 +30,14 @@ static bool same_text(const char *a, const char *b) {
 
 /* ---- places: geometry of those of the same names ---- */
 
-static void take_places(Rescene *r) {
+static void replace_places(SceneReload *r) {
     JoWorld *world = r->scene->world;
     bool moved = false, names = r->old->place_count == r->new->place_count;
     for (uint32_t p = 0; names && p < r->old->place_count; p++)
         names = !strcmp(r->old->places[p].name, r->new->places[p].name) &&
                 r->old->places[p].kind == r->new->places[p].kind;
     if (!names) {
-        note(&r->later, "places (other names, kinds or order)");
+        add_to_list(&r->later, "places (other names, kinds or order)");
         return;
     }
     for (uint32_t p = 0; p < r->new->place_count; p++) {
@@ -52,7 +52,7 @@ static void take_places(Rescene *r) {
     if (moved) {
         jox_routes_renew(world->state.routes);
         jox_entrances_clear(&world->scratch.entrances);
-        note(&r->done, "places");
+        add_to_list(&r->done, "places");
     }
 }
 
@@ -74,12 +74,12 @@ static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
     return true;
 }
 
-static void take_walls(Rescene *r) {
+static void replace_walls(SceneReload *r) {
     JoWorld *world = r->scene->world;
     if (same_walls(&world->model.all_walls, &r->new->walls))
         return;
     jox_world_set_walls(world, &r->new->walls);
-    note(&r->done, "walls");
+    add_to_list(&r->done, "walls");
 }
 
 /* ---- groups: values that they set ---- */
@@ -128,23 +128,23 @@ static bool same_behaviours(const JoxGroup *a, const JoxGroup *b) {
 
 /* Notes what a group's next start differs in. Where no group was edited, its people start elsewhere
    because walls or places were. */
-static void note_starts(Rescene *r, bool counts, bool starts, bool behaviours) {
+static void note_starts(SceneReload *r, bool counts, bool starts, bool behaviours) {
     if (behaviours)
-        note(&r->later, "behaviours of groups");
+        add_to_list(&r->later, "behaviours of groups");
     if ((counts || starts) && !jox_scene_differs(r->old, r->new, "groups"))
-        note(&r->later, "where people start, by the edited walls and places");
+        add_to_list(&r->later, "where people start, by the edited walls and places");
     else if (counts || starts)
-        note(&r->later, "counts and positions of groups");
+        add_to_list(&r->later, "counts and positions of groups");
 }
 
 /* False where the groups are others. */
-static bool take_groups(Rescene *r) {
+static bool replace_group_values(SceneReload *r) {
     bool names = r->old->group_count == r->new->group_count, set_any = false;
     bool counts = false, starts = false, behaviours = false, colours = false;
     for (uint32_t g = 0; names && g < r->old->group_count; g++)
         names = !strcmp(r->old->groups[g].name, r->new->groups[g].name);
     if (!names) {
-        note(&r->later, "groups (other names or order)");
+        add_to_list(&r->later, "groups (other names or order)");
         return false;
     }
     jox_run_link_groups(r->scene, r->new, NULL);
@@ -170,9 +170,9 @@ static bool take_groups(Rescene *r) {
         }
     }
     if (set_any)
-        note(&r->done, "values that groups set");
+        add_to_list(&r->done, "values that groups set");
     if (colours)
-        note(&r->done, "colours of groups");
+        add_to_list(&r->done, "colours of groups");
     note_starts(r, counts, starts, behaviours);
     return true;
 }
@@ -180,16 +180,16 @@ static bool take_groups(Rescene *r) {
 /* ---- the rest ---- */
 
 /* Whether there are others; they go on from what they have given: a new rate counts from now. */
-static bool take_sources(Rescene *r) {
+static bool note_sources(SceneReload *r) {
     if (!jox_scene_differs(r->old, r->new, "sources") &&
         !jox_scene_differs(r->old, r->new, "sinks"))
         return false;
-    note(&r->done, "sources and sinks");
+    add_to_list(&r->done, "sources and sinks");
     return true;
 }
 
 /* Tells of sources that lie in walls now. */
-static void check_sources(const Rescene *r) {
+static void check_new_sources(const SceneReload *r) {
     JoxDiagnostics blocked = {0};
     if (!jox_scene_differs(r->old, r->new, "sources") &&
         !jox_scene_differs(r->old, r->new, "places") && !jox_scene_differs(r->old, r->new, "walls"))
@@ -199,21 +199,21 @@ static void check_sources(const Rescene *r) {
 }
 
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
-    Rescene r = {.scene = scene, .old = scene->spec, .new = *spec};
+    SceneReload r = {.scene = scene, .old = scene->spec, .new = *spec};
     double begun = jox_clock_wall();
-    take_places(&r);
+    replace_places(&r);
     bool sources = false;
     bool groups = r.later.length == 0; /* places of other names: their numbers mean others */
-    take_walls(&r);
+    replace_walls(&r);
     if (groups) {
-        groups = take_groups(&r);
+        groups = replace_group_values(&r);
         if (groups)
-            sources = take_sources(&r);
+            sources = note_sources(&r);
     }
     if (jox_scene_differs(r.old, r.new, "events"))
-        note(groups ? &r.done : &r.later, "events");
+        add_to_list(groups ? &r.done : &r.later, "events");
     if (jox_scene_differs(r.old, r.new, "tally"))
-        note(groups ? &r.done : &r.later, "tally");
+        add_to_list(groups ? &r.done : &r.later, "tally");
     jox_scene_list_restart_keys(r.old, r.new, &r.later);
     const double age = jox_clock_date() - written;
     char ago[40] = "";
@@ -232,7 +232,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
         r.new->duration = r.old->duration;
         jox_run_set_schedule(scene, sources);
         jox_run_name_events(scene, NULL);
-        check_sources(&r);
+        check_new_sources(&r);
     }
     jox_text_free(&r.done);
     jox_text_free(&r.later);

@@ -12,7 +12,7 @@
 #include "run/tags_and_teams.h"
 
 /* "  Circle 31204  Exit 310": agents per state. */
-static void print_census(const JoxMachine *machine, const uint32_t *people, JoxText *out) {
+static void write_census(const JoxMachine *machine, const uint32_t *people, JoxText *out) {
     char number[JOX_NOUN];
     for (uint32_t s = 0; s < machine->state_count; s++)
         if (people[s])
@@ -21,7 +21,7 @@ static void print_census(const JoxMachine *machine, const uint32_t *people, JoxT
 }
 
 /* Says why a batch is not taken, and which versions go on. */
-static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char *why) {
+static void report_refusal(JoScene *scene, JoxBatch *batch, const char *path, const char *why) {
     const JoxMachineRun *machines = &scene->world->machines;
     char number[JOX_NOUN];
     if (why)
@@ -68,8 +68,8 @@ static void link_batch(JoScene *scene, JoxBatch *batch) {
 }
 
 /* Own values that the old version did not have, as the scene sets them. */
-static void give_new(JoScene *scene, const JoxChange *change, const JoxMachine *old,
-                     const JoxMachine *next) {
+static void give_new_values(JoScene *scene, const JoxChange *change, const JoxMachine *old,
+                            const JoxMachine *next) {
     const JoxSceneSpec *spec = scene->spec;
     for (uint32_t s = 0; s < next->own_count; s++) {
         bool known = !*next->own[s].name;
@@ -91,7 +91,7 @@ static bool same_states(const JoxMachine *a, const JoxMachine *b) {
 }
 
 /* Swaps the machines of a batch; the old ones go to `retired`. */
-static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
+static void swap_machines(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
     JoxMachineRun *machines = &scene->world->machines;
     JoxText text = {0};
     uint32_t before[1000], after[1000];
@@ -106,7 +106,7 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
         jox_run_number_belongings(scene, next);
         JoxMachine *old = jox_machines_replace(machines, change->index, change->replacement);
         jox_run_link_groups(scene, scene->spec, NULL);
-        give_new(scene, change, old, next);
+        give_new_values(scene, change, old, next);
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
         jox_lua_adopt(scene->lua, change->loaded);
         jox_machines_people(machines, change->index, after);
@@ -124,9 +124,9 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
             jox_text_printf(&text, " (saved %.0f ms ago, swapped in %.2f ms)",
                             (jox_clock_date() - batch->written) * 1e3, took * 1e3);
         jox_text_add(&text, "\n before:");
-        print_census(old, before, &text);
+        write_census(old, before, &text);
         jox_text_add(&text, "\n after: ");
-        print_census(next, after, &text);
+        write_census(next, after, &text);
         jox_text_add(&text, "\n");
         if (people > 0)
             jox_replacement_tell(change->replacement, jox_noun(number, people, "person|people"),
@@ -139,7 +139,7 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
 }
 
 /* Notes the texts that differ from those that are live, for the input log. */
-static void note_files(JoScene *scene, const JoxBatch *batch, JoxReloaded *reloaded) {
+static void note_batch_files(JoScene *scene, const JoxBatch *batch, JoxReloaded *reloaded) {
     for (uint32_t c = 0; c < batch->count; c++) {
         uint32_t count;
         const JoxLuaFile *files = jox_loaded_files(batch->changes[c].loaded, &count);
@@ -174,7 +174,7 @@ bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
     JoxRetired *retired = jox_alloc(1, sizeof *retired);
     retired->batch = batch;
     if (batch->failed || refused) {
-        refuse(scene, batch, path, refused);
+        report_refusal(scene, batch, path, refused);
     } else {
         jox_run_tell_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts,
                                &batch->diagnostics);
@@ -182,8 +182,8 @@ bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
         JoxReloaded reloaded = {0};
         retired->live = live = true;
         if (scene->log)
-            note_files(scene, batch, &reloaded);
-        swap(scene, batch, retired);
+            note_batch_files(scene, batch, &reloaded);
+        swap_machines(scene, batch, retired);
         if (batch->spec)
             jox_run_rescene(scene, &batch->spec, batch->written);
         jox_run_log_files(scene, &reloaded);

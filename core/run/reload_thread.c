@@ -16,7 +16,7 @@
 
 enum { MEMORY_ROOM = 8 }; /* slots that a new version may add without a copy of all */
 
-static void changed(void *context, const char *path, double written) {
+static void note_change(void *context, const char *path, double written) {
     JoxReload *r = context;
     jox_changes_add_changed_file(&r->changes, path, written);
 }
@@ -25,7 +25,7 @@ static void load_until_stopped(JoxReload *r) {
     uint64_t signal;
     while (read(r->stop, &signal, sizeof signal) != (ssize_t)sizeof signal) {
         jox_watch_wait(r->watch, r->stop, jox_changes_has_untried(&r->changes) ? 0.002 : 1.0,
-                       changed, r);
+                       note_change, r);
         bool busy = atomic_load(&r->ready) != 0; /* one at a time: it is compared with what runs */
         jox_reload_free_retired(r);
         if (!busy)
@@ -33,7 +33,7 @@ static void load_until_stopped(JoxReload *r) {
     }
 }
 
-static void *load_for_ever(void *context) {
+static void *run_reload_thread(void *context) {
     JoxReload *r = context;
     JoxRecovery recovery;
     jox_heap_use(r->scene->heap);
@@ -89,13 +89,13 @@ void jox_run_reload(JoScene *scene) {
     atomic_store(&r->ready, 0); /* the loading thread may compare again */
 }
 
-static void use_first(JoxReload *r, uint32_t part, const char *path) {
+static void watch_file(JoxReload *r, uint32_t part, const char *path) {
     if (!jox_reload_use(r, part, path))
         jox_run_say(r->scene, "%s cannot be watched: %s\n", path, strerror(errno));
 }
 
 /* What the running scene is made of. */
-static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
+static JoxReload *create_reload(JoScene *scene, JoxWatch *watch) {
     JoxReload *r = jox_alloc(1, sizeof *r);
     *r = (JoxReload){.scene = scene, .watch = watch, .stop = -1};
     pthread_mutex_init(&r->machines, NULL);
@@ -109,14 +109,14 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
         uint32_t count;
         char *const *tried = jox_lua_paths_tried(scene->lua, machines->set->items[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            use_first(r, m, tried[f]);
+            watch_file(r, m, tried[f]);
     }
     for (uint32_t f = 0; f < scene->spec_file_count; f++)
-        use_first(r, JOX_PART_SCENE, scene->spec_files[f]);
+        watch_file(r, JOX_PART_SCENE, scene->spec_files[f]);
     for (uint32_t m = 0; m < scene->mods->count * JOX_RELOAD_MOD_PARTS; m++) {
         char path[JOX_LONGEST_PATH];
         jox_reload_mod_path(scene, m / JOX_RELOAD_MOD_PARTS, m % JOX_RELOAD_MOD_PARTS, path);
-        use_first(r, JOX_PART_MODS, path);
+        watch_file(r, JOX_PART_MODS, path);
     }
     scene->reload = r;
     return r;
@@ -139,9 +139,9 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
         }
     JoxWatch *watch = jox_watch_create();
     if (watch) {
-        JoxReload *r = begin(scene, watch);
+        JoxReload *r = create_reload(scene, watch);
         r->stop = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-        r->running = r->stop >= 0 && jox_thread_start(&r->thread, load_for_ever, r);
+        r->running = r->stop >= 0 && jox_thread_start(&r->thread, run_reload_thread, r);
         if (r->running)
             return true;
         jox_run_unwatch(scene);
@@ -151,7 +151,7 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
 }
 
 bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *error) {
-    JoxReload *r = scene->reload ? scene->reload : begin(scene, NULL);
+    JoxReload *r = scene->reload ? scene->reload : create_reload(scene, NULL);
     bool live = true;
     JoxBatch *batch;
     if (r->watch) {

@@ -47,8 +47,8 @@ static int32_t load_machine(JoScene *scene, const char *path, JoxDiagnostics *di
 }
 
 /* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
-static bool find_behaviour(const JoScene *scene, const char *from, const char *name,
-                           char path[1024]) {
+static bool find_behaviour_file(const JoScene *scene, const char *from, const char *name,
+                                char path[1024]) {
     static const char *const FOLDERS[] = {"", JOX_DATADIR "/behaviours/", NULL};
     return jox_mod_find(scene->mods->items, scene->mods->count, name, path) ||
            jox_path_find(from, name, ".lua", FOLDERS, path);
@@ -64,7 +64,7 @@ bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32
         return false;
     }
     if (!strstr(state->become, "..") && *state->become != '/' &&
-        find_behaviour(scene, machine->path, state->become, path)) {
+        find_behaviour_file(scene, machine->path, state->become, path)) {
         jox_path_clean(path);
         return true;
     }

@@ -8,16 +8,16 @@
 
 enum { MOST_NAMES = 256 };
 
-static bool unknown(const char *kind, const char *name, const char *const *names, uint32_t count,
-                    JoError *error) {
+static bool refuse_unknown(const char *kind, const char *name, const char *const *names,
+                           uint32_t count, JoError *error) {
     const char *near = jox_suggest(name, names, count);
     jox_error(error, JO_INPUT, "there is no %s '%.60s'%s%.60s%s", kind, name,
               near ? ". Did you mean '" : "", near ? near : "", near ? "'?" : "");
     return false;
 }
 
-static bool choose_machine(const JoxMachineRun *machines, const char *name, JoxChoice *out,
-                           JoError *error) {
+static bool find_machine_named(const JoxMachineRun *machines, const char *name, JoxChoice *out,
+                               JoError *error) {
     const char *names[JOX_MOST_MACHINES];
     uint32_t found = 0;
     for (uint32_t m = 0; m < machines->set->count; m++) {
@@ -36,11 +36,11 @@ static bool choose_machine(const JoxMachineRun *machines, const char *name, JoxC
                   machines->set->items[out->machine]->path);
         return false;
     }
-    return found == 1 || unknown("machine", name, names, machines->set->count, error);
+    return found == 1 || refuse_unknown("machine", name, names, machines->set->count, error);
 }
 
-static bool choose_state(const JoxMachine *machine, const char *name, JoxChoice *out,
-                         JoError *error) {
+static bool find_state_named(const JoxMachine *machine, const char *name, JoxChoice *out,
+                             JoError *error) {
     out->state = jox_machine_state(machine, name);
     if (out->state >= 0 || strcmp(name, "defaults") == 0)
         return true;
@@ -56,21 +56,21 @@ static bool choose_state(const JoxMachine *machine, const char *name, JoxChoice 
     }
     char kind[100];
     snprintf(kind, sizeof kind, "state of %.60s named", machine->name);
-    return unknown(kind, name, names, count, error);
+    return refuse_unknown(kind, name, names, count, error);
 }
 
 bool jox_run_choose(const JoScene *scene, const char *machine, const char *state,
                     const char *parameter, double value, JoxChoice *out, JoError *error) {
     const JoxMachineRun *machines = &scene->world->machines;
-    if (!choose_machine(machines, machine, out, error) ||
-        !choose_state(machines->set->items[out->machine], state, out, error))
+    if (!find_machine_named(machines, machine, out, error) ||
+        !find_state_named(machines->set->items[out->machine], state, out, error))
         return false;
     out->parameter = jox_parameter_find(parameter);
     if (out->parameter < 0) {
         const char *names[JOX_PARAM_COUNT];
         for (int p = 0; p < JOX_PARAM_COUNT; p++)
             names[p] = jox_parameters[p].name;
-        return unknown("parameter", parameter, names, JOX_PARAM_COUNT, error);
+        return refuse_unknown("parameter", parameter, names, JOX_PARAM_COUNT, error);
     }
     const JoxParameterInfo *info = &jox_parameters[out->parameter];
     if (value >= info->least && value <= info->greatest)

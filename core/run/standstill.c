@@ -9,10 +9,10 @@
 #include "run/wall_checks.h"
 #include "world/routes/hindrance.h"
 
-static const double LOOK = 1.0;   /* s between looks at each person */
-static const float MOVED = 0.25f; /* m: who has come so far does not stand */
-static const double STILL = 30.0; /* s: who has stood so long stands still */
-static const float ABOUT = 5.0f;  /* m: about the middle of a crowd */
+static const double LOOK_INTERVAL = 1.0;    /* s between looks at each person */
+static const float MOVED = 0.25f;           /* m: who has come so far does not stand */
+static const double STANDSTILL_TIME = 30.0; /* s: who has stood so long stands still */
+static const float CLUSTER_RADIUS = 5.0f;   /* m: about the middle of a crowd */
 /* A crowd: so many of them, or fewer but half of all who are there. */
 enum { CROWD = 10, FEW = 3, CANDIDATES = 64 };
 /* What is known of a place: that a way leads there; that none did when last looked, which is judged
@@ -22,7 +22,7 @@ typedef enum NoWay { LEADS, SEEMS_SHUT, CLEARED, TOLD } NoWay;
 /* What people do at a look who go to one place: nobody does; some go there; some wait there, or on
    their way, for a gate or a body that shuts it. */
 typedef enum Waits { NOBODY, GO, WAIT } Waits;
-static const float BROAD =
+static const float WIDEST_ROUTE_RADIUS =
     0.22f; /* m: radius of people for whom the ways of routes are too narrow */
 
 typedef struct Stand {
@@ -58,7 +58,7 @@ typedef struct Standing {
 } Standing;
 
 /* Slots are used again: who is new in one has not stood yet. */
-static Stand *stand_of(Standing *s, const JoxAgents *a, uint32_t i) {
+static Stand *find_stand(Standing *s, const JoxAgents *a, uint32_t i) {
     JOX_RESERVE(s->people, s->capacity, a->slot_count);
     for (; s->seen < a->slot_count; s->seen++)
         s->people[s->seen] = (Stand){.since = NEVER};
@@ -68,11 +68,11 @@ static Stand *stand_of(Standing *s, const JoxAgents *a, uint32_t i) {
     return stand;
 }
 
-static void look(Standing *s, const JoWorld *world, uint32_t i) {
+static void update_stand(Standing *s, const JoWorld *world, uint32_t i) {
     const JoxAgents *a = &world->state.agents;
     const uint32_t tick = (uint32_t)world->state.tick;
     JoxV2 at = {a->x[i], a->y[i]};
-    Stand *stand = stand_of(s, a, i);
+    Stand *stand = find_stand(s, a, i);
     if (jox_stands(a, i)) {
         stand->since = NEVER;
         return;
@@ -85,7 +85,7 @@ static void look(Standing *s, const JoWorld *world, uint32_t i) {
     const double now = jo_world_time(world), stood = now - stand->since * world->model.def.dt;
     if (stood > s->longest.seconds)
         s->longest = (JoxStood){stood, now, stand->at, a->id[i]};
-    if (stood >= STILL - 1e-9)
+    if (stood >= STANDSTILL_TIME - 1e-9)
         s->stills[s->still_count++] = at;
 }
 
@@ -93,7 +93,7 @@ static void look(Standing *s, const JoWorld *world, uint32_t i) {
 
 /* Where most of those who stand still are: of some of them, the middle of those about the one who
    has most about. */
-static JoxV2 middle(const Standing *s) {
+static JoxV2 find_cluster_centre(const Standing *s) {
     const size_t step = s->still_count / CANDIDATES + 1;
     JoxV2 best = {0, 0};
     uint32_t most = 0;
@@ -101,7 +101,8 @@ static JoxV2 middle(const Standing *s) {
         JoxV2 sum = {0, 0};
         uint32_t count = 0;
         for (size_t n = 0; n < s->still_count; n++)
-            if (jox_length2(jox_sub(s->stills[n], s->stills[k])) <= ABOUT * ABOUT) {
+            if (jox_length2(jox_sub(s->stills[n], s->stills[k])) <=
+                CLUSTER_RADIUS * CLUSTER_RADIUS) {
                 sum = jox_add(sum, s->stills[n]);
                 count++;
             }
@@ -113,20 +114,20 @@ static JoxV2 middle(const Standing *s) {
     return best;
 }
 
-static void say_still(const JoScene *scene, const JoxStill *still) {
+static void report_standstill(const JoScene *scene, const JoxStill *still) {
     JoxText text = {0};
     jox_text_printf(&text, "t = %.1f s: ", jo_world_time(scene->world));
     jox_text_noun(&text, still->people,
                   "person who wants to get on has|people who want to get on have");
-    jox_text_printf(&text, " stood still for %.0f s, most of them about (%.1f, %.1f) m", STILL,
-                    (double)still->at.x, (double)still->at.y);
+    jox_text_printf(&text, " stood still for %.0f s, most of them about (%.1f, %.1f) m",
+                    STANDSTILL_TIME, (double)still->at.x, (double)still->at.y);
     jox_place_where(scene->spec->places, scene->spec->place_count, still->at, true, &text);
     jox_text_add(&text, "\n");
     jox_run_tell(scene, text.data);
     jox_text_free(&text);
 }
 
-static void judge(Standing *s, const JoScene *scene) {
+static void update_standstill(Standing *s, const JoScene *scene) {
     const uint32_t there = scene->world->state.agents.count, count = (uint32_t)s->still_count;
     const bool crowd = count >= CROWD || (count >= FEW && 2 * count >= there);
     if (!crowd) {
@@ -135,50 +136,50 @@ static void judge(Standing *s, const JoScene *scene) {
     }
     const bool new = s->now.people == 0;
     if (new)
-        s->now = (JoxStill){.since = jo_world_time(scene->world) - STILL};
+        s->now = (JoxStill){.since = jo_world_time(scene->world) - STANDSTILL_TIME};
     s->now.until = jo_world_time(scene->world);
     if (count > s->now.people) {
         s->now.people = count;
-        s->now.at = middle(s);
+        s->now.at = find_cluster_centre(s);
     }
     if (new)
-        say_still(scene, &s->now);
+        report_standstill(scene, &s->now);
     if (s->now.until - s->now.since >= s->still.until - s->still.since)
         s->still = s->now;
 }
 
 /* ---- goals that cannot be reached ---- */
 
-static bool is_blocked(JoxHindranceKind kind) {
+static bool blocks_for_good(JoxHindranceKind kind) {
     return kind == JOX_HINDRANCE_WALL || kind == JOX_HINDRANCE_NARROW ||
            kind == JOX_HINDRANCE_FILLED;
 }
 
-static float radius_of(const JoxAgents *a, uint32_t i) {
+static float get_radius(const JoxAgents *a, uint32_t i) {
     return jox_param(a, JOX_PARAM_radius, i);
 }
 
 /* Whether a closed gate stands where people leave by a point or a line. */
-static bool has_gate_on(const JoScene *scene, uint32_t place) {
+static bool has_gate_at_goal(const JoScene *scene, uint32_t place) {
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     return jox_hindrance_find_gate(&stage, place) != UINT32_MAX;
 }
 
 /* Tells whom something that never moves keeps from a place; false: a way leads there for the first,
    or will. */
-static bool tell_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t first) {
+static bool report_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t first) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
     const JoxV2 at = {a->x[first], a->y[first]};
     const char *name = machines->places[place].name;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     JoxHindrances *hindrances = jox_hindrances_create(&stage, place, NULL);
-    const JoxHindrance why = jox_hindrances_find(hindrances, at, radius_of(a, first));
+    const JoxHindrance why = jox_hindrances_find(hindrances, at, get_radius(a, first));
     uint32_t count = 0;
-    for (uint32_t i = 0; is_blocked(why.kind) && i < a->count; i++)
+    for (uint32_t i = 0; blocks_for_good(why.kind) && i < a->count; i++)
         count +=
             jox_machines_field_goal(machines, i, NULL) == (int32_t)place &&
-            jox_hindrances_kind(hindrances, jox_v2(a->x[i], a->y[i]), radius_of(a, i)) == why.kind;
+            jox_hindrances_kind(hindrances, jox_v2(a->x[i], a->y[i]), get_radius(a, i)) == why.kind;
     jox_hindrances_free(hindrances);
     if (count == 0)
         return false;
@@ -194,14 +195,14 @@ static bool tell_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t fi
     jox_run_say_hindrance(scene, &why, &text);
     if (why.kind == JOX_HINDRANCE_NARROW)
         jox_text_printf(&text, "; a gap of %.2f m is twice a radius",
-                        2.0 * (double)radius_of(a, first));
+                        2.0 * (double)get_radius(a, first));
     jox_text_add(&text, "\n");
     jox_run_tell(scene, text.data);
     jox_text_free(&text);
     return true;
 }
 
-static void make_room(Standing *s, uint32_t places) {
+static void reserve_places(Standing *s, uint32_t places) {
     JOX_RESERVE(s->told, s->told_capacity, places);
     JOX_RESERVE(s->shut_since, s->shut_capacity, places);
     JOX_RESERVE(s->first, s->first_capacity, places);
@@ -212,26 +213,27 @@ static void make_room(Standing *s, uint32_t places) {
         s->shut_since[s->shut_count] = NAN;
 }
 
-static void look_for_ways(Standing *s, JoScene *scene) {
+static void update_places(Standing *s, JoScene *scene) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
     const uint32_t places = machines->place_count;
     bool shut;
-    make_room(s, places);
+    reserve_places(s, places);
     for (uint32_t p = 0; p < places; p++)
         s->first[p] = s->waits[p] = 0; /* NOBODY */
     for (uint32_t i = 0; i < a->count; i++) {
         int32_t place = jox_machines_field_goal(machines, i, &shut);
         if (place >= 0)
             s->waits[place] = shut || s->waits[place] == WAIT ? WAIT : GO;
-        if (place < 0 || !(radius_of(a, i) > BROAD))
+        if (place < 0 || !(get_radius(a, i) > WIDEST_ROUTE_RADIUS))
             place = jox_machines_no_way(machines, i);
-        if (place >= 0 && (!s->first[place] || radius_of(a, i) > radius_of(a, s->first[place] - 1)))
+        if (place >= 0 &&
+            (!s->first[place] || get_radius(a, i) > get_radius(a, s->first[place] - 1)))
             s->first[place] = i + 1;
     }
     for (uint32_t p = 0; p < places; p++) {
         const uint8_t before = s->told[p];
-        const bool waits = s->waits[p] == WAIT || (s->waits[p] == GO && has_gate_on(scene, p));
+        const bool waits = s->waits[p] == WAIT || (s->waits[p] == GO && has_gate_at_goal(scene, p));
         s->shut_since[p] = !waits                    ? (double)NAN
                            : isnan(s->shut_since[p]) ? jo_world_time(scene->world)
                                                      : s->shut_since[p];
@@ -240,13 +242,13 @@ static void look_for_ways(Standing *s, JoScene *scene) {
         if (!s->first[p] || before == LEADS)
             s->told[p] = s->first[p] ? SEEMS_SHUT : LEADS;
         else if (before == SEEMS_SHUT)
-            s->told[p] = tell_no_way(s, scene, p, s->first[p] - 1) ? TOLD : CLEARED;
+            s->told[p] = report_no_way(s, scene, p, s->first[p] - 1) ? TOLD : CLEARED;
     }
 }
 
 /* ---- the listener ---- */
 
-static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool begin_standstills(void *self, JoScene *scene, const void *options, JoError *error) {
     Standing *s = self;
     (void)scene, (void)options, (void)error;
     s->longest.id = JOX_NO_INDEX;
@@ -254,24 +256,24 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
     return true;
 }
 
-static bool frame(void *self, JoScene *scene, JoError *error) {
+static bool watch_standstills(void *self, JoScene *scene, JoError *error) {
     Standing *s = self;
     const JoWorld *world = scene->world;
     (void)error;
-    if (!jox_run_is_due(scene, LOOK))
+    if (!jox_run_is_due(scene, LOOK_INTERVAL))
         return true;
     JOX_RESERVE(s->stills, s->still_capacity, world->state.agents.count);
     JOX_RESERVE(s->kept_groups, s->kept_groups_capacity,
                 (size_t)JOX_MOST_KEPT * scene->spec->group_count);
     s->still_count = 0;
     for (uint32_t i = 0; i < world->state.agents.count; i++)
-        look(s, world, i);
-    judge(s, scene);
-    look_for_ways(s, scene);
+        update_stand(s, world, i);
+    update_standstill(s, scene);
+    update_places(s, scene);
     return true;
 }
 
-static void sections(void *self, JoxSections *s) {
+static void list_standstill_sections(void *self, JoxSections *s) {
     Standing *standing = self;
     JOX_SECTION_ARRAY(s, "people", standing->people, standing->seen, standing->capacity);
     JOX_SECTION(s, "longest", standing->longest);
@@ -283,7 +285,7 @@ static void sections(void *self, JoxSections *s) {
     JOX_SECTION(s, "no_way", standing->no_way);
 }
 
-static void release(void *self) {
+static void free_standstills(void *self) {
     Standing *s = self;
     jox_free(s->people);
     jox_free(s->stills);
@@ -296,11 +298,11 @@ static void release(void *self) {
 
 static const JoxListenerKind STANDING = {.name = "who stood the longest",
                                          .size = sizeof(Standing),
-                                         .begin = begin,
-                                         .frame = frame,
-                                         .sections = sections,
+                                         .begin = begin_standstills,
+                                         .frame = watch_standstills,
+                                         .sections = list_standstill_sections,
                                          .goes_on = true,
-                                         .release = release};
+                                         .release = free_standstills};
 
 void jox_run_collect_standing(JoScene *scene) {
     if (!jox_run_listener(scene, &STANDING))
@@ -309,8 +311,8 @@ void jox_run_collect_standing(JoScene *scene) {
 
 /* ---- people who are kept from a place at the end ---- */
 
-static JoxKept *find_kept(Standing *s, const JoScene *scene, uint32_t place,
-                          const JoxHindrance *why) {
+static JoxKept *find_kept_people(Standing *s, const JoScene *scene, uint32_t place,
+                                 const JoxHindrance *why) {
     JoxKeptList *list = &s->kept;
     const size_t groups = scene->spec->group_count;
     for (uint32_t k = 0; k < list->count; k++)
@@ -327,7 +329,8 @@ static JoxKept *find_kept(Standing *s, const JoScene *scene, uint32_t place,
 }
 
 /* Adds the people who go to one place. */
-static void add_kept(Standing *s, const JoScene *scene, uint32_t place, const bool *opening) {
+static void add_kept_people(Standing *s, const JoScene *scene, uint32_t place,
+                            const bool *opening) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
@@ -336,14 +339,15 @@ static void add_kept(Standing *s, const JoScene *scene, uint32_t place, const bo
         if (jox_machines_field_goal(machines, i, NULL) != (int32_t)place)
             continue;
         const JoxHindrance why =
-            jox_hindrances_find(hindrances, jox_v2(a->x[i], a->y[i]), radius_of(a, i));
-        JoxKept *kept = why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept(s, scene, place, &why);
+            jox_hindrances_find(hindrances, jox_v2(a->x[i], a->y[i]), get_radius(a, i));
+        JoxKept *kept =
+            why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept_people(s, scene, place, &why);
         if (!kept)
             continue;
         kept->people++;
         kept->groups[a->group[i]]++;
-        kept->since = is_blocked(why.kind) ? (double)NAN : s->shut_since[place];
-        kept->stands = is_blocked(why.kind);
+        kept->since = blocks_for_good(why.kind) ? (double)NAN : s->shut_since[place];
+        kept->stands = blocks_for_good(why.kind);
         if (why.kind == JOX_HINDRANCE_GATE)
             kept->stands = !jox_run_opens(scene, scene->world->model.all_walls.rings[why.by].name);
     }
@@ -362,7 +366,7 @@ const JoxKeptList *jox_run_kept(const JoScene *scene) {
     bool *opening = jox_run_opening_gates(scene);
     for (uint32_t p = 0; p < s->told_count && p < scene->world->machines.place_count; p++)
         if (s->told[p] == TOLD || !isnan(s->shut_since[p]))
-            add_kept(s, scene, p, opening);
+            add_kept_people(s, scene, p, opening);
     jox_free(opening);
     return &s->kept;
 }

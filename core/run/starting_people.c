@@ -21,8 +21,8 @@ void jox_run_set_schedule(JoScene *scene, bool anew) {
 
 /* The greatest, or least, that a value is for those who run the machine; NAN where it is computed.
  */
-static double extreme(const JoScene *scene, uint32_t number, const JoxState *state, int parameter,
-                      bool greatest, const JoxValue **value) {
+static double find_extreme(const JoScene *scene, uint32_t number, const JoxState *state,
+                           int parameter, bool greatest, const JoxValue **value) {
     const JoxMachine *machine = scene->world->machines.set->items[number];
     const JoxAgents *a = &scene->world->state.agents;
     *value = &state->param[parameter];
@@ -42,38 +42,39 @@ static double extreme(const JoScene *scene, uint32_t number, const JoxState *sta
     return most;
 }
 
-static JoxPosition position_of(const JoxMachine *machine, const JoxState *state,
-                               const JoxValue *value) {
+static JoxPosition get_position(const JoxMachine *machine, const JoxState *state,
+                                const JoxValue *value) {
     return value->line > 0
                ? (JoxPosition){jox_machine_file(machine, value->source), value->line, 0, 0}
                : (JoxPosition){jox_machine_file(machine, state->source), state->line, 0, 0};
 }
 
 /* Of one state: whether somebody goes past a person, or is pushed past one, within a step. */
-static bool check_state(const JoScene *scene, uint32_t number, const JoxState *state, double step,
-                        JoxDiagnostics *diagnostics) {
+static bool check_state_step(const JoScene *scene, uint32_t number, const JoxState *state,
+                             double step, JoxDiagnostics *diagnostics) {
     const JoxMachine *machine = scene->world->machines.set->items[number];
     const JoxValue *at, *unused;
-    const double breadth = 2.0 * extreme(scene, number, state, JOX_PARAM_radius, false, &unused);
-    const double mass = extreme(scene, number, state, JOX_PARAM_mass, false, &unused);
-    const double speed = extreme(scene, number, state, JOX_PARAM_max_speed, true, &at);
+    const double breadth =
+        2.0 * find_extreme(scene, number, state, JOX_PARAM_radius, false, &unused);
+    const double mass = find_extreme(scene, number, state, JOX_PARAM_mass, false, &unused);
+    const double speed = find_extreme(scene, number, state, JOX_PARAM_max_speed, true, &at);
     char hint[80];
     if (speed * step > breadth) {
         snprintf(hint, sizeof hint, "step: %.2g", breadth / speed);
         jox_diag_warn(
-            diagnostics, position_of(machine, state, at), "coarse-step", hint,
+            diagnostics, get_position(machine, state, at), "coarse-step", hint,
             "in state %.60s of %.60s people may go at %g m/s, %.3g m in a step of %.3g s: "
             "they pass others, who are %.3g m broad, without meeting them",
             state->name, machine->name, speed, speed * step, step, breadth);
         return true;
     }
-    const double push = extreme(scene, number, state, JOX_PARAM_push, true, &at);
+    const double push = find_extreme(scene, number, state, JOX_PARAM_push, true, &at);
     const double way = push / mass * step * step;
     if (!(way > breadth))
         return false;
     snprintf(hint, sizeof hint, "step: %.2g", sqrt(breadth * mass / push));
     jox_diag_warn(
-        diagnostics, position_of(machine, state, at), "coarse-step", hint,
+        diagnostics, get_position(machine, state, at), "coarse-step", hint,
         "in state %.60s of %.60s people may push with %g N: that moves %g kg by %.3g m in "
         "a step of %.3g s, through others, who are %.3g m broad",
         state->name, machine->name, push, mass, way, step, breadth);
@@ -85,17 +86,18 @@ void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const double step = jox_world_substep_length(scene->world);
     for (uint32_t m = 0; m < set->count; m++)
         for (uint32_t s = 0; s < set->items[m]->state_count; s++)
-            if (check_state(scene, m, &set->items[m]->states[s], step, diagnostics))
+            if (check_state_step(scene, m, &set->items[m]->states[s], step, diagnostics))
                 break; /* one of a machine is enough */
 }
 
 /* ---- people in walls and in each other ---- */
 
-static const double FAR = 0.5; /* m: who was moved by less stands about where the scene says */
+static const double FAR_SHIFT =
+    0.5; /* m: who was moved by less stands about where the scene says */
 
-static void tell_shifted(const JoxGroup *group, const JoxPlaced *placed,
-                         JoxDiagnostics *diagnostics) {
-    const bool far = (double)placed->farthest > FAR;
+static void report_shifted(const JoxGroup *group, const JoxPlaced *placed,
+                           JoxDiagnostics *diagnostics) {
+    const bool far = (double)placed->farthest > FAR_SHIFT;
     char people[JOX_NOUN];
     jox_diag_add(diagnostics, far ? JOX_SEVERITY_WARNING : JOX_SEVERITY_NOTE, group->position,
                  "placed-in-others",
@@ -108,8 +110,8 @@ static void tell_shifted(const JoxGroup *group, const JoxPlaced *placed,
 
 /* A warning, and the run goes on without them; an error where nobody fits, or, of a count, fewer
    than half do: figures of so few people would be those of another scene. */
-static void tell_not_placed(const JoxGroup *group, const JoxPlaced *placed,
-                            JoxDiagnostics *diagnostics) {
+static void report_not_placed(const JoxGroup *group, const JoxPlaced *placed,
+                              JoxDiagnostics *diagnostics) {
     const bool given = group->fill == JOX_FILL_AT || group->starts;
     const uint32_t fit = group->count - placed->not_placed;
     const bool refused = fit == 0 || (!given && placed->not_placed > fit);
@@ -135,15 +137,15 @@ static void tell_not_placed(const JoxGroup *group, const JoxPlaced *placed,
     jox_text_free(&why);
 }
 
-static void place_people(JoScene *scene, JoxDiagnostics *diagnostics) {
+static void place_groups(JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxSceneSpec *spec = scene->spec;
     JoxPlaced *placed = jox_alloc((size_t)spec->group_count + 1, sizeof *placed);
     jox_world_populate(scene->world, placed);
     for (uint32_t g = 0; g < spec->group_count; g++) {
         if (placed[g].shifted)
-            tell_shifted(&spec->groups[g], &placed[g], diagnostics);
+            report_shifted(&spec->groups[g], &placed[g], diagnostics);
         if (placed[g].not_placed)
-            tell_not_placed(&spec->groups[g], &placed[g], diagnostics);
+            report_not_placed(&spec->groups[g], &placed[g], diagnostics);
     }
     jox_free(placed);
 }
@@ -155,5 +157,5 @@ void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
     if (diagnostics->errors)
         return;
     jox_run_set_schedule(scene, true);
-    place_people(scene, diagnostics);
+    place_groups(scene, diagnostics);
 }

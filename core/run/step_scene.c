@@ -6,7 +6,7 @@
 #include "run/reload.h"
 #include "run/run.h"
 
-static bool step(JoScene *scene, JoError *error) {
+static bool perform_step(JoScene *scene, JoError *error) {
     jox_run_inputs(scene);
     jox_run_reload(scene);
     const bool stepped = jox_world_step(scene->world);
@@ -36,7 +36,7 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
         return false;
     }
     scene->world->busy = true; /* messages come from within */
-    const bool good = step(scene, error);
+    const bool good = perform_step(scene, error);
     scene->world->busy = false;
     return good;
 }

@@ -54,24 +54,24 @@ uint64_t jox_run_number_tags(JoScene *scene, char *const *tags, uint32_t count,
 
 /* ---- what is asked for ---- */
 
-static bool lists(char *const *tags, uint32_t count, const char *name) {
+static bool contains_tag(char *const *tags, uint32_t count, const char *name) {
     for (uint32_t t = 0; t < count; t++)
         if (strcmp(tags[t], name) == 0)
             return true;
     return false;
 }
 
-static bool is_borne(const JoxSceneSpec *spec, const char *name) {
+static bool is_tag_given(const JoxSceneSpec *spec, const char *name) {
     for (uint32_t b = 0; b < spec->body_count; b++)
-        if (lists(spec->bodies[b].tags, spec->bodies[b].tag_count, name))
+        if (contains_tag(spec->bodies[b].tags, spec->bodies[b].tag_count, name))
             return true;
     for (uint32_t g = 0; g < spec->group_count; g++)
-        if (lists(spec->groups[g].tags, spec->groups[g].tag_count, name))
+        if (contains_tag(spec->groups[g].tags, spec->groups[g].tag_count, name))
             return true;
     return false;
 }
 
-static bool is_set(const JoxMachine *const *machines, uint32_t count, const char *name) {
+static bool is_tag_set(const JoxMachine *const *machines, uint32_t count, const char *name) {
     for (uint32_t m = 0; m < count; m++)
         for (uint32_t n = 0; n < machines[m]->belonging_count; n++) {
             const JoxBelonging *b = &machines[m]->belongings[n];
@@ -84,8 +84,8 @@ static bool is_set(const JoxMachine *const *machines, uint32_t count, const char
 enum { MOST_NAMES = 256 };
 
 /* Tags that are borne or set, or teams that groups have; returns how many. */
-static size_t list_names(const JoxSceneSpec *spec, const JoxMachine *const *machines,
-                         uint32_t count, bool teams, const char *names[MOST_NAMES]) {
+static size_t collect_names(const JoxSceneSpec *spec, const JoxMachine *const *machines,
+                            uint32_t count, bool teams, const char *names[MOST_NAMES]) {
     size_t n = 0;
     for (uint32_t g = 0; g < spec->group_count; g++) {
         const JoxGroup *group = &spec->groups[g];
@@ -104,7 +104,7 @@ static size_t list_names(const JoxSceneSpec *spec, const JoxMachine *const *mach
     return n;
 }
 
-static bool is_asked(const JoxMachine *const *machines, uint32_t count, const char *name) {
+static bool is_tag_read(const JoxMachine *const *machines, uint32_t count, const char *name) {
     for (uint32_t m = 0; m < count; m++)
         for (uint32_t n = 0; n < machines[m]->belonging_count; n++) {
             const JoxBelonging *b = &machines[m]->belongings[n];
@@ -115,8 +115,8 @@ static bool is_asked(const JoxMachine *const *machines, uint32_t count, const ch
 }
 
 /* A name that is set and that nothing else knows, and is like another: it may be misspelt. */
-static void warn_of_new(const JoxBelonging *b, JoxPosition at, const char *const *names,
-                        size_t count, JoxDiagnostics *diagnostics) {
+static void warn_of_new_name(const JoxBelonging *b, JoxPosition at, const char *const *names,
+                             size_t count, JoxDiagnostics *diagnostics) {
     char hint[JOX_HINT];
     const char *near = jox_did_you_mean(b->name, names, count, hint);
     if (near)
@@ -137,24 +137,24 @@ void jox_run_check_belongings(const JoScene *scene, const JoxMachine *machine,
         const JoxPosition at = {file, b->line, b->column, b->end_column};
         const char *names[MOST_NAMES], *others[MOST_NAMES];
         char hint[JOX_HINT];
-        const size_t name_count = list_names(spec, machines, count, b->is_team, names);
+        const size_t name_count = collect_names(spec, machines, count, b->is_team, names);
         size_t other_count = 0;
         for (size_t k = 0; k < name_count; k++)
             if (strcmp(names[k], b->name) != 0)
                 others[other_count++] = names[k];
         if (b->is_team) {
             if (b->number >= JOX_FIRST_SET_TEAM)
-                warn_of_new(b, at, others, other_count, diagnostics);
+                warn_of_new_name(b, at, others, other_count, diagnostics);
             continue;
         }
-        if (is_borne(spec, b->name))
+        if (is_tag_given(spec, b->name))
             continue;
-        if (!is_set(machines, count, b->name))
+        if (!is_tag_set(machines, count, b->name))
             jox_diag_error(
                 diagnostics, at, "unknown-tag", jox_did_you_mean(b->name, names, name_count, hint),
                 "nothing in the scene bears the tag '%s', and no state sets it", b->name);
-        else if (!is_asked(machines, count, b->name))
-            warn_of_new(b, at, others, other_count, diagnostics);
+        else if (!is_tag_read(machines, count, b->name))
+            warn_of_new_name(b, at, others, other_count, diagnostics);
     }
 }
 
@@ -162,7 +162,7 @@ void jox_run_check_belongings(const JoScene *scene, const JoxMachine *machine,
 
 /* What the text of a machine does not say: memory and own values that are kept of earlier versions.
  */
-static void list_kept(const JoxMachine *machine, JoxText *out) {
+static void write_kept_slots(const JoxMachine *machine, JoxText *out) {
     for (uint32_t s = 0; s < machine->own_count; s++) {
         const JoxOwnSlot *own = &machine->own[s];
         if (!own->kept || strpbrk(own->name, "\t\n"))
@@ -188,7 +188,7 @@ void jox_run_list_names(const JoScene *scene, JoxText *out) {
     for (uint32_t t = 0; t < model->set_team_count; t++)
         jox_text_printf(out, "team %s\n", model->set_teams[t]);
     for (uint32_t m = 0; m < model->machines.count; m++)
-        list_kept(model->machines.built[m], out);
+        write_kept_slots(model->machines.built[m], out);
 }
 
 /* Ends a field at a tab; the one behind it, or NULL. */
@@ -201,7 +201,7 @@ static char *next_field(char *at) {
 
 enum { DIST_NUMBERS = 4 + JOX_DIST_CHOICES, MOST_OWN = 1000 };
 
-static void take_own(JoxMachine *machine, char *kinds, const double *n, const char *name) {
+static void restore_own_slot(JoxMachine *machine, char *kinds, const double *n, const char *name) {
     JoxOwnSlot own = {
         .kept = true, .declared = true, .dist = {.a = n[0], .b = n[1], .lo = n[2], .hi = n[3]}};
     const long kind = strtol(kinds, &kinds, 10), choices = strtol(kinds, &kinds, 10);
@@ -218,7 +218,7 @@ static void take_own(JoxMachine *machine, char *kinds, const double *n, const ch
 }
 
 /* Adds what a line says of the machine. */
-static void take_kept(JoxMachine *machine, char *line) {
+static void restore_kept_slot(JoxMachine *machine, char *line) {
     char *path = next_field(line), *number = next_field(path), *value = next_field(number),
          *name = next_field(value);
     double numbers[DIST_NUMBERS] = {0};
@@ -230,7 +230,7 @@ static void take_kept(JoxMachine *machine, char *line) {
     }
     const bool boolean = *number == '1';
     if (strcmp(line, "own") == 0)
-        take_own(machine, number, numbers, name);
+        restore_own_slot(machine, number, numbers, name);
     else if (strcmp(line, "memory") == 0 && machine->memory_count < 64 + 3 * JOX_MOST_DORMANT)
         jox_dormant_add(machine, name, boolean ? JOX_MEMORY_BOOLEAN : JOX_MEMORY_NUMBER,
                         numbers[0]);
@@ -244,7 +244,7 @@ void jox_run_take_kept(JoxMachine *machine) {
         if (!end)
             break;
         *end = 0;
-        take_kept(machine, line);
+        restore_kept_slot(machine, line);
         line = end + 1;
     }
     jox_free(text);

@@ -6,7 +6,7 @@
 #include "run/run.h"
 #include "run/tally_scores.h"
 
-static double take_tally(const JoScene *scene, const JoxTally *tally) {
+static double count_tally(const JoScene *scene, const JoxTally *tally) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachineSet *set = scene->world->machines.set;
     double sum = 0, least = INFINITY, greatest = -INFINITY;
@@ -44,7 +44,7 @@ void jox_run_add_tally(const JoScene *scene, JoxJson *json) {
         return;
     jox_json_object(json, "tally");
     for (uint32_t t = 0; t < spec->tally_count; t++)
-        jox_json_number(json, spec->tallies[t].name, take_tally(scene, &spec->tallies[t]));
+        jox_json_number(json, spec->tallies[t].name, count_tally(scene, &spec->tallies[t]));
     jox_json_end(json);
 }
 
@@ -57,14 +57,14 @@ static bool are_rivals(const JoxTally *a, const JoxTally *b) {
     return a->statistic == b->statistic && a->statistic != JOX_TALLY_LEAST && a->group != b->group;
 }
 
-static void say_ahead(const JoScene *scene, JoxText *out) {
+static void append_leader(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     const JoxTally *ahead = NULL;
     double most = -INFINITY;
     bool equal = false;
     for (uint32_t t = 0; t < spec->tally_count; t++) {
         const JoxTally *tally = &spec->tallies[t];
-        const double value = take_tally(scene, tally);
+        const double value = count_tally(scene, tally);
         if (!isfinite(value) || (t && !are_rivals(tally, &spec->tallies[0])))
             return;
         equal = value == most || (equal && value < most);
@@ -85,7 +85,7 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     for (uint32_t t = 0; t < spec->tally_count; t++) {
         const JoxTally *tally = &spec->tallies[t];
-        const double value = take_tally(scene, tally);
+        const double value = count_tally(scene, tally);
         jox_text_printf(out, "%s%.60s ", t ? ", " : " ", tally->name);
         if (isfinite(value))
             jox_text_printf(out, "%.4g%s%.20s", value, tally->unit ? " " : "",
@@ -94,14 +94,14 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
             jox_text_add(out, "none");
     }
     if (spec->tally_count) {
-        say_ahead(scene, out);
+        append_leader(scene, out);
         jox_text_add(out, ".");
     }
 }
 
 /* Of a name that no behaviour of the scene has: a state, or a memory. */
-static void tell_unknown(const JoScene *scene, const JoxTally *tally, bool state,
-                         JoxDiagnostics *diagnostics) {
+static void report_unknown_name(const JoScene *scene, const JoxTally *tally, bool state,
+                                JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = scene->world->machines.set;
     const JoxPosition at = state ? tally->state_position : tally->memory_position;
     const char *name = state ? tally->state : tally->memory, *names[64], *now = NULL;
@@ -136,8 +136,8 @@ void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics) {
             state = state || jox_machine_state(set->items[m], tally->state) >= 0;
         }
         if (!memory)
-            tell_unknown(scene, tally, false, diagnostics);
+            report_unknown_name(scene, tally, false, diagnostics);
         if (!state)
-            tell_unknown(scene, tally, true, diagnostics);
+            report_unknown_name(scene, tally, true, diagnostics);
     }
 }

@@ -12,7 +12,7 @@
 
 /* ---- sources ---- */
 
-static const double WORTH =
+static const double LEAST_SHARE =
     0.02; /* share of a place: less is no more than how finely it is drawn */
 
 /* Lays the walls that are no gates, as gates may open, and their images beyond joined edges. */
@@ -23,7 +23,7 @@ static void lay_lasting_walls(const JoScene *scene, JoxWalls *walls) {
 }
 
 /* What takes a share of a place from those who come in there. */
-static const char *cause_of(const JoxEntrance *entrance) {
+static const char *name_cause(const JoxEntrance *entrance) {
     return entrance->outside == 0.0                 ? "in a wall or beyond one"
            : entrance->outside >= entrance->blocked ? "outside the walkable area"
                                                     : "in walls or outside the walkable area";
@@ -31,19 +31,19 @@ static const char *cause_of(const JoxEntrance *entrance) {
 
 /* Warns where a part of a place is blocked, or all of one of a set. Returns why nobody can come in
    there, NULL where somebody can. */
-static const char *check_door(const JoScene *scene, const JoxAgentSource *source, uint32_t door,
-                              JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
+static const char *check_entrance(const JoScene *scene, const JoxAgentSource *source, uint32_t door,
+                                  JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
     const JoxPlace *places = scene->world->model.places;
     JoxEntrance entrance;
     jox_entrance_make(&entrance, grid, &places[door]);
     const bool shut = entrance.cut && entrance.open_count == 0;
-    const char *cause = cause_of(&entrance);
+    const char *cause = name_cause(&entrance);
     if (shut && door != source->place)
         jox_diag_warn(diagnostics, source->position, "source-in-wall",
                       "Move it to where people can stand, or take it out of the set",
                       "nobody can come in at '%.60s', one of '%.60s': it lies %s",
                       places[door].name, places[source->place].name, cause);
-    else if (!shut && entrance.cut && entrance.blocked > WORTH)
+    else if (!shut && entrance.cut && entrance.blocked > LEAST_SHARE)
         jox_diag_warn(diagnostics, source->position, "source-across-wall",
                       "Move or cut the place; give parts on both sides of a wall a place each, and "
                       "the source a set of them",
@@ -61,7 +61,7 @@ static void check_source(const JoScene *scene, const JoxAgentSource *source, Jox
     const char *cause = NULL;
     uint32_t shut = 0;
     for (uint32_t m = 0; m < doors; m++) {
-        const char *why = check_door(
+        const char *why = check_entrance(
             scene, source, set ? (uint32_t)place->members[m] : source->place, grid, diagnostics);
         shut += why != NULL;
         cause = why ? why : cause;
@@ -100,14 +100,14 @@ typedef struct Goals {
 } Goals;
 
 /* People of a group, or of a source, whom one kind of hindrance keeps from a place. */
-typedef struct Kept {
+typedef struct KeptCount {
     uint32_t people;
     float widest;       /* m: radius */
     JoxHindrance first; /* of the first of them */
-} Kept;
+} KeptCount;
 
 /* One person for each source, who is only looked at. Returns the first of them. */
-static uint32_t add_from_sources(JoScene *scene, uint32_t **source_of) {
+static uint32_t add_person_per_source(JoScene *scene, uint32_t **source_of) {
     JoWorld *world = scene->world;
     const uint32_t first = world->state.agents.count;
     uint32_t count = 0;
@@ -186,7 +186,7 @@ bool *jox_run_opening_gates(const JoScene *scene) {
 }
 
 /* Whether a check tells of it: doors and gates that something moves are no fault. */
-static bool is_told(const JoScene *scene, const JoxHindrance *h) {
+static bool is_fault(const JoScene *scene, const JoxHindrance *h) {
     switch (h->kind) {
     case JOX_HINDRANCE_WALL:
     case JOX_HINDRANCE_NARROW:
@@ -199,7 +199,7 @@ static bool is_told(const JoScene *scene, const JoxHindrance *h) {
     }
 }
 
-static void write_way_out(const Kept *kept, char out[JOX_HINT]) {
+static void write_hint(const KeptCount *kept, char out[JOX_HINT]) {
     const double room = ceil(200.0 * (double)kept->widest - 1e-3) / 100.0; /* m, to the cm */
     switch (kept->first.kind) {
     case JOX_HINDRANCE_GATE:
@@ -223,17 +223,18 @@ static void write_way_out(const Kept *kept, char out[JOX_HINT]) {
 }
 
 /* Warns of people of a group (`all` of them, 0: of a source, `who`) whom something keeps away. */
-static void tell(const JoScene *scene, JoxPosition position, const Kept *kept, const char *who,
-                 uint32_t all, const char *goal, JoxDiagnostics *diagnostics) {
+static void warn_of_kept_people(const JoScene *scene, JoxPosition position, const KeptCount *kept,
+                                const char *who, uint32_t all, const char *goal,
+                                JoxDiagnostics *diagnostics) {
     char hint[JOX_HINT], people[JOX_NOUN];
     JoxText why = {0};
-    if (kept->people == 0 || !is_told(scene, &kept->first))
+    if (kept->people == 0 || !is_fault(scene, &kept->first))
         return;
     const bool gate = kept->first.kind == JOX_HINDRANCE_GATE;
     jox_run_say_hindrance(scene, &kept->first, &why);
     if (gate)
         jox_text_add(&why, ", and nothing opens it");
-    write_way_out(kept, hint);
+    write_hint(kept, hint);
     const char *code = gate ? "never-opened" : "no-way";
     if (all == 0)
         jox_diag_warn(diagnostics, position, code, hint,
@@ -248,7 +249,7 @@ static void tell(const JoScene *scene, JoxPosition position, const Kept *kept, c
     jox_text_free(&why);
 }
 
-static void list_goals(const JoWorld *world, Goals *goals) {
+static void collect_goals(const JoWorld *world, Goals *goals) {
     const uint32_t people = world->state.agents.count;
     goals->of = jox_alloc((size_t)people + 1, sizeof *goals->of);
     for (uint32_t i = 0; i < people; i++) {
@@ -276,7 +277,7 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
     const JoxAgents *a = &scene->world->state.agents;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     const uint32_t rows = spec->group_count + spec->source_count;
-    Kept *kept = jox_alloc((size_t)(rows + 1) * JOX_HINDRANCE_KINDS, sizeof *kept);
+    KeptCount *kept = jox_alloc((size_t)(rows + 1) * JOX_HINDRANCE_KINDS, sizeof *kept);
     JoxHindrances *hindrances = jox_hindrances_create(&stage, goals->places[n], goals->opening);
     for (uint32_t i = 0; i < a->count; i++) {
         const JoxV2 at = {a->x[i], a->y[i]};
@@ -287,7 +288,7 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
         const uint32_t row = i < first_of_sources
                                  ? a->group[i]
                                  : spec->group_count + source_of[i - first_of_sources];
-        Kept *of = &kept[row * JOX_HINDRANCE_KINDS + kind];
+        KeptCount *of = &kept[row * JOX_HINDRANCE_KINDS + kind];
         if (kind != JOX_HINDRANCE_NONE && of->people++ == 0)
             of->first = jox_hindrances_find(hindrances, at, radius);
         of->widest = jox_maxf(of->widest, radius);
@@ -296,12 +297,12 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
         const uint32_t row = k / JOX_HINDRANCE_KINDS;
         const char *goal = places[goals->places[n]].name;
         if (row < spec->group_count)
-            tell(scene, spec->groups[row].position, &kept[k], spec->groups[row].name,
-                 spec->groups[row].count, goal, diagnostics);
+            warn_of_kept_people(scene, spec->groups[row].position, &kept[k], spec->groups[row].name,
+                                spec->groups[row].count, goal, diagnostics);
         else
-            tell(scene, spec->sources[row - spec->group_count].position, &kept[k],
-                 spec->places[spec->sources[row - spec->group_count].place].name, 0, goal,
-                 diagnostics);
+            warn_of_kept_people(scene, spec->sources[row - spec->group_count].position, &kept[k],
+                                spec->places[spec->sources[row - spec->group_count].place].name, 0,
+                                goal, diagnostics);
     }
     jox_hindrances_free(hindrances);
     jox_free(kept);
@@ -310,26 +311,26 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
 /* ---- goals in walls ---- */
 
 /* Whether walls fill an area: nobody is ever inside. Lines and queues are reached from beside. */
-static bool is_filled(JoxWallGrid *grid, const JoxPlace *place) {
+static bool is_filled_by_walls(JoxWallGrid *grid, const JoxPlace *place) {
     if (!jox_place_is_spot(place) && !jox_place_is_area(place))
         return false;
     JoxEntrance entrance;
     jox_entrance_make(&entrance, grid, place);
-    const bool filled = entrance.outside == 0.0 && entrance.blocked > 1.0 - WORTH;
+    const bool filled = entrance.outside == 0.0 && entrance.blocked > 1.0 - LEAST_SHARE;
     jox_entrance_free(&entrance);
     return filled;
 }
 
 /* Of a step of a journey, whose people go on once they are inside; `goal` may be -1. */
-static void check_inside(const JoScene *scene, JoxPosition position, int32_t goal,
-                         JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
+static void check_step_place(const JoScene *scene, JoxPosition position, int32_t goal,
+                             JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
     const JoxPlace *places = scene->world->model.places;
     if (goal < 0)
         return;
     const bool set = jox_place_is_set(&places[goal]);
     for (uint32_t m = 0; m < (set ? places[goal].member_count : 1); m++) {
         const JoxPlace *place = set ? &places[places[goal].members[m]] : &places[goal];
-        if (is_filled(grid, place))
+        if (is_filled_by_walls(grid, place))
             jox_diag_warn(diagnostics, position, "goal-in-wall",
                           "Move it to where people can stand, or widen it beyond the wall",
                           "nobody can be inside '%.60s': it lies in a wall", place->name);
@@ -346,8 +347,8 @@ void jox_run_check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
         const JoxGroup *group = &scene->spec->groups[g];
         for (uint32_t s = 0; s < group->journey_count; s++) {
             const JoxJourneyStep *step = &group->journey[s];
-            check_inside(scene, step->position, step->to, &grid, diagnostics);
-            check_inside(scene, step->position, step->exit, &grid, diagnostics);
+            check_step_place(scene, step->position, step->to, &grid, diagnostics);
+            check_step_place(scene, step->position, step->exit, &grid, diagnostics);
         }
     }
     jox_wall_grid_free(&grid);
@@ -362,8 +363,8 @@ void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics) {
     if (scene->world->model.all_walls.count == 0 && stage.objects->count == 0)
         return;
     jox_routes_update_bodies(&stage);
-    const uint32_t first = add_from_sources(scene, &source_of);
-    list_goals(scene->world, &goals);
+    const uint32_t first = add_person_per_source(scene, &source_of);
+    collect_goals(scene->world, &goals);
     goals.opening = jox_run_opening_gates(scene);
     for (uint32_t n = 0; n < goals.count; n++)
         check_goal(scene, &goals, n, first, source_of, diagnostics);
