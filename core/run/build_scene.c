@@ -41,8 +41,8 @@ static void add_bodies(JoScene *scene, JoxDiagnostics *diagnostics) {
                             spec->groups[g].position, diagnostics);
 }
 
-/* Places are copied to the world, which owns them, with one more for each agent that is bound for
-   the opposite side of its circle. */
+/* Copies places to the world, which owns them, and reserves one more for each agent whose goal
+   is the opposite side of its circle. */
 static void add_places(JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     uint32_t extra = 0;
@@ -70,7 +70,7 @@ static void add_places(JoScene *scene) {
     jox_run_refresh_names(scene);
 }
 
-/* Reads the log and, since it tells what files were when it began, reads those through it. */
+/* Reads the input log. The scene's files are then read as they were when the log began. */
 static void read_input_log(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
@@ -141,8 +141,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     jox_world_set_walls(scene->world, &spec->walls);
     const JoxLuaLimits limits = get_script_limits(spec);
     scene->lua = jox_lua_create(&limits);
-    jox_lua_attach(scene->lua, &scene->world->machines, forward_message,
-                   scene); /* loading may print */
+    jox_lua_attach(scene->lua, &scene->world->machines, forward_message, scene);
     jox_run_take_names(scene);
     add_bodies(scene, diagnostics);
     add_places(scene);

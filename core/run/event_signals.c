@@ -1,4 +1,5 @@
-/* The names that the events of a scene use. */
+/* Numbers the signals that events give. build_scene.c calls it for a scene that begins,
+   reload_scene.c for one that was edited. */
 #include <string.h>
 
 #include "run/event_signals.h"
@@ -22,7 +23,7 @@ void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics) {
         const JoxEvent *event = &scene->spec->events[e];
         bool heard = event->kind != JOX_EVENT_SIGNAL || hooks;
         if (event->kind == JOX_EVENT_SIGNAL)
-            jox_machines_name(machines, event->name); /* steps then find it */
+            jox_machines_name(machines, event->name); /* a step finds it by this name */
         for (uint32_t n = 0; n < count && !heard; n++)
             heard = strcmp(names[n], event->name) == 0;
         char hint[JOX_HINT];

@@ -1,5 +1,5 @@
-/* What every report of a run draws on: mean speeds of the scene's regions, the field of density,
-   and where people were squeezed. */
+/* Listeners that collect what reports and results show: mean speeds in the scene's regions,
+   local densities, danger to people. build_scene.c attaches the first two, reports the third. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -8,14 +8,15 @@
 #include "run/present_frame.h"
 #include "run/run.h"
 
-/* The listeners of regions, densities and danger each hold one thing that collects, by its address.
- */
+/* Returns the collector (JoxRegions, JoxLocal or JoxDanger) of a listener, which holds its
+   address alone; NULL: no such listener. */
 static void *find_collector(const JoScene *scene, const JoxListenerKind *kind) {
     void **self = jox_run_listener(scene, kind);
     return self ? *self : NULL;
 }
 
-/* False with `error` where a resumed scene has nothing sound of it. */
+/* Attaches a listener unless it is there. False with `error` if the checkpoint of a resumed
+   scene holds unsound data of it. */
 static bool attach_collector(JoScene *scene, const JoxListenerKind *kind, const void *options,
                              JoError *error) {
     return jox_run_listener(scene, kind) || jox_run_listen(scene, kind, options, error);
@@ -126,7 +127,7 @@ double jox_run_density_max(const JoScene *scene) {
     JoxV2 low, high;
     if (!local || local->samples > 0)
         return local ? local->grid->most : NAN;
-    jox_run_area(scene, &low, &high); /* no step yet: that of the present */
+    jox_run_area(scene, &low, &high); /* no sample yet: measure people as they stand */
     JoxDensity *now = jox_density_create(low, high, local->grid->cell, JOX_DENSITY_KERNEL);
     jox_density_walls(now, &scene->world->scratch.walls);
     jox_density_add(now, a->period, a->x, a->y, a->count, jo_world_time(scene->world));
@@ -141,7 +142,7 @@ typedef struct DangerArea {
     JoxV2 low, high;
 } DangerArea;
 
-/* Of the run's own densities, unless an area is given. */
+/* Measures danger in an area if one is given, else on the densities that the run collects. */
 static bool begin_danger(void *self, JoScene *scene, const void *options, JoError *error) {
     const DangerArea *area = options;
     (void)error;
@@ -153,7 +154,7 @@ static bool begin_danger(void *self, JoScene *scene, const void *options, JoErro
     return true;
 }
 
-/* Crowd pressure goes by velocities: of an area of its own, the figures measure it themselves. */
+/* Fills velocities only if danger samples densities of its own now: crowd pressure needs them. */
 static bool sample_danger(void *self, JoScene *scene, JoError *error) {
     JoxDanger *danger = *(JoxDanger **)self;
     const JoxLocal *local = jox_danger_local(danger);

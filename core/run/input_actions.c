@@ -1,5 +1,6 @@
-/* What people do to a running scene: every action is an entry of an input log, done before the step
-   that comes and written down, so that the log plays back to the same state. */
+/* Performs the actions of people, programs and input logs on a running scene. Each action is an
+   entry of an input log: it is done before the next step and logged, so that the log plays back
+   to the same state. */
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +16,7 @@
 
 /* ---- actions ---- */
 
-/* Swaps files as a log tells. */
+/* Replaces files by the texts of a log's entry, and reloads them. */
 static bool reload_files(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     for (uint32_t f = 0; f < entry->number; f++) {
         const JoxInputFile *file = &entry->files[f];
@@ -43,7 +44,7 @@ static bool perform_verb(JoScene *scene, const JoxInputEntry *entry, JoError *er
                            entry->numbers[0], error);
     if (entry->verb == JOX_INPUT_FILES)
         return reload_files(scene, entry, error);
-    return true; /* the others were looked at when the scene was loaded */
+    return true; /* the other verbs were checked when the scene was loaded */
 }
 
 /* ---- what comes in ---- */
@@ -58,7 +59,7 @@ static bool perform_and_log(JoScene *scene, JoxInputEntry *entry, JoError *error
     if (!perform_verb(scene, entry, error))
         return false;
     scene->acted_on |= entry->line == 0;
-    if (jox_input_verbs[entry->verb].tool) /* a reload is logged as it goes live */
+    if (jox_input_verbs[entry->verb].tool) /* a reload is logged when it goes live */
         jox_run_log(scene, entry);
     return true;
 }
@@ -98,7 +99,7 @@ void jox_run_inputs(JoScene *scene) {
     }
 }
 
-/* A name that a line can hold. */
+/* Checks that a line of a log can hold a name; false with `error`. */
 static bool check_writable_name(const char *what, const char *name, JoError *error) {
     JoxText why = {0};
     const bool good = jox_input_check_name(what, name, &why);

@@ -1,5 +1,5 @@
-/* Reloaded files in input logs: the texts that went live, and, on a replay, the same swap in the
-   same step from those texts. */
+/* Writes to an input log which files a run is made of, and the texts of reloaded files; on a
+   replay, compares these with the run. reload_swap.c, build_scene.c and load_scene.c call it. */
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -96,7 +96,7 @@ static void add_entry_file(JoxInputEntry *entry, const char *path, const char *t
         (JoxInputFile){jox_strdup(path), jox_strndup(text, length), length};
 }
 
-/* The live text of a file that machines are made of; NULL where none is. */
+/* Returns the live text of a file that a machine or the scene is made of; NULL: no such file. */
 static const char *find_live_text(const JoScene *scene, const char *path, const char **sha256,
                                   size_t *length) {
     const JoxMachineRun *machines = &scene->world->machines;

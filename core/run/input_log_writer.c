@@ -1,4 +1,5 @@
-/* The input log that a run writes. */
+/* Writes entries to the input log of a run, and closes it. input_actions.c, input_log_files.c
+   and step_scene.c call it. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

@@ -62,7 +62,7 @@ void jox_run_release_listeners(JoScene *scene) {
     all->capacity = 0;
 }
 
-/* What a checkpoint has of a kind of listener; NULL data: nothing. */
+/* Finds the piece of a kind of listener in the checkpoint; data NULL: there is none. */
 static JoxPiece find_piece(const JoScene *scene, const JoxListenerKind *kind) {
     char why[200];
     JoxPiece piece;
@@ -94,7 +94,7 @@ bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *se
     return false;
 }
 
-/* A kind that the run was told to collect only now begins now. */
+/* Whether the checkpoint holds the state of a listener that goes on; else it begins now. */
 static bool continues_from_checkpoint(const JoScene *scene, const JoxListenerKind *kind) {
     return kind->goes_on && scene->resumed.length && find_piece(scene, kind).data;
 }

@@ -23,7 +23,8 @@ JoSceneDef jo_default_scene_def(void) {
     return (JoSceneDef){.cookie = SCENE_COOKIE};
 }
 
-/* The def outlives the caller's texts: a reload reads the scene as it was read first. */
+/* Copies the def with its texts, which the caller may free: a reload reads the scene as the load
+   did. */
 static void copy_def(JoScene *scene, const JoSceneDef *def) {
     JoSceneDef *own = &scene->def;
     *own = *def;
@@ -33,7 +34,7 @@ static void copy_def(JoScene *scene, const JoSceneDef *def) {
     for (size_t i = 0; i < def->override_count; i++)
         overrides[i] = jox_strdup(def->overrides[i]);
     own->overrides = overrides;
-    own->text = NULL; /* what stands in memory is not edited */
+    own->text = NULL; /* a text in memory is not edited on the disk */
     own->mods = NULL; /* found already */
     own->mod_count = 0;
     scene->spec_file_count = scene->spec->file_count;
@@ -58,8 +59,9 @@ static void drop_message(void *context, const char *text) {
     (void)text;
 }
 
-/* Reads through the scene's overlay from here on, which begins as that of whoever loads it, or lies
-   over that while it loads. Returns the latter, to be put back. */
+/* Reads files through the scene's overlay from here on. The overlay in use is copied into it, or
+   lies under it while the scene loads if it is sealed or told of reads. Returns the overlay that
+   was in use, to be put back. */
 static const JoxOverlay *use_scene_overlay(JoScene *scene, const JoSceneDef *def) {
     const JoxOverlay *before = jox_overlay_use(&scene->overlay);
     const bool lies_over = before && (before->sealed || before->told);
@@ -87,9 +89,8 @@ static void discard_scene(JoScene *scene) {
     jo_scene_free(scene);
 }
 
-/* Of the mods found, the first with which, and with those before it, the scene does not load; -1:
-   it does not load without mods either. Whatever went wrong: the spec, a behaviour, what they
-   expect of each other. */
+/* Returns the number of the first found mod with which, and with the mods before it, the scene
+   does not load, whatever the error; -1: it does not load without mods either. */
 static int32_t find_breaking_mod(const JoSceneDef *def, uint64_t without) {
     for (uint32_t count = 0;; count++) {
         JoxDiagnostics ignored = {0}, now = {0};
@@ -99,7 +100,7 @@ static int32_t find_breaking_mod(const JoSceneDef *def, uint64_t without) {
         const JoxOverlay *before = use_scene_overlay(scene, def);
         scene->mods = jox_run_find_mods(def, without, &ignored);
         const uint32_t all = scene->mods->count;
-        if (count < all) { /* with all of them it fails: that is known */
+        if (count < all) { /* with all of them it is known to fail */
             scene->mods->count = count;
             jox_run_build(scene, def, count, &now);
             scene->mods->count = all;
@@ -141,7 +142,7 @@ static JoScene *try_load(const JoSceneDef *def, uint64_t without, int32_t *culpr
     return NULL;
 }
 
-/* What `attempt` found wrong with a mod, and that it is left out. */
+/* Notes that a mod is left out, after the errors that try_load found with it. */
 static void leave_out_mod(const JoSceneDef *def, uint64_t without, int32_t culprit,
                           JoxDiagnostics *problems, JoxDiagnostics *diagnostics) {
     JoxDiagnostics ignored = {0};
@@ -149,7 +150,7 @@ static void leave_out_mod(const JoSceneDef *def, uint64_t without, int32_t culpr
     JoxMods *after = jox_run_find_mods(def, without | (uint64_t)1 << culprit, &ignored);
     const JoxMod *mod = &before->found[culprit];
     char others[256] = "";
-    for (uint32_t b = 0; b < before->count; b++) { /* those that go with it */
+    for (uint32_t b = 0; b < before->count; b++) { /* mods that need it are left out too */
         bool stays = before->number[b] == (uint32_t)culprit;
         for (uint32_t a = 0; a < after->count; a++)
             stays |= after->number[a] == before->number[b];
@@ -169,8 +170,8 @@ static bool is_missing_mod(const JoxMods *mods, const char *name) {
     return !strchr(name, '/') && jox_mods_index(mods, name) < 0;
 }
 
-/* Whether the mods that the def names are all taken; else an error names one. Those that the user
-   turned on, or the scene names, may be missing. */
+/* Checks that the mods that the def names are all in the scene; else false with an error. Mods
+   that the user turned on or the scene names may be missing. */
 static bool takes_named_mods(const JoSceneDef *def, const JoScene *scene,
                              JoxDiagnostics *diagnostics) {
     const JoxMods *mods = scene->mods;
@@ -189,7 +190,7 @@ static bool takes_named_mods(const JoSceneDef *def, const JoScene *scene,
             jox_run_check_use(scene, taken, diagnostics);
         if (taken)
             continue;
-        if (!is_missing_mod(mods, name)) /* that has been said */
+        if (!is_missing_mod(mods, name)) /* a missing mod has been reported */
             jox_diag_error(diagnostics, ((JoxPosition){"--mod", 0, 0, 0}), "mod-not-taken", NULL,
                            "mod '%.200s' was asked for and cannot be taken", name);
         return false;
@@ -210,7 +211,7 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
                        jox_isa_name(def->isa));
         return NULL;
     }
-    JoxDiagnostics problems = {0}; /* of mods */
+    JoxDiagnostics problems = {0}; /* with mods */
     for (;;) {
         JoxDiagnostics found = {0}, now = {0};
         int32_t culprit;
@@ -232,7 +233,7 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     }
 }
 
-/* The scene, and what is wrong with it, told by the callbacks. */
+/* Loads a scene, and reports what is wrong by the callbacks. */
 static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
                               JoError *error) {
     JoxDiagnostics diagnostics = {0};
@@ -281,7 +282,8 @@ JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void 
         return NULL;
     }
     scene->owns_heap = true;
-    return jox_heap_register(scene, release_scene); /* by a call that it is loaded for */
+    /* The call for which it is loaded may run out of memory: its heap then frees the scene. */
+    return jox_heap_register(scene, release_scene);
 }
 
 JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {

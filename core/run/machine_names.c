@@ -57,7 +57,8 @@ static bool has_public_memory(const JoxMachineRun *machines, const char *name) {
     return false;
 }
 
-/* What the machine that has a part by this name calls it now, where none has it by that name. */
+/* Returns the present name of a state or memory that was renamed; NULL if a machine still has it
+   by the old name, or none had it. */
 static const char *find_new_name(const JoxMachineRun *machines, JoxPart part, const char *name) {
     const char *now = NULL;
     for (uint32_t m = 0; m < machines->set->count; m++) {
@@ -68,7 +69,7 @@ static const char *find_new_name(const JoxMachineRun *machines, JoxPart part, co
     return now;
 }
 
-/* Whether a group whose agents may run the machine sets the own value. */
+/* Whether a group that runs the machine sets the own value. True as well if no group runs it. */
 static bool is_set_by_groups(const JoScene *scene, const JoxMachine *machine, const char *name) {
     const JoxSceneSpec *spec = scene->spec;
     bool runs = false;
@@ -81,10 +82,10 @@ static bool is_set_by_groups(const JoScene *scene, const JoxMachine *machine, co
                 if (strcmp(spec->groups[g].set[s].name, name) == 0)
                     return true;
         }
-    return !runs; /* something else becomes it, and brings its own values */
+    return !runs; /* another machine becomes it, and brings its own values */
 }
 
-/* Whether an event of the scene gives the signal. */
+/* Whether an event of the scene gives a signal. */
 static bool has_event_signal(const JoScene *scene, const char *text) {
     for (uint32_t e = 0; e < scene->spec->event_count; e++)
         if (scene->spec->events[e].kind == JOX_EVENT_SIGNAL &&
@@ -93,7 +94,7 @@ static bool has_event_signal(const JoScene *scene, const char *text) {
     return false;
 }
 
-/* Whether a function of a behaviour may give it. */
+/* Whether a Lua function of a behaviour may give a signal. */
 static bool may_function_signal(const JoScene *scene, const char *text) {
     const JoxMachineSet *set = &scene->world->model.machines;
     bool may = false;
@@ -102,7 +103,8 @@ static bool may_function_signal(const JoScene *scene, const char *text) {
     return may;
 }
 
-/* What an own value is called now that is asked for, and so has a slot, by the name that it had. */
+/* Returns the present name of an own value that is read by its old one; NULL: it was not
+   renamed. */
 static const char *find_new_own_name(const JoxMachine *machine, const char *name) {
     for (uint32_t r = 0; r < machine->renamed_count; r++)
         if (strcmp(machine->renamed[r].from, name) == 0 &&
@@ -144,7 +146,7 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
         jox_run_attach_sources(files, count, diagnostics);
 }
 
-/* Where a state or memory of others is named first. */
+/* Returns where a behaviour first names a state or memory of other machines. */
 static JoxPosition get_name_position(const JoxMachine *machine, const JoxName *name,
                                      const JoxLuaFile *files, uint32_t count) {
     const char *file = name->source < count ? files[name->source].path : machine->path;
@@ -168,7 +170,7 @@ static JoxPosition find_wait(const JoScene *scene, const JoxMachine *machine, co
     return get_name_position(machine, name, files, count);
 }
 
-/* Whether walls of a name are closed from the start and stay so. */
+/* Whether walls of a name are closed at the start, and nothing opens them. */
 static bool stays_gate_closed(const JoScene *scene, const char *gate) {
     const JoxWalls *walls = &scene->world->model.all_walls;
     bool closed = false;
@@ -178,7 +180,7 @@ static bool stays_gate_closed(const JoScene *scene, const char *gate) {
     return closed && !jox_run_opens(scene, gate);
 }
 
-/* What a state or memory of others is called now that is named as it was called; else NULL. */
+/* Returns the present name of a state or memory that is named as it was once called; else NULL. */
 static const char *find_new_name_used(const JoxMachineRun *machines, const JoxName *name) {
     const char *now = NULL;
     if (name->uses & JOX_NAME_STATE)

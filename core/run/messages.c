@@ -1,4 +1,5 @@
-/* What a run says to people, and the errors that it hands to its caller. */
+/* Sends what a run says to its message function, and fills errors for its caller. All files of
+   this room call it. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -9,7 +10,7 @@
 
 void jox_run_to_stderr(void *context, const char *text) {
     (void)context;
-    if (isatty(2)) /* the line of progress makes room */
+    if (isatty(2)) /* clears the line of progress */
         fputs("\r\033[K", stderr);
     fputs(text, stderr);
 }

@@ -1,4 +1,5 @@
-/* What a run says: messages to its message function, diagnostics, errors for its caller. */
+/* Sends messages and diagnostics of a run to its message function, and fills errors for its
+   caller. */
 #ifndef JOX_RUN_MESSAGES_H
 #define JOX_RUN_MESSAGES_H
 

@@ -9,7 +9,7 @@
 static const char HINT[] =
     "Where capacities matter: walker.lua, or time_gap = crowd.time_gap in the behaviour's defaults";
 
-/* The first probe whose figures are those of a flow. */
+/* Returns the first probe that measures a flow, or NULL. */
 static const JoxProbeDef *find_flow_probe(const JoxSceneSpec *spec) {
     for (uint32_t p = 0; p < spec->probe_count; p++)
         if (spec->probes[p].kind == JOX_PROBE_FLOW || spec->probes[p].kind == JOX_PROBE_MEASURE)
@@ -37,7 +37,7 @@ static bool steers_toward_goal(const JoxState *state) {
     return false;
 }
 
-/* Whether who is in the state may keep a time gap, which makes them walk by the walking law. */
+/* Whether agents in the state may keep a time gap, and so walk by the walking law. */
 static bool keeps_time_gap(const JoxMachine *machine, const JoxState *state) {
     const JoxValue *gap = &state->param[JOX_PARAM_time_gap];
     if (gap->kind == JOX_VALUE_UNSET)

@@ -1,12 +1,12 @@
-/* The frame of the present step, as probes, reports and pictures see a running world, and the area
-   that they show. */
+/* Makes the frame in which probes, reports and pictures see a running world, once a step, and
+   finds the area that they show. */
 #include <math.h>
 
 #include "base/mem.h"
 #include "run/present_frame.h"
 #include "run/run.h"
 
-/* Columns that the world has not in this form. */
+/* The frame, and memory for the columns that the world does not hold in a frame's form. */
 typedef struct JoxRunFrame {
     JoxFrame frame;
     float *vx, *vy, *force;
@@ -16,11 +16,11 @@ typedef struct JoxRunFrame {
     size_t name_capacity, states_capacity, state_capacity, group_colour_capacity;
     size_t state_colour_capacity;
     uint32_t *state, state_count;
-    uint64_t made;  /* the tick of the frame, plus 1 */
-    uint32_t parts; /* that it has */
+    uint64_t made;  /* 1 + the tick of the frame */
+    uint32_t parts; /* bits of the columns that are filled */
 } JoxRunFrame;
 
-/* All states of all machines in one list, which a reload may change, and each person's. */
+/* Lists all states of all machines, anew since a reload may change them, and each agent's state. */
 static void fill_states(JoxRunFrame *f, const JoWorld *world) {
     const JoxMachineRun *machines = &world->machines;
     const JoxAgents *a = &world->state.agents;
@@ -31,7 +31,7 @@ static void fill_states(JoxRunFrame *f, const JoWorld *world) {
     JOX_RESERVE(f->states, f->states_capacity, f->state_count);
     JOX_RESERVE(f->state, f->state_capacity, a->count + 1);
     JOX_RESERVE(f->state_colours, f->state_colour_capacity, f->state_count);
-    f->states[0] = ""; /* of those without a machine */
+    f->states[0] = ""; /* agents without a machine */
     f->state_colours[0] = 0;
     for (uint32_t k = 0; k < machines->set->count; k++)
         for (uint32_t s = 0; s < machines->set->items[k]->state_count; s++) {
@@ -46,7 +46,7 @@ static void fill_states(JoxRunFrame *f, const JoWorld *world) {
     f->frame.state_colours = f->state_colours;
 }
 
-/* Of the step that was made: a velocity is what one has moved by. */
+/* Fills in velocities: the distance moved in the last step, over its duration. */
 static void fill_velocities(JoxRunFrame *f, const JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
     const float rate = (float)(1.0 / world->model.def.dt);
@@ -67,7 +67,7 @@ static void fill_forces(JoxRunFrame *f, const JoxAgents *a) {
     f->frame.force = f->force;
 }
 
-/* What the world has as frames have it. */
+/* Starts the frame of a step with the columns that it shares with the world. */
 static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
@@ -140,7 +140,7 @@ void jox_run_free_frame(JoScene *scene) {
 
 /* ---- the area ---- */
 
-static const float MARGIN = 2.0f; /* m about the walls and people of a scene without bounds */
+static const float MARGIN = 2.0f; /* m round the walls and people of a scene without bounds */
 
 void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     const JoxSceneSpec *spec = scene->spec;

@@ -1,4 +1,4 @@
-/* The scene's probes, which look at the frames of a run. */
+/* The listener that gives frames of a run to the scene's probes, each at its own interval. */
 #include "run/probe_listener.h"
 #include "base/assert.h"
 #include "base/mem.h"

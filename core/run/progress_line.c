@@ -1,4 +1,5 @@
-/* A run told to people while it goes on: the line of progress, and one agent's transitions. */
+/* Listeners that print while a run goes on: the line of progress on stderr, and the transitions
+   of one agent. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -10,7 +11,7 @@
 typedef struct Progress {
     double until;        /* s, simulated */
     double begun, shown; /* s, wall time */
-    int tenth;           /* the last that was shown, where each tenth has a line */
+    int tenth; /* tenth of the run shown last, if stderr is no terminal: each has a line */
 } Progress;
 
 static bool begin_progress(void *self, JoScene *scene, const void *until, JoError *error) {
@@ -38,7 +39,8 @@ static bool show_progress(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
-/* That plain functions ran, and what they cost: their authors should know without asking. */
+/* Reports at the end how many Lua functions were called and their share of the time, so that
+   authors know without asking. */
 static bool report_function_costs(void *self, JoScene *scene, JoError *error) {
     const JoxLuaTotal total = jox_lua_total(scene->lua, scene->world->state.statistics.wall_s);
     char told[JOX_NOUN];

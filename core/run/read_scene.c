@@ -1,5 +1,5 @@
-/* The specification of a scene, with what the caller sets besides; and its mods, found with what
-   their files change. */
+/* Reads the specification of a scene with the caller's overrides, finds mods, and collects the
+   texts of all files. load_scene.c, build_scene.c and reload_batch.c call it. */
 #include <stdio.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ bool jox_run_is_whole(const JoSceneDef *def) {
            has_all_texts(def->mods, def->mod_count);
 }
 
-/* The def's overrides, with seed and step as two more. */
+/* Passes seed and step as two more overrides. */
 JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
                                 JoxDiagnostics *diagnostics) {
     char seed[32], step[48];
@@ -73,8 +73,8 @@ void jox_run_texts(const JoScene *scene, JoxOverlay *out) {
 
 enum { LARGEST_PATCH = 256 << 10 };
 
-/* What a mod's Lua files change: known to lua/, which alone reads that language. False with an
-   error where that is nothing. */
+/* Finds which behaviour a mod's Lua file changes; only lua/ reads that language. False with an
+   error if it names none. */
 static bool find_patch_target(JoxModPatch *patch, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = jox_read_file(patch->path, LARGEST_PATCH, &length);
@@ -119,6 +119,6 @@ JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnosti
         }
         jox_diag_free(&found);
         jox_mods_free(mods);
-        find.without |= broken; /* and those that need it */
+        find.without |= broken; /* the next search leaves out mods that need it too */
     }
 }

@@ -1,4 +1,5 @@
-/* Trajectories of a run, written to an SQLite file. */
+/* The listener that records trajectories to an SQLite file (record/recorder.h). jo_scene_record
+   attaches it. */
 #include <math.h>
 #include <string.h>
 
@@ -10,22 +11,21 @@
 #include "run/present_frame.h"
 #include "run/run.h"
 
-static const double DEFAULT_INTERVAL =
-    0.1; /* s between recorded frames where nothing else is asked for */
+static const double DEFAULT_INTERVAL = 0.1; /* s between recorded frames, unless given */
 
 typedef struct Recording {
     JoxRecorder *recorder;
     uint32_t every;                   /* ticks */
-    uint32_t base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
+    uint32_t base[JOX_MOST_MACHINES]; /* by machine: number of its first state in the recording */
     uint32_t next;                    /* the first number that no machine has */
-    uint32_t *shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
+    uint32_t *shapes;                 /* by body id: 1 + the blocks of the shape recorded last */
     size_t shape_capacity;
-    struct Wall { /* by number: as it was recorded last */
+    struct Wall { /* by number of the wall: as recorded last */
         uint64_t shape;
         uint32_t open, there;
     } * walls;
     size_t wall_capacity;
-    /* By agent's slot: sums over the steps since the recorded frame before, of who is in it. */
+    /* By agent's slot: sums over the steps since the last recorded frame. */
     struct BorneForces {
         float compression, load;
         uint32_t steps, id;
@@ -35,12 +35,12 @@ typedef struct Recording {
 
 static const JoxListenerKind RECORDING;
 
-/* Number of an agent's state in jostle_state. */
+/* Returns the number of an agent's state in the table jostle_state. */
 static uint32_t find_state_number(const Recording *r, const JoxAgents *a, uint32_t i) {
     return a->machine[i] == JOX_NO_MACHINE ? UINT32_MAX : r->base[a->machine[i]] + a->state[i];
 }
 
-/* A new version of a machine may have other states, so that it is given numbers of its own. */
+/* Gives the states of a machine new numbers: a new version may have other states. */
 static void record_machine_states(void *self, JoScene *scene, uint32_t index) {
     Recording *r = self;
     const JoxMachine *machine = scene->world->model.machines.items[index];
@@ -51,8 +51,8 @@ static void record_machine_states(void *self, JoScene *scene, uint32_t index) {
                            machine->states[s].colour);
 }
 
-/* The walkable area: that of the plan from which the scene has its walls, where all people are in
-   it and come into being there; else the box about everything. */
+/* Writes the walkable area as WKT: that of the plan from which the walls were read if all people
+   are, come in and start within it; else the box round everything. */
 static void write_walkable_area(const JoScene *scene, JoxText *wkt) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
@@ -86,7 +86,7 @@ static uint64_t hash_wall_shape(const JoxWalls *walls, uint32_t r) {
     return jox_hash_end(&hash);
 }
 
-/* Walls that opened, closed, were made, replaced or taken away since the frame before. */
+/* Records walls that opened, closed, were made, replaced or removed since the last frame. */
 static void record_walls(Recording *r, const JoxWalls *walls, uint32_t frame) {
     size_t number = 0;
     for (uint32_t at = 0; at < walls->ring_count; at++, number++) {
@@ -108,7 +108,7 @@ static void record_walls(Recording *r, const JoxWalls *walls, uint32_t frame) {
     }
 }
 
-/* Where a recording goes: a new one, or on with one that there is. */
+/* The file of a recording: a new one, or one to continue. */
 typedef struct Target {
     const char *path;
     double every; /* s; a step where that is longer */
@@ -145,7 +145,7 @@ static bool begin_recording(void *self, JoScene *scene, const void *options, JoE
     return true;
 }
 
-/* The parts of bodies that are new or came apart. */
+/* Records the shapes of bodies that are new or have broken. */
 static void record_body_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
     const JoxBodies *bodies = scene->world->state.bodies;
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
@@ -167,8 +167,8 @@ static void record_body_shapes(Recording *r, const JoScene *scene, uint32_t fram
     }
 }
 
-/* What people bear changes from step to step: frames have the mean since the one before, so that no
-   part of it is lost between them. */
+/* Adds up the forces that people bear in each step: frames hold their mean since the last one,
+   so that peaks between frames count. */
 static void add_borne_forces(Recording *r, const JoxAgents *a) {
     JOX_RESERVE_ZEROED(r->borne, r->borne_capacity, a->slot_count);
     for (uint32_t i = 0; i < a->count; i++) {
@@ -202,7 +202,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     record_body_shapes(r, scene, frame);
     record_walls(r, &scene->world->model.all_walls, frame);
     JoxRecordRow *rows = jox_recorder_begin_frame(r->recorder, a->count, count, &bodies);
-    for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
+    for (uint32_t rank = 0; rank < a->count; rank++) { /* by rank: the order in memory may differ */
         const uint32_t i = a->by_rank[rank], id = a->id[i];
         const struct BorneForces borne = take_mean_borne(r, a->slot[i]);
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);

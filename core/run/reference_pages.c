@@ -1,4 +1,5 @@
-/* Generated pages and files, by name. */
+/* Prints the reference pages and editor files that are generated, by name. `jostle reference`
+   calls it. */
 #include <string.h>
 
 #include "base/assert.h"

@@ -1,5 +1,5 @@
-/* The loading half of a reload: edited files become new machines and what it takes to put them in
-   the place of the old. */
+/* Loads edited files into new machines and a new specification, and works out how they replace
+   the running ones. The loading thread (reload_thread.c) calls it. */
 #include <stdio.h>
 #include <string.h>
 
@@ -34,7 +34,8 @@ bool jox_reload_use(JoxReload *r, uint32_t part, const char *path) {
     return !r->watch || jox_watch_add(r->watch, path);
 }
 
-/* What a batch is made of counts from here on; if it could not go live, that counts too. */
+/* Watches the files that a batch is made of; those of a batch that could not go live too, so
+   that the next edit tries again. */
 static void account_batch(JoxReload *r, const JoxBatch *batch, bool live) {
     if (live)
         jox_changes_mark_live(&r->changes, batch->parts);
@@ -75,7 +76,7 @@ static JoxChange *add_change(JoxBatch *batch, uint32_t index, const char *path) 
     return change;
 }
 
-/* Where a machine that is missing would be: beside the one that becomes it. */
+/* Writes the path at which a missing machine would be found: beside the one that becomes it. */
 static void write_path_beside(const char *from, const char *name, char path[1024]) {
     const size_t n = strlen(name);
     const bool has_ending = n > 4 && !strcmp(name + n - 4, ".lua");
@@ -84,7 +85,7 @@ static void write_path_beside(const char *from, const char *name, char path[1024
     jox_path_beside(from, file, path);
 }
 
-/* Machines that a new version becomes and that are not there yet join the batch. */
+/* Adds the machines that a new version becomes, and that the scene lacks, to the batch. */
 static void add_becomes(JoxReload *r, JoxBatch *batch, uint32_t c, const JoxMachine *next) {
     JoScene *scene = r->scene;
     const JoxMachineSet *set = &scene->world->model.machines;
@@ -157,8 +158,8 @@ void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part,
              part == JOX_RELOAD_SHEET ? "mod.yaml" : "patches/");
 }
 
-/* Names each mod.yaml that was edited, and each folder whose patches are others: which mods and
-   patches there are, in what order and with what settings is settled when a scene begins. */
+/* Reports edited mod.yaml files and changed folders of patches. They take effect at the next
+   start: mods, their order and settings are fixed when a scene begins. */
 static void report_mod_changes(const JoxReload *r, JoxBatch *batch) {
     static const char *const LATER[] = {
         [JOX_RELOAD_SHEET] = "changed; what it says of the mod, as of its settings, takes effect",
@@ -172,14 +173,14 @@ static void report_mod_changes(const JoxReload *r, JoxBatch *batch) {
         }
 }
 
-/* Works out what it takes to put the new version in the place of the old. */
+/* Works out how agents move from the running version to the new one. */
 void jox_batch_compare(JoxReload *r, JoxChange *change) {
     const JoxMachineRun *machines = &r->scene->world->machines;
     jox_replacement_free(change->replacement);
     JoxRecovery recovery;
     pthread_mutex_lock(&r->machines);
     jox_recovery_push(&recovery);
-    if (setjmp(recovery.jump) != 0) { /* no lock is held where memory is out */
+    if (setjmp(recovery.jump) != 0) { /* holds no lock when memory is out */
         pthread_mutex_unlock(&r->machines);
         jox_out_of_memory(0);
     }
@@ -191,7 +192,8 @@ void jox_batch_compare(JoxReload *r, JoxChange *change) {
     pthread_mutex_unlock(&r->machines);
 }
 
-/* Machines, which grow by what others become, and the scene's own files. */
+/* Loads the machines of a batch, which grow by those that others become, and the scene's own
+   files. */
 static void load_parts(JoxReload *r, JoxBatch *batch) {
     for (uint32_t c = 0; c < batch->count; c++)
         load_change(r, batch, c);
@@ -199,20 +201,20 @@ static void load_parts(JoxReload *r, JoxBatch *batch) {
         load_scene_files(r, batch);
 }
 
-/* What a vetter read. */
+/* Texts of the files that a vetter read, from which they are loaded. */
 typedef struct Vetted {
     JoxOverlay files;
     JoxWatch *watch;
 } Vetted;
 
-/* It may have changed once more since it was noticed. */
+/* Keeps the text that the vetter read: the file may have changed again since it was noticed. */
 static void keep_vetted_file(void *context, const char *path, const char *text, size_t length) {
     Vetted *vetted = context;
     jox_overlay_put(&vetted->files, path, text, length);
     jox_watch_set_known(vetted->watch, path, text, length);
 }
 
-/* Has them read by the scene's vetter, and loads them from what it read. */
+/* Lets the scene's vetter read the files of a batch, and loads it from the texts that it read. */
 static void load_vetted(JoxReload *r, JoxBatch *batch) {
     const JoVetter *vetter = r->scene->vetter;
     const char *paths[JOX_MOST_MACHINES];
@@ -251,14 +253,14 @@ bool jo_scene_try(JoScene *scene, const JoVetting *what) {
     JoxBatch *batch = jox_alloc(1, sizeof *batch);
     atomic_store(&r.machine_count, set->count);
     batch->parts[JOX_PART_SCENE] = what->scene;
-    for (size_t b = 0; b < what->behaviour_count; b++) /* which need not be one of this scene */
+    for (size_t b = 0; b < what->behaviour_count; b++) /* need not belong to this scene */
         add_change(batch, 0, what->behaviours[b]);
     load_parts(&r, batch);
     jox_batch_free(batch);
     return true;
 }
 
-/* Tags that the new versions ask for, against all machines as they will be. */
+/* Checks the tags that new versions ask for against all machines as they will be after the swap. */
 static void check_batch_tags(JoScene *scene, JoxBatch *batch) {
     const JoxMachineSet *set = &scene->world->model.machines;
     const JoxMachine *machines[2 * JOX_MOST_MACHINES];
@@ -280,7 +282,7 @@ static void check_batch_tags(JoScene *scene, JoxBatch *batch) {
     }
 }
 
-/* The next parts whose files have changed, loaded; NULL where there are none. */
+/* Loads the next parts whose files have changed, in the order in which they were noticed. */
 JoxBatch *jox_batch_prepare(JoxReload *r) {
     JoScene *scene = r->scene;
     const JoxMachineRun *machines = &scene->world->machines;

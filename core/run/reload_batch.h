@@ -1,4 +1,5 @@
-/* What the files reload*.c share. */
+/* A batch of a reload, and the state of the thread that loads. Shared by reload_thread.c,
+   reload_batch.c and reload_swap.c alone. */
 #ifndef JOX_RUN_RELOAD_BATCH_H
 #define JOX_RUN_RELOAD_BATCH_H
 
@@ -12,26 +13,26 @@
 
 /* One machine of a batch. */
 typedef struct JoxChange {
-    uint32_t index; /* in the mind; for a new machine, once it is added */
-    bool added;     /* another one becomes it */
+    uint32_t index; /* of the machine in the scene; for a new one, set when it is added */
+    bool added;     /* a new machine, which another becomes */
     char *path;
     JoxLoaded *loaded;
-    JoxFiles files; /* that were looked for */
+    JoxFiles files; /* files that the load looked for */
     JoxReplacement *replacement;
-    uint32_t edits; /* of the machine, when they were compared */
+    uint32_t edits; /* JoxReload.edits of the machine when the versions were compared */
 } JoxChange;
 
-/* What the loading thread hands over: machines, a new specification of the scene, or only what is
- * wrong. */
+/* A batch is handed by the loading thread to the stepping thread: machines, a new specification of
+   the scene, or only diagnostics. */
 typedef struct JoxBatch {
     JoxChange *changes;
     uint32_t count;
     size_t capacity;
-    JoxSceneSpec *spec; /* of the scene's own files; NULL: they did not change */
+    JoxSceneSpec *spec; /* NULL: the scene's own files did not change */
     JoxFiles spec_files;
     JoxDiagnostics diagnostics;
     JoxText said;
-    bool parts[JOX_PARTS]; /* machines and the scene that it is about */
+    bool parts[JOX_PARTS]; /* which machines, and the scene, it holds */
     double written;        /* seconds since 1970 */
     bool failed;
 } JoxBatch;
@@ -40,19 +41,20 @@ struct JoxReload {
     JoScene *scene;
     JoxWatch *watch;
     pthread_t thread;
-    bool running;             /* the thread */
+    bool running;             /* the thread runs */
     bool edited;              /* the stepping thread holds `machines` */
     int stop;                 /* eventfd */
-    atomic_uintptr_t ready;   /* JoxBatch *, to the stepping thread */
-    atomic_uintptr_t retired; /* JoxRetired *, back */
+    atomic_uintptr_t ready;   /* JoxBatch * for the stepping thread; 0: none */
+    atomic_uintptr_t retired; /* list of JoxRetired for the loading thread, which frees them */
     atomic_uint next_id, machine_count;
     atomic_bool starved;      /* memory ran out in the thread, which has ended */
-    JoxChanges changes;       /* the loading thread's own */
-    pthread_mutex_t machines; /* held while they are compared, or changed in place */
+    JoxChanges changes;       /* used by the loading thread alone */
+    pthread_mutex_t machines; /* held while machines are compared, or changed in place */
     uint32_t edits[JOX_MOST_MACHINES];
 };
 
-/* What was swapped out, freed off the stepping thread. */
+/* A batch that was taken or refused, and the machines that it replaced; freed on the loading
+   thread. */
 typedef struct JoxRetired {
     struct JoxRetired *next;
     JoxBatch *batch;
@@ -61,22 +63,23 @@ typedef struct JoxRetired {
     bool live; /* the batch was taken */
 } JoxRetired;
 
-/* reload_load.c: the next parts whose files have changed, loaded and compared with what runs; NULL
-   where there are none. */
+/* Loads the next parts whose files have changed, and compares them with what runs. NULL: no file
+   has changed. (reload_batch.c) */
 JoxBatch *jox_batch_prepare(JoxReload *reload);
-/* Works out what it takes to put the new version of a machine in the place of the old. */
+/* Works out how agents move from the running version of a machine to the new one. */
 void jox_batch_compare(JoxReload *reload, JoxChange *change);
 void jox_batch_free(JoxBatch *batch);
-/* Frees what was swapped out; its files count as live, or as tried. */
+/* Frees what was swapped out, and watches the files of its batch: as live, or as tried. */
 void jox_reload_free_retired(JoxReload *reload);
-/* A part is made of a file. False with errno if the file cannot be watched. */
+/* Notes that a part is made of a file, and watches it. False with errno if it cannot be watched. */
 bool jox_reload_use(JoxReload *reload, uint32_t part, const char *path);
-/* Parts of a mod that are watched though no machine or scene is made of them. */
+/* Files of a mod that are watched though no machine or scene is made of them. */
 enum { JOX_RELOAD_SHEET, JOX_RELOAD_PATCHES, JOX_RELOAD_MOD_PARTS };
 /* Writes the path of a mod's mod.yaml, or of its folder of patches. */
 void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part, char path[JOX_LONGEST_PATH]);
-/* reload_swap.c: on the stepping thread, between two steps: all of a batch goes live, or nothing of
-   it and people are told why. It is handed back through `retired`. True if it is live. */
+/* Takes over a batch on the stepping thread, between two steps: all of it goes live, or nothing
+   and the reasons are reported. Hands it back through `retired`. True if it is live.
+   (reload_swap.c) */
 bool jox_batch_take(JoScene *scene, JoxBatch *batch);
 
 #endif

@@ -1,4 +1,5 @@
-/* A scene's own files were edited: what can change while it runs does, the rest is named. */
+/* Takes over an edited scene file: applies what can change while the scene runs, and names what
+   waits for the next start. reload_swap.c calls it between two steps. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@
 typedef struct SceneReload {
     JoScene *scene;
     JoxSceneSpec *old, *new;
-    JoxText done, later; /* what changed; what waits for the next start */
+    JoxText done, later; /* list of what changed; list of what waits for the next start */
 } SceneReload;
 
 static void add_to_list(JoxText *list, const char *what) {
@@ -43,7 +44,8 @@ static void replace_places(SceneReload *r) {
     for (uint32_t p = 0; p < r->new->place_count; p++) {
         const JoxPlace *from = &r->new->places[p];
         JoxPlace *to = &world->model.places[p];
-        if (jox_place_same(to, from)) /* the old specification may lag behind: see below */
+        /* Compared with the world's place: the old specification may lag behind. */
+        if (jox_place_same(to, from))
             continue;
         moved = true;
         jox_place_free(to);
@@ -58,7 +60,8 @@ static void replace_places(SceneReload *r) {
 
 /* ---- walls ---- */
 
-/* Whether the walls there are would be the same; those that were opened or closed stay so. */
+/* Whether walls are the same, apart from gates that were opened or closed during the run: these
+   stay as they are. */
 static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
     if (a->count != b->count || a->ring_count != b->ring_count)
         return false;
@@ -126,7 +129,7 @@ static bool same_behaviours(const JoxGroup *a, const JoxGroup *b) {
     return same;
 }
 
-/* Notes what a group's next start differs in. Where no group was edited, its people start elsewhere
+/* Lists what differs at the next start of groups. If no group was edited, people start elsewhere
    because walls or places were. */
 static void note_starts(SceneReload *r, bool counts, bool starts, bool behaviours) {
     if (behaviours)
@@ -137,7 +140,8 @@ static void note_starts(SceneReload *r, bool counts, bool starts, bool behaviour
         add_to_list(&r->later, "counts and positions of groups");
 }
 
-/* False where the groups are others. */
+/* Gives the living of each group the values that were edited. False if the groups have other
+   names or order: the new specification is then not taken. */
 static bool replace_group_values(SceneReload *r) {
     bool names = r->old->group_count == r->new->group_count, set_any = false;
     bool counts = false, starts = false, behaviours = false, colours = false;
@@ -179,7 +183,8 @@ static bool replace_group_values(SceneReload *r) {
 
 /* ---- the rest ---- */
 
-/* Whether there are others; they go on from what they have given: a new rate counts from now. */
+/* Returns whether sources or sinks were edited. Sources go on from the people they have made: a
+   new rate counts from now. */
 static bool note_sources(SceneReload *r) {
     if (!jox_scene_differs(r->old, r->new, "sources") &&
         !jox_scene_differs(r->old, r->new, "sinks"))
@@ -188,7 +193,7 @@ static bool note_sources(SceneReload *r) {
     return true;
 }
 
-/* Tells of sources that lie in walls now. */
+/* Reports sources that lie in walls since the edit. */
 static void check_new_sources(const SceneReload *r) {
     JoxDiagnostics blocked = {0};
     if (!jox_scene_differs(r->old, r->new, "sources") &&
@@ -203,7 +208,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
     double begun = jox_clock_wall();
     replace_places(&r);
     bool sources = false;
-    bool groups = r.later.length == 0; /* places of other names: their numbers mean others */
+    bool groups = r.later.length == 0; /* places of other names: their numbers would mean others */
     replace_walls(&r);
     if (groups) {
         groups = replace_group_values(&r);

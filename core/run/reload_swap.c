@@ -1,4 +1,4 @@
-/* The swapping half of a reload, between two steps. */
+/* Swaps loaded machines for the running ones between two steps, on the stepping thread. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 #include "run/scene_machines.h"
 #include "run/tags_and_teams.h"
 
-/* "  Circle 31204  Exit 310": agents per state. */
+/* Writes the number of agents in each state: "  Circle 31204  Exit 310". */
 static void write_census(const JoxMachine *machine, const uint32_t *people, JoxText *out) {
     char number[JOX_NOUN];
     for (uint32_t s = 0; s < machine->state_count; s++)
@@ -46,7 +46,7 @@ static void report_refusal(JoScene *scene, JoxBatch *batch, const char *path, co
         jox_run_say(scene, " The scene goes on as it was.\n");
 }
 
-/* Machines that others become, and links to them. */
+/* Adds the machines that others become, and links the states that become them. */
 static void link_batch(JoScene *scene, JoxBatch *batch) {
     JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t c = 0; c < batch->count; c++) {
@@ -67,7 +67,7 @@ static void link_batch(JoScene *scene, JoxBatch *batch) {
     }
 }
 
-/* Own values that the old version did not have, as the scene sets them. */
+/* Gives agents the values that the scene sets and the old version had no slot for. */
 static void give_new_values(JoScene *scene, const JoxChange *change, const JoxMachine *old,
                             const JoxMachine *next) {
     const JoxSceneSpec *spec = scene->spec;
@@ -114,7 +114,7 @@ static void swap_machines(JoScene *scene, JoxBatch *batch, JoxRetired *retired) 
         char number[JOX_NOUN], version[JOX_VERSION_TEXT];
         for (uint32_t s = 0; s < next->state_count; s++)
             people += after[s];
-        if (!same_states(old, next)) /* the recording names those of the new version too */
+        if (!same_states(old, next)) /* a recording has to name the new states */
             jox_run_tell_replaced(scene, change->index);
         double took = jox_clock_wall() - begun;
         scene->swap_seconds = took > scene->swap_seconds ? took : scene->swap_seconds;

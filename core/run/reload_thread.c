@@ -1,7 +1,6 @@
-/* Files that are edited while the crowd runs. A thread of its own waits for them, loads everything
-   that is made of them into fresh Lua states, and works out what it takes to put the new machines
-   in the place of the old (reload_load.c). The stepping thread finds it ready between two steps,
-   and swaps all of it or nothing (reload_swap.c). */
+/* Waits on a thread of its own for files to be edited, loads what is made of them into fresh Lua
+   states, and works out how it replaces what runs (reload_batch.c). The stepping thread finds it
+   ready between two steps, and swaps all of it or nothing (reload_swap.c). */
 #include <errno.h>
 #include <string.h>
 #include <sys/eventfd.h>
@@ -26,7 +25,8 @@ static void load_until_stopped(JoxReload *r) {
     while (read(r->stop, &signal, sizeof signal) != (ssize_t)sizeof signal) {
         jox_watch_wait(r->watch, r->stop, jox_changes_has_untried(&r->changes) ? 0.002 : 1.0,
                        note_change, r);
-        bool busy = atomic_load(&r->ready) != 0; /* one at a time: it is compared with what runs */
+        /* One batch at a time: it is compared with what runs. */
+        bool busy = atomic_load(&r->ready) != 0;
         jox_reload_free_retired(r);
         if (!busy)
             atomic_store(&r->ready, (uintptr_t)jox_batch_prepare(r));
@@ -94,7 +94,7 @@ static void watch_file(JoxReload *r, uint32_t part, const char *path) {
         jox_run_say(r->scene, "%s cannot be watched: %s\n", path, strerror(errno));
 }
 
-/* What the running scene is made of. */
+/* Creates the reload of a scene, and watches all files that the scene is made of. */
 static JoxReload *create_reload(JoScene *scene, JoxWatch *watch) {
     JoxReload *r = jox_alloc(1, sizeof *r);
     *r = (JoxReload){.scene = scene, .watch = watch, .stop = -1};
@@ -164,7 +164,7 @@ bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *err
     while ((batch = jox_batch_prepare(r))) {
         live &= jox_batch_take(scene, batch);
         jox_reload_free_retired(r);
-        for (uint32_t f = 0; f < files->number; f++) /* a file that only the new version uses */
+        for (uint32_t f = 0; f < files->number; f++) /* only the new version uses the file */
             if (jox_run_is_live(scene, &files->files[f]))
                 jox_changes_forget_file(&r->changes, files->files[f].path);
     }

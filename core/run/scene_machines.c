@@ -46,7 +46,7 @@ static int32_t load_machine(JoScene *scene, const char *path, JoxDiagnostics *di
     return (int32_t)jox_machines_add(machines, machine);
 }
 
-/* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
+/* Finds the file of a behaviour that another names: in a mod, beside it, or in the library. */
 static bool find_behaviour_file(const JoScene *scene, const char *from, const char *name,
                                 char path[1024]) {
     static const char *const FOLDERS[] = {"", JOX_DATADIR "/behaviours/", NULL};
@@ -114,7 +114,7 @@ bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
                 continue;
             good = false;
         }
-    for (uint32_t m = 0; m < machines->set->count; m++) /* grows while it goes on */
+    for (uint32_t m = 0; m < machines->set->count; m++) /* the count grows in this loop */
         good &= jox_run_link(scene, machines->set->built[m], diagnostics);
     for (uint32_t m = 0; good && m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->built[m];

@@ -1,4 +1,5 @@
-/* Parameters that people set while a scene runs: of a state, or of a machine's defaults. */
+/* Sets parameters of a state, or of a machine's defaults, while a scene runs. Inputs and the
+   live page call it. */
 #include <math.h>
 #include <string.h>
 
@@ -23,7 +24,7 @@ static bool find_machine_named(const JoxMachineRun *machines, const char *name, 
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
         names[m] = machine->name;
-        if (strcmp(machine->path, name) == 0) { /* tells those of one name apart */
+        if (strcmp(machine->path, name) == 0) { /* a path tells machines of one name apart */
             out->machine = m;
             return true;
         }

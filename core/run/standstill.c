@@ -1,5 +1,6 @@
-/* Who wants to get on and does not: who stood the longest, crowds that stand still, and people to
-   whose goal no way leads. Said while the run goes on, once each. */
+/* The listener that looks, each second, for people who want to get on and do not: who stood
+   longest, crowds that stand still, and goals that cannot be reached. Each is said once, while
+   the run goes on; results/ reads the rest at the end. */
 #include <math.h>
 
 #include "base/format/plurals.h"
@@ -9,55 +10,56 @@
 #include "run/wall_checks.h"
 #include "world/routes/hindrance.h"
 
-static const double LOOK_INTERVAL = 1.0;    /* s between looks at each person */
-static const float MOVED = 0.25f;           /* m: who has come so far does not stand */
-static const double STANDSTILL_TIME = 30.0; /* s: who has stood so long stands still */
-static const float CLUSTER_RADIUS = 5.0f;   /* m: about the middle of a crowd */
-/* A crowd: so many of them, or fewer but half of all who are there. */
+static const double LOOK_INTERVAL = 1.0;    /* s between looks at all people */
+static const float MOVED = 0.25f;           /* m: an agent that moved farther does not stand */
+static const double STANDSTILL_TIME = 30.0; /* s: an agent that stood longer stands still */
+static const float CLUSTER_RADIUS = 5.0f;   /* m: agents within it form a cluster */
+/* A crowd: CROWD people who stand still, or FEW and half of all present. CANDIDATES people are
+   tried as the centre of a cluster. */
 enum { CROWD = 10, FEW = 3, CANDIDATES = 64 };
-/* What is known of a place: that a way leads there; that none did when last looked, which is judged
-   once it holds at two looks, as ways through gates are known a little later; that a way leads
-   there for people as broad as those; that it was told. */
+/* What is known of the ways to a place. LEADS: there is one. SEEMS_SHUT: there was none at the
+   last look; judged if the next agrees, as ways through gates are found a little later. CLEARED:
+   judged, and there is one for people as broad as these. TOLD: judged, and reported. */
 typedef enum NoWay { LEADS, SEEMS_SHUT, CLEARED, TOLD } NoWay;
-/* What people do at a look who go to one place: nobody does; some go there; some wait there, or on
-   their way, for a gate or a body that shuts it. */
+/* What the people bound for a place do at a look: nobody goes there; some walk there; some wait
+   for a gate or body that shuts their way. */
 typedef enum Waits { NOBODY, GO, WAIT } Waits;
 static const float WIDEST_ROUTE_RADIUS =
-    0.22f; /* m: radius of people for whom the ways of routes are too narrow */
+    0.22f; /* m: routes are computed for people up to this radius */
 
 typedef struct Stand {
     JoxV2 at;
-    uint32_t since; /* tick; NEVER: did not want to get on when last seen */
+    uint32_t since; /* tick; NEVER: did not want to get on at the last look */
     uint32_t id;
 } Stand;
 enum { NEVER = UINT32_MAX };
 
 typedef struct Standing {
-    Stand *people; /* by slot */
+    Stand *people; /* by agent's slot */
     size_t capacity;
-    uint32_t seen; /* slots that were ever looked at */
+    uint32_t seen; /* slots that are initialised */
     JoxStood longest;
-    JoxStill still, now; /* the longest, and the present one; people 0: none */
-    JoxV2 *stills;       /* where those stand who do so now */
+    JoxStill still, now; /* the longest standstill, and the present one; people 0: none */
+    JoxV2 *stills;       /* positions of people who stand still at this look */
     size_t still_count, still_capacity;
     uint8_t *told; /* by place: NoWay */
     size_t told_count, told_capacity;
-    double *shut_since; /* by place, s: since when people wait for what is shut; NAN: none do */
+    double *shut_since; /* by place, s: since when people wait for a shut way; NAN: nobody waits */
     size_t shut_count, shut_capacity;
-    uint32_t *first; /* by place: of this look the broadest person with none, plus 1 */
+    uint32_t *first; /* by place, at this look: 1 + the broadest agent without a way */
     size_t first_capacity;
-    uint8_t *waits; /* by place, of this look: Waits */
+    uint8_t *waits; /* by place, at this look: Waits */
     size_t waits_capacity;
-    JoxKeptList kept; /* at the time at which it was asked for last */
-    /* Counts by group of each item of `kept`. Reserved in steps, from the scene's heap: whoever
-       asks for `kept` may have a heap of one call. */
+    JoxKeptList kept; /* made at time kept_at */
+    /* Counts by group of each item of `kept`. Reserved at looks, on the scene's heap:
+       jox_run_kept may be called on the heap of a single call. */
     uint32_t *kept_groups;
     size_t kept_groups_capacity;
     double kept_at;  /* s */
-    uint32_t no_way; /* places to which none leads */
+    uint32_t no_way; /* places reported as TOLD */
 } Standing;
 
-/* Slots are used again: who is new in one has not stood yet. */
+/* Returns the stand of an agent's slot, reset if the slot has a new agent. */
 static Stand *find_stand(Standing *s, const JoxAgents *a, uint32_t i) {
     JOX_RESERVE(s->people, s->capacity, a->slot_count);
     for (; s->seen < a->slot_count; s->seen++)
@@ -91,8 +93,8 @@ static void update_stand(Standing *s, const JoWorld *world, uint32_t i) {
 
 /* ---- crowds ---- */
 
-/* Where most of those who stand still are: of some of them, the middle of those about the one who
-   has most about. */
+/* Returns the centre of the densest cluster of people who stand still, trying CANDIDATES of
+   them. */
 static JoxV2 find_cluster_centre(const Standing *s) {
     const size_t step = s->still_count / CANDIDATES + 1;
     JoxV2 best = {0, 0};
@@ -159,14 +161,14 @@ static float get_radius(const JoxAgents *a, uint32_t i) {
     return jox_param(a, JOX_PARAM_radius, i);
 }
 
-/* Whether a closed gate stands where people leave by a point or a line. */
+/* Whether a closed gate stands on the point or line by which people leave. */
 static bool has_gate_at_goal(const JoScene *scene, uint32_t place) {
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     return jox_hindrance_find_gate(&stage, place) != UINT32_MAX;
 }
 
-/* Tells whom something that never moves keeps from a place; false: a way leads there for the first,
-   or will. */
+/* Reports the people whom something that never moves keeps from a place. False if a way leads
+   there for agent `first`, or will. */
 static bool report_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t first) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;
@@ -328,7 +330,7 @@ static JoxKept *find_kept_people(Standing *s, const JoScene *scene, uint32_t pla
     return kept;
 }
 
-/* Adds the people who go to one place. */
+/* Adds the people who are kept from one place to the list. */
 static void add_kept_people(Standing *s, const JoScene *scene, uint32_t place,
                             const bool *opening) {
     const JoxMachineRun *machines = &scene->world->machines;
@@ -358,7 +360,7 @@ const JoxKeptList *jox_run_kept(const JoScene *scene) {
     Standing *s = jox_run_listener(scene, &STANDING);
     const double now = jo_world_time(scene->world);
     if (!s || s->kept_groups_capacity < (size_t)JOX_MOST_KEPT * scene->spec->group_count)
-        return NULL; /* no look since a scene with as many groups came */
+        return NULL; /* no look yet since the scene has so many groups */
     if (s->kept_at == now)
         return &s->kept;
     s->kept_at = now;

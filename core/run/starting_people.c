@@ -1,4 +1,5 @@
-/* The groups of a scene become the world's agents; and what is unsound about how they begin. */
+/* Places the people of groups when a scene starts, and reports who was shifted or does not fit.
+   build_scene.c calls it; reload_scene.c, to pass an edited schedule to the world. */
 #include <math.h>
 #include <string.h>
 
@@ -19,8 +20,8 @@ void jox_run_set_schedule(JoScene *scene, bool anew) {
 
 /* ---- a step that is too long ---- */
 
-/* The greatest, or least, that a value is for those who run the machine; NAN where it is computed.
- */
+/* Returns the greatest or least value of a parameter among agents that run the machine; NAN if
+   it is computed in each step. `value`: where it is set. */
 static double find_extreme(const JoScene *scene, uint32_t number, const JoxState *state,
                            int parameter, bool greatest, const JoxValue **value) {
     const JoxMachine *machine = scene->world->machines.set->items[number];
@@ -49,7 +50,8 @@ static JoxPosition get_position(const JoxMachine *machine, const JoxState *state
                : (JoxPosition){jox_machine_file(machine, state->source), state->line, 0, 0};
 }
 
-/* Of one state: whether somebody goes past a person, or is pushed past one, within a step. */
+/* Warns if agents in a state walk past a person, or are pushed past one, within a step. Returns
+   whether it did. */
 static bool check_state_step(const JoScene *scene, uint32_t number, const JoxState *state,
                              double step, JoxDiagnostics *diagnostics) {
     const JoxMachine *machine = scene->world->machines.set->items[number];
@@ -87,13 +89,12 @@ void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics) {
     for (uint32_t m = 0; m < set->count; m++)
         for (uint32_t s = 0; s < set->items[m]->state_count; s++)
             if (check_state_step(scene, m, &set->items[m]->states[s], step, diagnostics))
-                break; /* one of a machine is enough */
+                break; /* one warning a machine is enough */
 }
 
 /* ---- people in walls and in each other ---- */
 
-static const double FAR_SHIFT =
-    0.5; /* m: who was moved by less stands about where the scene says */
+static const double FAR_SHIFT = 0.5; /* m: a smaller shift is noted, not warned of */
 
 static void report_shifted(const JoxGroup *group, const JoxPlaced *placed,
                            JoxDiagnostics *diagnostics) {
@@ -108,8 +109,8 @@ static void report_shifted(const JoxGroup *group, const JoxPlaced *placed,
                  placed->shifted == 1 ? "was" : "were", (double)placed->farthest);
 }
 
-/* A warning, and the run goes on without them; an error where nobody fits, or, of a count, fewer
-   than half do: figures of so few people would be those of another scene. */
+/* Warns of people who do not fit. Adds an error if nobody fits or, where the group gives a
+   count, fewer than half do: figures of so few would be those of another scene. */
 static void report_not_placed(const JoxGroup *group, const JoxPlaced *placed,
                               JoxDiagnostics *diagnostics) {
     const bool given = group->fill == JOX_FILL_AT || group->starts;

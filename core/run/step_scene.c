@@ -1,4 +1,4 @@
-/* One step of a running scene, and its end. */
+/* Performs a step of a running scene, and ends it. jo_scene_step and jo_scene_finish are here. */
 #include "base/assert.h"
 #include "base/guard.h"
 #include "run/input_actions.h"
@@ -35,7 +35,7 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
         scene->world->busy = false;
         return false;
     }
-    scene->world->busy = true; /* messages come from within */
+    scene->world->busy = true; /* refuses calls from message functions */
     const bool good = perform_step(scene, error);
     scene->world->busy = false;
     return good;

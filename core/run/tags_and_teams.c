@@ -1,7 +1,7 @@
-/* What the texts of a run do not say. Tags and teams that behaviours name get their numbers in the
-   scene, also those that nobody has yet and states set, and what is asked for must be borne or set
-   by somebody. A checkpoint lists these numbers, and what agents keep of earlier versions of their
-   behaviours. */
+/* Numbers the tags and teams that behaviours name, and checks that they exist. Names that no
+   group has yet get numbers too: states may set them. Writes these numbers, and what machines
+   keep of earlier versions of their behaviours, into checkpoints, since the texts of a run do
+   not tell them. scene_machines.c, reload_batch.c and resume/ call it. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "run/run.h"
 #include "run/tags_and_teams.h"
 
-/* Text in memory by which a resumed run gets them. */
+/* A resumed run reads them from a text in memory under this name. */
 const char jox_run_names_path[] = "<tags and teams>";
 
 void jox_run_refresh_names(JoScene *scene) {
@@ -29,8 +29,8 @@ void jox_run_number_belongings(JoScene *scene, JoxMachine *machine) {
             number = jox_world_add_tag(scene->world, b->name);
         else if (b->number >= JOX_FIRST_SET_TEAM)
             number = jox_world_add_team(scene->world, b->name);
-        /* Those of several machines that are put in at once may be too many: the last are nobody's.
-         */
+        /* Several machines that join at once may have too many names: the last ones keep numbers
+           that no agent has. */
         numbers[n] = (uint16_t)(number < 0 ? b->number : number);
     }
     jox_machine_renumber(machine, numbers);
@@ -83,7 +83,8 @@ static bool is_tag_set(const JoxMachine *const *machines, uint32_t count, const 
 
 enum { MOST_NAMES = 256 };
 
-/* Tags that are borne or set, or teams that groups have; returns how many. */
+/* Collects the tags that are on bodies and groups or set by machines, or the teams of groups.
+   Returns the count. */
 static size_t collect_names(const JoxSceneSpec *spec, const JoxMachine *const *machines,
                             uint32_t count, bool teams, const char *names[MOST_NAMES]) {
     size_t n = 0;
@@ -114,7 +115,7 @@ static bool is_tag_read(const JoxMachine *const *machines, uint32_t count, const
     return false;
 }
 
-/* A name that is set and that nothing else knows, and is like another: it may be misspelt. */
+/* Warns of a name that is set and used nowhere else but resembles another: it may be misspelt. */
 static void warn_of_new_name(const JoxBelonging *b, JoxPosition at, const char *const *names,
                              size_t count, JoxDiagnostics *diagnostics) {
     char hint[JOX_HINT];
@@ -160,8 +161,7 @@ void jox_run_check_belongings(const JoScene *scene, const JoxMachine *machine,
 
 /* ---- runs that go on ---- */
 
-/* What the text of a machine does not say: memory and own values that are kept of earlier versions.
- */
+/* Writes the memory and own values that a machine keeps of earlier versions of its behaviour. */
 static void write_kept_slots(const JoxMachine *machine, JoxText *out) {
     for (uint32_t s = 0; s < machine->own_count; s++) {
         const JoxOwnSlot *own = &machine->own[s];
@@ -191,7 +191,7 @@ void jox_run_list_names(const JoScene *scene, JoxText *out) {
         write_kept_slots(model->machines.built[m], out);
 }
 
-/* Ends a field at a tab; the one behind it, or NULL. */
+/* Ends a field at its tab. Returns the next field, or NULL. */
 static char *next_field(char *at) {
     char *tab = at ? strchr(at, '\t') : NULL;
     if (tab)
@@ -217,7 +217,7 @@ static void restore_own_slot(JoxMachine *machine, char *kinds, const double *n, 
     machine->own[machine->own_count++] = own;
 }
 
-/* Adds what a line says of the machine. */
+/* Adds the slot of a line to the machine, if the line is about it. */
 static void restore_kept_slot(JoxMachine *machine, char *line) {
     char *path = next_field(line), *number = next_field(path), *value = next_field(number),
          *name = next_field(value);

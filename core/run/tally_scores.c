@@ -1,4 +1,5 @@
-/* Tallies: what is counted of the agents that are there, as a score. */
+/* Counts the scores of a scene (`tally`) over its agents, for results and their last lines.
+   Warns of names in them that no behaviour has. */
 #include <math.h>
 #include <string.h>
 
@@ -48,7 +49,7 @@ void jox_run_add_tally(const JoScene *scene, JoxJson *json) {
     jox_json_end(json);
 }
 
-/* Whether two tell of the same thing, so that the greater one is ahead. */
+/* Whether two scores count the same for different groups, so that the greater is ahead. */
 static bool are_rivals(const JoxTally *a, const JoxTally *b) {
     const char *texts[][2] = {{a->memory, b->memory}, {a->state, b->state}, {a->unit, b->unit}};
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
@@ -99,7 +100,7 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
     }
 }
 
-/* Of a name that no behaviour of the scene has: a state, or a memory. */
+/* Warns of a state or memory that no behaviour of the scene has. */
 static void report_unknown_name(const JoScene *scene, const JoxTally *tally, bool state,
                                 JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = scene->world->machines.set;

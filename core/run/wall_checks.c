@@ -1,5 +1,5 @@
-/* What walls and bodies keep people of a scene from: coming in by sources that lie in walls, and
-   goals to which no way leads. */
+/* Checks sources that lie in walls, and goals that walls, gates and bodies keep people from.
+   build_scene.c and `jostle check` call it; standstill.c and results/ use its sentences. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,8 +12,7 @@
 
 /* ---- sources ---- */
 
-static const double LEAST_SHARE =
-    0.02; /* share of a place: less is no more than how finely it is drawn */
+static const double LEAST_SHARE = 0.02; /* share of a place: less is within its resolution */
 
 /* Lays the walls that are no gates, as gates may open, and their images beyond joined edges. */
 static void lay_lasting_walls(const JoScene *scene, JoxWalls *walls) {
@@ -22,15 +21,15 @@ static void lay_lasting_walls(const JoScene *scene, JoxWalls *walls) {
     jox_wall_images_add(walls, a->origin, a->period, (JoxV2){0.0f, 0.0f});
 }
 
-/* What takes a share of a place from those who come in there. */
+/* Says what covers the blocked part of a place. */
 static const char *name_cause(const JoxEntrance *entrance) {
     return entrance->outside == 0.0                 ? "in a wall or beyond one"
            : entrance->outside >= entrance->blocked ? "outside the walkable area"
                                                     : "in walls or outside the walkable area";
 }
 
-/* Warns where a part of a place is blocked, or all of one of a set. Returns why nobody can come in
-   there, NULL where somebody can. */
+/* Warns if part of an entrance is blocked, or all of one of a set. Returns why nobody can come
+   in there; NULL: people can. */
 static const char *check_entrance(const JoScene *scene, const JoxAgentSource *source, uint32_t door,
                                   JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
     const JoxPlace *places = scene->world->model.places;
@@ -87,26 +86,27 @@ void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics) {
 
 /* ---- ways to goals ---- */
 
-/* Of those who are there at the start, and of one who comes in by each source; asked before the
-   first step, of a world that never steps. */
+/* Looks at the people who are there at the start and at one more for each source, before the
+   first step of a world that never steps. */
 
-enum { MOST_GOALS = 64, MOST_PLACES = 64 }; /* of one person; that are looked at: bits of a mask */
+enum { MOST_GOALS = 64 };  /* of one agent */
+enum { MOST_PLACES = 64 }; /* checked: bits of a mask */
 
-/* Places that people go to, and who goes where. */
+/* Places that are goals, and the goals of each agent. */
 typedef struct Goals {
     uint32_t places[MOST_PLACES], count;
-    uint64_t *of;  /* by person: a bit for each of the places */
-    bool *opening; /* by ring of walls: a gate that something opens */
+    uint64_t *of;  /* by agent: a bit for each of `places` */
+    bool *opening; /* by ring of walls: whether something opens it */
 } Goals;
 
-/* People of a group, or of a source, whom one kind of hindrance keeps from a place. */
+/* People of a group or source whom one kind of hindrance keeps from a place. */
 typedef struct KeptCount {
     uint32_t people;
-    float widest;       /* m: radius */
-    JoxHindrance first; /* of the first of them */
+    float widest;       /* m: their greatest radius */
+    JoxHindrance first; /* the hindrance of the first of them */
 } KeptCount;
 
-/* One person for each source, who is only looked at. Returns the first of them. */
+/* Adds one agent for each source. Returns the index of the first. */
 static uint32_t add_person_per_source(JoScene *scene, uint32_t **source_of) {
     JoWorld *world = scene->world;
     const uint32_t first = world->state.agents.count;
@@ -174,7 +174,7 @@ bool jox_run_opens(const JoScene *scene, const char *gate) {
     for (uint32_t r = 0; r < walls->ring_count; r++)
         set |=
             walls->rings[r].name && strcmp(walls->rings[r].name, gate) == 0 && walls->rings[r].set;
-    return set && !closes; /* by people at the page, or by a program */
+    return set && !closes; /* set by a person at the page, or by a program */
 }
 
 bool *jox_run_opening_gates(const JoScene *scene) {
@@ -185,7 +185,7 @@ bool *jox_run_opening_gates(const JoScene *scene) {
     return opening;
 }
 
-/* Whether a check tells of it: doors and gates that something moves are no fault. */
+/* Whether a hindrance is a fault of the scene: doors and gates that something moves are none. */
 static bool is_fault(const JoScene *scene, const JoxHindrance *h) {
     switch (h->kind) {
     case JOX_HINDRANCE_WALL:
@@ -222,7 +222,8 @@ static void write_hint(const KeptCount *kept, char out[JOX_HINT]) {
     }
 }
 
-/* Warns of people of a group (`all` of them, 0: of a source, `who`) whom something keeps away. */
+/* Warns of people who are kept from a goal: of a group, `all` of them, or of a source (`all` 0).
+   `who`: name of the group, or of the source's place. */
 static void warn_of_kept_people(const JoScene *scene, JoxPosition position, const KeptCount *kept,
                                 const char *who, uint32_t all, const char *goal,
                                 JoxDiagnostics *diagnostics) {
@@ -268,7 +269,7 @@ static void collect_goals(const JoWorld *world, Goals *goals) {
     }
 }
 
-/* Tells of people who go to the n-th goal and are kept from it. */
+/* Warns of people who are kept from the n-th goal. */
 static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t first_of_sources,
                        const uint32_t *source_of, JoxDiagnostics *diagnostics) {
     const JoxSceneSpec *spec = scene->spec;
@@ -310,7 +311,8 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
 
 /* ---- goals in walls ---- */
 
-/* Whether walls fill an area: nobody is ever inside. Lines and queues are reached from beside. */
+/* Whether walls fill a place, so that nobody is ever inside. Lines and queues are reached from
+   beside. */
 static bool is_filled_by_walls(JoxWallGrid *grid, const JoxPlace *place) {
     if (!jox_place_is_spot(place) && !jox_place_is_area(place))
         return false;
@@ -321,7 +323,8 @@ static bool is_filled_by_walls(JoxWallGrid *grid, const JoxPlace *place) {
     return filled;
 }
 
-/* Of a step of a journey, whose people go on once they are inside; `goal` may be -1. */
+/* Warns if a place of a journey's step lies in a wall: people go on once they are inside. `goal`
+   may be -1. */
 static void check_step_place(const JoScene *scene, JoxPosition position, int32_t goal,
                              JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
     const JoxPlace *places = scene->world->model.places;
