@@ -13,9 +13,8 @@
 
 #include "base/text.h"
 #include "jostle_tools.h"
+#include "unit/test_folder.h"
 #include "unit/view_client.h"
-
-static char folder[] = "/tmp/jostle-live-XXXXXX";
 
 static const char SCENE[] =
     "jostle: 1\n"
@@ -36,39 +35,12 @@ static const char WALKER[] =
     "  },\n"
     "}\n";
 
-static const char *session_path(const char *name) {
-    static char paths[8][300];
-    static int turn;
-    char *path = paths[turn++ % 8];
-    snprintf(path, 300, "%s/%s", folder, name);
-    return path;
-}
-
-static void write_session_file(const char *name, const char *text) {
-    FILE *file = fopen(session_path(name), "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-}
-
 static int make_session_folder(void **state) {
-    (void)state;
-    if (!mkdtemp(folder))
+    if (make_test_folder(state) != 0)
         return -1;
-    mkdir(session_path("build"), 0700);
-    write_session_file("index.html", "page");
-    write_session_file("build/three.module.js", "three");
+    write_test_file("index.html", "page");
+    write_test_file("build/three.module.js", "three");
     return 0;
-}
-
-static int remove_session_folder(void **state) {
-    (void)state;
-    static const char *const NAMES[] = {"index.html", "build/three.module.js", "scene.yaml",
-                                        "walker.lua", "log.txt"};
-    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++)
-        unlink(session_path(NAMES[i]));
-    rmdir(session_path("build"));
-    return rmdir(folder);
 }
 
 /* ---- the session ---- */
@@ -120,12 +92,12 @@ static void begin_session(double seconds) {
                         .lock = PTHREAD_MUTEX_INITIALIZER,
                         .opened = PTHREAD_COND_INITIALIZER};
     JoViewDef *def = &session.def;
-    def->scene.path = session_path("scene.yaml");
+    def->scene.path = test_path("scene.yaml");
     def->scene.message = keep_session_message;
     def->scene.message_context = &session;
     def->scene.named_mods_only = true;
-    def->page = def->three = folder;
-    def->log_input = session_path("log.txt");
+    def->page = def->three = test_folder;
+    def->log_input = test_path("log.txt");
     def->seconds = seconds;
     def->stop = &session.stop;
     def->opened = keep_session_address;

@@ -4,8 +4,8 @@
 
 static void new_page_gets_scene_errors_frames_and_status(void **state) {
     (void)state;
-    write_session_file("scene.yaml", SCENE);
-    write_session_file("walker.lua", WALKER);
+    write_test_file("scene.yaml", SCENE);
+    write_test_file("walker.lua", WALKER);
     begin_session(0);
     join_session();
     int kind;
@@ -129,7 +129,7 @@ static void finished_scene_pauses_and_restarts(void **state) {
 
 /* Sums the pushes on an agent at a tick in the input log, N. */
 static void sum_logged_pushes(double tick, uint32_t agent, double sum[2]) {
-    FILE *file = fopen(session_path("log.txt"), "r");
+    FILE *file = fopen(test_path("log.txt"), "r");
     assert_non_null(file);
     char line[2048];
     sum[0] = sum[1] = 0.0;
@@ -150,7 +150,7 @@ static void repeated_push_counts_once_per_step(void **state) {
     JoxText scene = {0};
     const char *view = strstr(SCENE, "view:"), *rest = strchr(view, '\n') + 1;
     jox_text_printf(&scene, "%.*sview: {tools: [push]}\n%s", (int)(view - SCENE), SCENE, rest);
-    write_session_file("scene.yaml", scene.data);
+    write_test_file("scene.yaml", scene.data);
     jox_text_free(&scene);
     begin_session(0);
     join_session();
@@ -178,7 +178,7 @@ static void repeated_push_counts_once_per_step(void **state) {
     assert_true(sum[0] == 0.0 && sum[1] == 300.0);
     sum_logged_pushes(tick + 1, 1, sum);
     assert_true(sum[0] == 50.0 && sum[1] == 0.0);
-    write_session_file("scene.yaml", SCENE);
+    write_test_file("scene.yaml", SCENE);
 }
 
 static void input_log_replays_to_the_same_hash(void **state) {
@@ -210,8 +210,8 @@ static void input_log_replays_to_the_same_hash(void **state) {
     assert_non_null(live);
 
     JoSceneDef def = jo_default_scene_def();
-    def.path = session_path("scene.yaml");
-    def.input_log = session_path("log.txt");
+    def.path = test_path("scene.yaml");
+    def.input_log = test_path("log.txt");
     def.named_mods_only = true;
     JoError error = {0};
     JoScene *scene = jo_scene_load(&def, &error);
@@ -266,7 +266,7 @@ static void file_errors_are_sent_until_mended(void **state) {
     wait_for_json("\"errors\"", "\"errors\": []");
     snprintf(wrong, sizeof wrong, "%s", WALKER);
     memcpy(strstr(wrong, "away_from"), "awax_from", 9);
-    write_session_file("walker.lua", wrong);
+    write_test_file("walker.lua", wrong);
     wait_for_json("\"type\": \"errors\"", "walker.lua\", \"line\": 5, \"column\": 22");
     assert_non_null(strstr(last, "awax_from"));
     assert_non_null(strstr(last, "\"source\": \"    Walk = { steer = awax_from \\\"yard\\\" },\""));
@@ -277,13 +277,13 @@ static void file_errors_are_sent_until_mended(void **state) {
     close(first);
     send_command("{\"do\": \"pause\", \"on\": true}"); /* files are loaded in a pause too */
     wait_for_json("\"status\"", "\"paused\": true");
-    write_session_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
+    write_test_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
     wait_for_json("\"type\": \"errors\"", "nonsense");
     assert_non_null(strstr(last, "awax_from")); /* errors of the other file stay */
     send_command("{\"do\": \"restart\"}");      /* fails: the present run goes on */
     wait_for_json("\"refused\"", "\"do\": \"restart\"");
-    write_session_file("scene.yaml", SCENE);
-    write_session_file("walker.lua", WALKER);
+    write_test_file("scene.yaml", SCENE);
+    write_test_file("walker.lua", WALKER);
     wait_for_json("\"type\": \"errors\"", "\"errors\": []");
     assert_true(read_member(wait_for_json("\"status\"", NULL), "tick") > 0);
     end_session();
@@ -293,7 +293,7 @@ static void file_errors_are_sent_until_mended(void **state) {
 
 static void view_that_cannot_start_returns_an_error(void **state) {
     (void)state;
-    write_session_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
+    write_test_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
     begin_session(0);
     end_session();
     assert_false(session.good);
@@ -320,5 +320,5 @@ int main(void) {
         cmocka_unit_test(file_errors_are_sent_until_mended),
         cmocka_unit_test(view_that_cannot_start_returns_an_error),
     };
-    return cmocka_run_group_tests(tests, make_session_folder, remove_session_folder);
+    return cmocka_run_group_tests(tests, make_session_folder, remove_test_folder);
 }

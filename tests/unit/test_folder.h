@@ -18,11 +18,11 @@
 
 static char test_folder[] = "/tmp/jostle-test-XXXXXX";
 
-/* Path of a file in the folder; it holds until the eighth call after this. */
+/* Path of a file in the folder; it holds until the 16th call after this. */
 static inline const char *test_path(const char *name) {
-    static char paths[8][320];
+    static char paths[16][320];
     static int turn;
-    char *path = paths[turn++ % 8];
+    char *path = paths[turn++ % 16];
     snprintf(path, sizeof *paths, "%s/%s", test_folder, name);
     return path;
 }

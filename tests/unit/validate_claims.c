@@ -13,22 +13,8 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
+#include "unit/test_folder.h"
 #include "validate/claims.h"
-
-static char folder[64];
-
-static const char *make_claim_path(const char *name) {
-    static char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void write_claim_file(const char *name, const char *text) {
-    FILE *file = fopen(make_claim_path(name), "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-}
 
 /* Measures figures x, y and z by a function with the given body. Returns false with a sentence
    in `why`. */
@@ -41,13 +27,13 @@ static bool measure_body(const char *body, double values[3], JoxText *why) {
                     "  expect = { { 'x', band = { 1, 2 } }, { 'y', reported = true },\n"
                     "    { 'z', reported = true } } }\n",
                     body);
-    write_claim_file("claim.lua", text.data);
+    write_test_file("claim.lua", text.data);
     jox_text_free(&text);
-    JoxClaim *claim = jox_claim_load(make_claim_path("claim.lua"), false, &diagnostics);
+    JoxClaim *claim = jox_claim_load(test_path("claim.lua"), false, &diagnostics);
     assert_non_null(claim);
     assert_int_equal(claim->run_count, 1);
     assert_int_equal(claim->figure_count, 3);
-    bool good = jox_claim_measure(claim, (const char *const[]){folder}, values, why);
+    bool good = jox_claim_measure(claim, (const char *const[]){test_folder}, values, why);
     jox_claim_free(claim);
     jox_diag_free(&diagnostics);
     return good;
@@ -78,9 +64,9 @@ static void expect_refusal(const char *body, const char *text) {
 
 static void measure_reads_numbers_of_summary(void **state) {
     (void)state;
-    write_claim_file("summary.json",
-                     "{\"agents\": 3, \"list\": [1.5, -2e3], \"probes\": {\"door\": "
-                     "{\"flow\": 1.25, \"none\": null, \"name\": \"a\\\"b\"}}, \"done\": true}");
+    write_test_file("summary.json",
+                    "{\"agents\": 3, \"list\": [1.5, -2e3], \"probes\": {\"door\": "
+                    "{\"flow\": 1.25, \"none\": null, \"name\": \"a\\\"b\"}}, \"done\": true}");
     expect_figures("local s = run.one.summary return { x = s.agents, y = s.probes.door.flow, "
                    "z = s.probes.door.none }",
                    3, 1.25, NAN);
@@ -88,16 +74,16 @@ static void measure_reads_numbers_of_summary(void **state) {
     expect_refusal("return { y = 1 }", "measure returned no number 'x'");
     expect_refusal("return { x = '7' }", "measure returned no number 'x'");
     expect_refusal("return 1", "measure returned no table");
-    write_claim_file("summary.json", "{\"agents\": 3");
+    write_test_file("summary.json", "{\"agents\": 3");
     expect_refusal("return { x = 1 }", "is not JSON");
-    unlink(make_claim_path("summary.json"));
+    unlink(test_path("summary.json"));
     expect_refusal("return { x = 1 }", "the run left no summary.json");
 }
 
 static void measure_reads_columns_of_csv(void **state) {
     (void)state;
-    write_claim_file("summary.json", "{}");
-    write_claim_file("a.csv", "time [s],who,last value [m]\n1.5,7,\n2.5,,-3\nnan,9,1e2\n");
+    write_test_file("summary.json", "{}");
+    write_test_file("a.csv", "time [s],who,last value [m]\n1.5,7,\n2.5,,-3\nnan,9,1e2\n");
     expect_figures("local a = run.one.csv('a') return { x = a.n, y = a.time[1], z = a.who[1] }", 3,
                    1.5, 7);
     /* A missing value is nil; the next line's is not taken for it. */
@@ -108,33 +94,19 @@ static void measure_reads_columns_of_csv(void **state) {
         "local a = run.one.csv('a') return { x = a['last value'][2], y = a['last value'][3], "
         "z = a.time[3] }",
         -3, 100, NAN);
-    write_claim_file("b.csv", "time [s]\n");
+    write_test_file("b.csv", "time [s]\n");
     expect_figures("local b = run.one.csv('b') return { x = b.n, y = #b.time, z = 1 }", 0, 0, 1);
-    write_claim_file("c.csv", "x,y\r\n1,2\n3");
+    write_test_file("c.csv", "x,y\r\n1,2\n3");
     expect_figures("local c = run.one.csv('c') return { x = c.n, y = c.x[2], z = c.x[1] }", 2, 3,
                    1);
-    write_claim_file("d.csv", "");
+    write_test_file("d.csv", "");
     expect_figures("return { x = run.one.csv('d').n }", 0, NAN, NAN);
     expect_refusal("return { x = run.one.csv('absent').n }", "the run left no absent.csv");
     expect_refusal("return { x = run.one.csv('../a').n }", "csv takes the name of a probe");
 }
 
-static int make_claim_folder(void **state) {
-    (void)state;
-    snprintf(folder, sizeof folder, "/tmp/jostle-claims-XXXXXX");
-    return mkdtemp(folder) ? 0 : 1;
-}
-
-static int remove_claim_folder(void **state) {
-    (void)state;
-    const char *files[] = {"summary.json", "claim.lua", "a.csv", "b.csv", "c.csv", "d.csv"};
-    for (size_t f = 0; f < sizeof files / sizeof *files; f++)
-        unlink(make_claim_path(files[f]));
-    return rmdir(folder);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(measure_reads_numbers_of_summary),
                                        cmocka_unit_test(measure_reads_columns_of_csv)};
-    return cmocka_run_group_tests(tests, make_claim_folder, remove_claim_folder);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -11,71 +11,37 @@
 
 #include <cmocka.h>
 
+#include "unit/test_folder.h"
 #include "unit/view_client.h"
 #include "view/view.h"
 
-static char folder[] = "/tmp/jostle-view-XXXXXX";
 static JoxView *view;
 static char token[64];
 static int port;
 static const char HELLO[] = "<!doctype html>the page";
 
-static inline void write_page_file(const char *name, const char *text) {
-    char path[300];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-}
-
-static inline const char *get_folder_path(const char *name) {
-    static char path[300];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
 static inline int make_page_folder(void **state) {
-    (void)state;
-    char secret[300];
-    if (!mkdtemp(folder))
+    if (make_test_folder(state) != 0)
         return -1;
-    mkdir(get_folder_path("page"), 0700);
-    mkdir(get_folder_path("page/parts"), 0700);
-    mkdir(get_folder_path("three"), 0700);
-    mkdir(get_folder_path("three/build"), 0700);
-    write_page_file("page/index.html", HELLO);
-    write_page_file("page/parts/one.js", "export default 1");
-    write_page_file("page/.hidden.js", "hidden");
-    write_page_file("page/notes.txt", "notes");
-    write_page_file("secret.js", "secret");
-    write_page_file("three/three.js", "three");
-    snprintf(secret, sizeof secret, "%s", get_folder_path("secret.js"));
-    if (symlink("../three.js", get_folder_path("three/build/three.module.js")) ||
-        symlink(secret, get_folder_path("page/out.js")))
+    write_test_file("page/index.html", HELLO);
+    write_test_file("page/parts/one.js", "export default 1");
+    write_test_file("page/.hidden.js", "hidden");
+    write_test_file("page/notes.txt", "notes");
+    write_test_file("secret.js", "secret");
+    write_test_file("three/three.js", "three");
+    mkdir(test_path("three/build"), 0700);
+    if (symlink("../three.js", test_path("three/build/three.module.js")) ||
+        symlink(test_path("secret.js"), test_path("page/out.js")))
         return -1;
-    return 0;
-}
-
-static inline int remove_page_folder(void **state) {
-    (void)state;
-    static const char *const FILES[] = {
-        "page/index.html", "page/parts/one.js", "page/.hidden.js", "page/notes.txt",
-        "page/out.js",     "secret.js",         "three/three.js",  "three/build/three.module.js"};
-    static const char *const FOLDERS[] = {"page/parts", "page", "three/build", "three", ""};
-    for (size_t i = 0; i < sizeof FILES / sizeof *FILES; i++)
-        unlink(get_folder_path(FILES[i]));
-    for (size_t i = 0; i < sizeof FOLDERS / sizeof *FOLDERS; i++)
-        rmdir(get_folder_path(FOLDERS[i]));
     return 0;
 }
 
 static inline JoxView *open_view_at(int at, const char *address, double patience) {
-    char page[300], three[300];
-    snprintf(page, sizeof page, "%s/page", folder);
-    snprintf(three, sizeof three, "%s/three", folder);
-    JoxViewOptions options = {
-        .page = page, .three = three, .port = at, .address = address, .patience = patience};
+    JoxViewOptions options = {.page = test_path("page"),
+                              .three = test_path("three"),
+                              .port = at,
+                              .address = address,
+                              .patience = patience};
     JoxText why = {0};
     JoxView *opened = jox_view_open(&options, &why);
     if (!opened)

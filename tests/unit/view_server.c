@@ -327,13 +327,11 @@ static void bad_ports_and_folders_are_reported(void **state) {
     assert_true(next > port); /* the first port is in use */
     jox_view_close(second);
     JoxText why = {0};
-    JoxViewOptions options = {.page = get_folder_path("page"), .three = "/nowhere", .port = port};
+    JoxViewOptions options = {.page = test_path("page"), .three = "/nowhere", .port = port};
     assert_null(jox_view_open(&options, &why));
     assert_non_null(strstr(why.data, "libjs-three"));
     jox_text_free(&why);
-    char page[300], three[300];
-    snprintf(page, sizeof page, "%s/page", folder);
-    snprintf(three, sizeof three, "%s/three", folder);
+    const char *page = test_path("page"), *three = test_path("three");
     options = (JoxViewOptions){.page = page, .three = three, .port = port};
     assert_null(jox_view_open(&options, &why));
     assert_non_null(strstr(why.data, "Address already in use"));
@@ -381,7 +379,8 @@ static void servers_started_at_once_find_different_ports(void **state) {
                 bool waited = read(begin[0], &c, 1) == 0;
                 JoxText why = {0};
                 JoxViewOptions options = {.page = "page", .three = "three"};
-                JoxView *opened = waited && !chdir(folder) ? jox_view_open(&options, &why) : NULL;
+                JoxView *opened =
+                    waited && !chdir(test_folder) ? jox_view_open(&options, &why) : NULL;
                 if (!opened)
                     fprintf(stderr, "%s\n", why.data ? why.data : "no view");
                 /* Keeps the port until all children have theirs */
@@ -418,5 +417,5 @@ int main(void) {
         WITH_VIEW(bad_ports_and_folders_are_reported),
         cmocka_unit_test(servers_started_at_once_find_different_ports),
     };
-    return cmocka_run_group_tests(tests, make_page_folder, remove_page_folder);
+    return cmocka_run_group_tests(tests, make_page_folder, remove_test_folder);
 }

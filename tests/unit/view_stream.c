@@ -290,5 +290,5 @@ int main(void) {
         WITH_VIEW(text_arrives_before_frames_published_later),
         WITH_VIEW(view_can_be_closed_with_a_page_connected),
     };
-    return cmocka_run_group_tests(tests, make_page_folder, remove_page_folder);
+    return cmocka_run_group_tests(tests, make_page_folder, remove_test_folder);
 }
