@@ -72,7 +72,7 @@ static void events_list_what_happened_in_the_step(void **state) {
     assert_string_equal(jo_world_signal_name(world, e.said[0].signal), "here");
     assert_true(e.entered_count == 1 && e.entered[0].agent == 4 && e.entered[0].x > 8.9f);
     assert_true(e.left_count == 1 && e.left[0].agent == 2 && fabs(e.left[0].x - 2.0) < 0.2);
-    const JoEvents again = jo_world_events(world); /* of the same step */
+    const JoEvents again = jo_world_events(world); /* the events of the same step */
     assert_true(again.entered_count == 1 && again.transition_count == 1);
     step_scene(scene, 1);
     e = jo_world_events(world);

@@ -191,7 +191,7 @@ static void count_arrivals(const char *source, uint64_t seed, const char *length
 }
 
 typedef struct Moments {
-    double mean, variance, covariance; /* of the totals; the covariance of the two halves */
+    double mean, variance, covariance; /* totals; covariance of the two halves */
 } Moments;
 
 static Moments measure_arrivals(const char *source) {

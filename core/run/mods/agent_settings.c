@@ -18,10 +18,11 @@ typedef struct Search {
     const JoxState *state;
     const JoxWatched *watched;
     JoxPack *pack;
-    JoSettings *head;  /* of the list, in the pack */
+    JoSettings *head;  /* head of the list, in the pack */
     const char *where; /* JoSetting.where of the places that add_place adds */
 } Search;
 
+/* Adds a setting that a visit of settings finds. */
 static void add_place(void *context, const JoSetting *setting) {
     const Search *search = context;
     JoSetting one = *setting;

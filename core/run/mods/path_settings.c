@@ -54,7 +54,7 @@ static const JoxMachine *find_named_machine(JoScene *scene, const char *name) {
     return NULL;
 }
 
-/* Says that nothing sets the path, and what may have been meant. */
+/* Reports that nothing sets the path, and suggests a similar name of a behaviour. */
 static void report_unset_path(const JoScene *scene, const char *path, const char *name,
                               bool of_behaviour, JoError *error) {
     const JoxMachineRun *machines = &scene->world->machines;

@@ -12,7 +12,7 @@
 #include "run/run.h"
 #include "run/scene_machines.h"
 
-enum { HEAD, ITEMS }; /* parts of a pack */
+enum { HEAD, ITEMS }; /* parts of the pack of hints */
 enum { MOST_HINTS = 20 };
 static const double ALWAYS = 0.9;        /* share of the steps in which a state had people */
 static const double SHORTEST_RUN = 20.0; /* s: shorter runs prove nothing about transitions */
@@ -26,11 +26,12 @@ typedef struct Examined {
     const JoxMachineCounts *counts;
     double seconds; /* that this version of the machine ran */
     bool is_over;   /* it ran for the whole duration of the scene */
-    uint64_t goals; /* mask of targets that have a hint already; those below 64 alone */
+    uint64_t goals; /* bit n: target n has a hint already; for n < 64 alone */
     JoxPack *pack;
     JoHints *head;
 } Examined;
 
+/* Returns how often agents took a transition, given by its number within its state. */
 static uint64_t count_taken(const Examined *j, const JoxState *from, uint32_t transition) {
     return j->counts->taken[from->first_transition + transition];
 }
@@ -39,6 +40,7 @@ static const JoxStateCounts *state_counts(const Examined *j, const JoxState *sta
     return &j->counts->states[state - j->machine->states];
 }
 
+/* Returns how often agents entered a state by a transition. */
 static uint64_t count_entered(const Examined *j, uint32_t state) {
     const JoxMachine *m = j->machine;
     uint64_t times = 0;

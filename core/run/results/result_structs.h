@@ -4,7 +4,8 @@
 
 #include "jostle.h"
 
-/* Returns what jo_scene_troubles tells, in one sentence; NULL: nothing. Freed by jox_free. */
+/* Returns the troubles of jo_scene_troubles in one sentence, to be freed with jox_free; NULL: none.
+ */
 char *jox_run_troubles(const JoScene *scene);
 
 #endif

@@ -150,7 +150,8 @@ static bool write_checkpoint_if_due(void *self, JoScene *scene, JoError *error) 
         add_def(&out, scene);
         add_text_unless_null(&out, JOX_PIECE_NOTE, c->note);
         add_scene_files(&out, scene);
-        /* after the files, among which an earlier checkpoint's may be: the last one counts */
+        /* behind the files: a resumed scene also has the names as a file, and the last one counts
+         */
         add_names(&out, scene);
         jox_pieces_add(&out, JOX_PIECE_STATE, state.data, state.length);
         add_listeners(&out, scene);
