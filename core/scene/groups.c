@@ -88,5 +88,5 @@ bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool g
                         "a group needs one of a behaviour, a mix of them and a journey");
     else if (journey && good && errors == 0)
         jox_write_journey_behaviour(r, map, group);
-    return true; /* a wrong one is kept, so that its name is known */
+    return true; /* keep it if it is wrong, too: its name is known then */
 }

@@ -94,7 +94,7 @@ bool jox_finish_step(const JoxReader *r, const JoxYaml *map, void *item, bool go
 typedef struct Journey {
     const JoxReader *reader;
     const JoxGroup *group;
-    JoxText text; /* of the behaviour so far */
+    JoxText text; /* the behaviour as far as it is written */
 } Journey;
 
 static const char *get_place_name(const Journey *j, int32_t place) {

@@ -6,13 +6,17 @@
 #include "scene/format/keys.h"
 #include "scene/mods.h"
 
-/* What a mod.yaml says about other mods, and what follows from it. */
+/* Relations of a mod to others, from its mod.yaml, and what follows from them. */
 typedef struct JoxModNeeds {
     const JoxYaml *root; /* the mod.yaml */
     const JoxYaml *const *depends, *const *optional, *const *conflicts, *const *load_after;
     uint32_t depend_count, optional_count, conflict_count, after_count;
     bool wanted, broken; /* named or enabled; must be left out */
-    enum { JOX_MOD_UNSEEN, JOX_MOD_ON_THE_WAY, JOX_MOD_SEEN } visit; /* of its dependencies */
+    enum {
+        JOX_MOD_UNSEEN,
+        JOX_MOD_ON_THE_WAY,
+        JOX_MOD_SEEN
+    } visit;         /* state of the check of its dependencies */
     int depth;       /* longest chain of mods that come before it */
     uint64_t before; /* bit set of `found`: mods that come before it */
 } JoxModNeeds;

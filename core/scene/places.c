@@ -34,7 +34,7 @@ bool jox_finish_place(const JoxReader *r, const JoxYaml *map, void *item, bool g
     (void)r, (void)map, (void)good;
     if (place->points && place->count)
         jox_place_finish(place);
-    return true; /* a wrong one is kept, so that its name is known */
+    return true; /* keep it if it is wrong, too: its name is known then */
 }
 
 /* Checks the name of the start line, which jox_resolve_place looks up. */

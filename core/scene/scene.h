@@ -83,7 +83,7 @@ typedef enum JoxTallyStatistic {
 } JoxTallyStatistic;
 typedef struct JoxTally {
     char *name;
-    JoxPosition position; /* of the name */
+    JoxPosition position; /* position of the name */
     char *memory, *state; /* the memory that is evaluated; only agents in this state; NULL: any */
     JoxPosition memory_position, state_position;
     int32_t group;      /* only agents of this group; -1: all */
@@ -93,9 +93,9 @@ typedef struct JoxTally {
 
 /* Limits on the Lua scripts of behaviours. */
 typedef struct JoxSceneLimits {
-    double instructions;      /* of one call */
-    double step_instructions; /* of all calls of a behaviour in a step */
-    double load_instructions; /* of loading a behaviour */
+    double instructions;      /* instructions of one call */
+    double step_instructions; /* instructions of all calls of a behaviour in a step */
+    double load_instructions; /* instructions for loading a behaviour */
     double memory, block;     /* MB: of a behaviour, of one allocation */
     double source;            /* KB of a file */
     double print;             /* lines printed in a second */

@@ -25,7 +25,7 @@ typedef struct JoxSceneDraft {
         uint32_t in_count, outside_count;
         double density; /* 1/m2; NAN: not given */
         float spacing;  /* m, least distance between agents; NAN: not given */
-    } fill;             /* of the group */
+    } fill;
 } JoxSceneDraft;
 
 typedef void JoxKeyRead(const JoxReader *reader, const JoxKey *key, const JoxYaml *node,

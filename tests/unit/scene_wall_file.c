@@ -253,7 +253,7 @@ static void unusual_xml_is_read(void **state) {
          2, 0}, /* the same side twice */
         {POLYGON("<polygon>" V(0, 0) V(3, 0) "</polygon><polygon>" V(5, 0) V(7, 0) "</polygon>"), 2,
          4, 0},
-        /* Of a ring, a side that is there already is left out. */
+        /* A side of a ring that is there already is left out. */
         {POLYGON("<polygon>" V(3, 0) V(3, 3) "</polygon><polygon>" V(0, 0) V(3, 0) V(3, 3)
                      V(0, 0) "</polygon>"),
          3, 6, 0},

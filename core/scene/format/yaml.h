@@ -19,12 +19,12 @@ typedef enum { JOX_YAML_SCALAR, JOX_YAML_LIST, JOX_YAML_MAP } JoxYamlKind;
 typedef struct JoxYaml JoxYaml;
 struct JoxYaml {
     JoxYamlKind kind;
-    const char *text;  /* of a scalar */
+    const char *text;  /* text of a scalar */
     bool quoted;       /* the scalar stands in quotes */
     JoxYaml **items;   /* items of a list; values of a map */
-    const char **keys; /* of a map, as its key_positions */
+    const char **keys; /* keys of a map, and their positions */
     JoxPosition *key_positions;
-    uint32_t count, capacity; /* of items */
+    uint32_t count, capacity; /* number of items, and room for them */
     JoxPosition position;
 };
 
@@ -34,7 +34,7 @@ typedef struct JoxYamlFile {
     char *text;
     size_t length;
 } JoxYamlFile;
-/* What messages call a file. */
+/* Kind of a file, by which messages name it. */
 typedef enum JoxYamlRole { JOX_YAML_SCENE, JOX_YAML_MOD, JOX_YAML_PATCH } JoxYamlRole;
 /* The files that have been read for one scene or mod. */
 typedef struct JoxYamlFiles {

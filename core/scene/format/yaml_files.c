@@ -36,7 +36,7 @@ typedef struct Parse {
     yaml_event_t events[DEEPEST + 3]; /* by depth of nesting; unused ones are all zero */
     const char *path, *text;
     JoxYamlRole role;
-    size_t length; /* of the text */
+    size_t length; /* bytes of the text */
     Anchor anchors[256];
     uint32_t anchor_count;
     uint64_t *nodes; /* nodes of all files, counted as if every alias were written out */
@@ -214,7 +214,7 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
                     jox_yaml_add(p->arena, node, NULL, at, child);
             }
             keep_anchor(p, event->data.sequence_start.anchor,
-                        node); /* after its items, so that they cannot refer to it */
+                        node); /* kept after its items, so that they cannot refer to it */
         } else if (event->type == YAML_MAPPING_START_EVENT) {
             node->kind = JOX_YAML_MAP;
             parse_map_items(p, node, depth);

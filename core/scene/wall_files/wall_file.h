@@ -11,7 +11,7 @@
 typedef struct JoxWallFileOptions {
     double unit;               /* m, of the file's lengths */
     double origin_x, origin_y; /* the file's point, in its lengths, that becomes 0, 0 */
-    float height;              /* m, of walls that have none of their own */
+    float height;              /* height of walls that have none of their own, m */
 } JoxWallFileOptions;
 
 /* Adds the walls of a text to `walls`. A POLYGON is floor that can be walked on: its outer ring

@@ -24,7 +24,7 @@ typedef struct Geometry {
     JoxWalls *walls;
     JoxDiagnostics *diagnostics;
     bool failed, any, warned; /* an error was reported; a wall was added; warned of slopes */
-    int depth;                /* of nested elements */
+    int depth;                /* depth of nested elements */
     Inside inside;
     bool in_obstacle;
     float height;  /* m, of the obstacle */
