@@ -65,8 +65,8 @@ static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
     file->text = memcpy(jox_arena_take(r->arena, length + 1, 1), data, length);
     file->length = length;
     jox_free(data);
-    const bool is_xml =
-        file->text[strspn(file->text, " \t\r\n")] == '<'; /* it names its encoding */
+    /* XML names its encoding itself; other texts must be UTF-8. */
+    const bool is_xml = file->text[strspn(file->text, " \t\r\n")] == '<';
     if (!is_xml && !jox_diag_check_text(r->diagnostics, path, file->text, length))
         return false;
     return jox_wall_file_read(path, file->text, length, &options, &draft->scene->walls,

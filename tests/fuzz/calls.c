@@ -408,7 +408,7 @@ static JoScene *load_talkers(Caller *c, bool resumable) {
     def.text = SCENE;
     def.text_length = strlen(SCENE);
     def.named_mods_only = true;
-    def.no_density = true; /* the time that it takes is worth more calls */
+    def.no_density = true; /* computing densities would leave time for fewer calls */
     def.resumable = resumable;
     def.threads = 1;
     def.message = call_within_step;

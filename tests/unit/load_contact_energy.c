@@ -95,8 +95,8 @@ static Encounter open_encounter(uint64_t number, bool people) {
     Kind kind = (Kind)(number % KINDS);
     Encounter e = {.coasting = kind == COASTING, .later = kind == SEEING};
     JoWorldDef def = jo_default_world_def();
-    /* A step of 0.1 s is done in two: in the second, coasting people would prefer an old velocity.
-     */
+    /* A step of 0.1 s is done in two: in the second, coasting people would prefer an old
+       velocity. */
     def.dt = STEPS[(uint32_t)draw_between(number, 20, kind == COASTING ? 1.0 : 0.0, 4.0)];
     def.seed = number;
     def.gravity =

@@ -188,7 +188,7 @@ static void merge_maps(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int d
             jox_yaml_add(arena, map, base->keys[i], base->key_positions[i], base->items[i]);
         } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_MAP &&
                    own != base->items[i]) {
-            own = jox_yaml_copy(arena, own); /* by an alias it may stand elsewhere, too */
+            own = jox_yaml_copy(arena, own); /* an alias may share it */
             merge_maps(arena, own, base->items[i], depth + 1);
             jox_yaml_set(arena, map, base->keys[i], own);
         } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_LIST) {

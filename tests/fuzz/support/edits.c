@@ -26,11 +26,11 @@ typedef struct Search {
     uint16_t key;
     uint64_t name;        /* the name whose low 16 bits follow the key most closely, modulo 2^16 */
     size_t count, wanted; /* sections of this name; number of the one wanted */
-    size_t at, before;    /* begin of the section, and of the one before it */
+    size_t at, before;    /* offset of the section, and of the one before it */
 } Search;
 typedef void Visit(Search *search, Head head, size_t at, size_t before);
 
-/* Calls a function for each section, with the begins of it and of the one before. */
+/* Calls a function for each section, with the offsets of its begin and of the one before. */
 static void visit_each_section(const JoxText *state, Visit *visit, Search *search) {
     enum { MAGIC = 8 };
     for (size_t at = MAGIC, before = MAGIC; at < state->length - sizeof(uint64_t);) {
@@ -60,7 +60,7 @@ static void take_place(Search *search, Head head, size_t at, size_t before) {
     search->before = before;
 }
 
-/* Returns the begin of the section that an edit is for, and in *before that of the one before it.
+/* Returns the offset of the section that an edit is for, and in *before that of the one before it.
    An edit gives a key of the section's name, which stays valid when sections are added, and its
    number among those of that name. */
 static size_t find_section(const JoxText *state, const uint8_t *edit, size_t *before) {

@@ -89,7 +89,7 @@ JoScene *fuzz_load(const char *path, const char *text, uint32_t threads) {
     def.threads = threads;
     def.message = ignore_message;
     def.named_mods_only = true;
-    def.no_density = true; /* the time that it takes is worth more steps */
+    def.no_density = true; /* computing densities would leave time for fewer steps */
     JoScene *scene = jo_scene_load(&def, &error);
     FUZZ_CHECK(scene || *error.text);
     return scene;
