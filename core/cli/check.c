@@ -13,7 +13,7 @@ static const CliOption OPTIONS[] = {
     CLI_TRUSTED_OPTION(Check),
 };
 
-static int check(const CliList *paths, bool json, bool trusted) {
+static int check_paths(const CliList *paths, bool json, bool trusted) {
     if (paths->count == 0)
         return cli_report_misuse(&cli_check, "no path given");
     CliReach reach = {CLI_READING};
@@ -29,7 +29,7 @@ static int check(const CliList *paths, bool json, bool trusted) {
     return errors ? JO_INPUT : JO_OK;
 }
 
-static int run(int argc, char **argv) {
+static int run_check(int argc, char **argv) {
     Check options = {0};
     CliList paths = {0};
     int status = cli_parse(&cli_check, argc, argv, &options, &paths);
@@ -40,7 +40,7 @@ static int run(int argc, char **argv) {
         jo_free(text);
     } else if (status == CLI_GO_ON) {
         status = options.json || cli_scenes(&cli_check, &paths)
-                     ? check(&paths, options.json, options.trusted)
+                     ? check_paths(&paths, options.json, options.trusted)
                      : JO_INPUT;
     }
     cli_free(&cli_check, &options, &paths);
@@ -57,5 +57,5 @@ const CliCommand cli_check = {
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "path",
-    .run = run,
+    .run = run_check,
 };

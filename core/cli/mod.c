@@ -194,7 +194,7 @@ static int enable(const JoSceneDef *def, const char *mod, bool on) {
     return JO_OK;
 }
 
-static int check(const char *const *folders, size_t count) {
+static int check_mods(const char *const *folders, size_t count) {
     JoError error;
     size_t errors = jo_check(folders, count, false, cli_print, stdout, &error);
     if (errors == SIZE_MAX)
@@ -272,13 +272,13 @@ static int run_verb(Mods *options, const CliList *plain) {
     }
     confine(options, verb, plain);
     return !strcmp(name, "list")      ? list(&options->def)
-           : !strcmp(name, "check")   ? check(plain->items + 1, plain->count - 1)
+           : !strcmp(name, "check")   ? check_mods(plain->items + 1, plain->count - 1)
            : strcmp(name, "why") != 0 ? enable(&options->def, first, !strcmp(name, "enable"))
            : options->has_agent       ? why_now(options, first)
                                       : why(&options->def, first);
 }
 
-static int run(int argc, char **argv) {
+static int run_mod(int argc, char **argv) {
     Mods options = {.def = jo_default_scene_def()};
     CliList plain = {0};
     int status = cli_parse(&cli_mod, argc, argv, &options, &plain);
@@ -311,5 +311,5 @@ const CliCommand cli_mod = {
     .takes = "verb",
     .least = 1,
     .none_said = "list, enable, disable, why or check?",
-    .run = run,
+    .run = run_mod,
 };

@@ -118,7 +118,7 @@ static int finish_made(Made *made) {
     return made->failed ? JO_FAILED : JO_OK;
 }
 
-static void make_folder(Made *made, const char *path) {
+static void make_new_folder(Made *made, const char *path) {
     if (made->failed)
         return;
     if (mkdir(path, 0777) == 0)
@@ -128,8 +128,8 @@ static void make_folder(Made *made, const char *path) {
 }
 
 /* Writes text with every NAME (and BEHAVIOUR, FILE) put in. */
-static void write_file(Made *made, const char *path, const char *text, const char *name,
-                       const char *behaviour) {
+static void write_template(Made *made, const char *path, const char *text, const char *name,
+                           const char *behaviour) {
     FILE *file = made->failed ? NULL : fopen(path, "wx"); /* also no link, wherever it leads */
     if (!file) {
         if (!made->failed)
@@ -160,7 +160,7 @@ static int new_behaviour(const char *folder, const char *name) {
     Made made = {0};
     char path[320];
     snprintf(path, sizeof path, "%s%.200s.lua", folder, name);
-    write_file(&made, path, BEHAVIOUR, name, "");
+    write_template(&made, path, BEHAVIOUR, name, "");
     const int status = finish_made(&made);
     if (!status)
         printf("Check it:     jostle check %s\nA scene of it: jostle new scene %s\n", path, name);
@@ -174,9 +174,9 @@ static int new_scene(const char *folder, const char *behaviours, const char *nam
     snprintf(path, sizeof path, "%s%.200s.yaml", folder, name);
     snprintf(lua, sizeof lua, "%s%.200s.lua", behaviours, name);
     if (stat(lua, &info) != 0)
-        write_file(&made, lua, BEHAVIOUR, name, "");
+        write_template(&made, lua, BEHAVIOUR, name, "");
     snprintf(lua, sizeof lua, "%.200s.lua", name); /* found beside, or in ../behaviours */
-    write_file(&made, path, SCENE, name, lua);
+    write_template(&made, path, SCENE, name, lua);
     const int status = finish_made(&made);
     if (!status)
         printf("Run it: jostle run %s\n", path);
@@ -188,11 +188,11 @@ static int new_mod(const char *parent, const char *name) {
     Made made = {0};
     char folder[100], path[320];
     if (!is_folder(parent))
-        make_folder(&made, parent);
+        make_new_folder(&made, parent);
     snprintf(folder, sizeof folder, "%s/%s", parent, name);
     for (int f = 0; f < 4; f++) {
         snprintf(path, sizeof path, "%s%s", folder, FOLDERS[f]);
-        make_folder(&made, path);
+        make_new_folder(&made, path);
     }
     const struct {
         const char *form, *text;
@@ -204,7 +204,7 @@ static int new_mod(const char *parent, const char *name) {
     snprintf(behaviour, sizeof behaviour, "%s.lua", name);
     for (int f = 0; f < 4; f++) {
         snprintf(path, sizeof path, FILES[f].form, folder, name);
-        write_file(&made, path, FILES[f].text, name, behaviour);
+        write_template(&made, path, FILES[f].text, name, behaviour);
     }
     const int status = finish_made(&made);
     if (!status)
@@ -212,7 +212,7 @@ static int new_mod(const char *parent, const char *name) {
     return status;
 }
 
-static int make(const char *kind, const char *name) {
+static int make_kind(const char *kind, const char *name) {
     static const char *const KINDS[] = {"behaviour", "scene", "mod"};
     const char *behaviours = is_folder("behaviours") ? "behaviours/" : "";
     const char *scenes = is_folder("scenes") ? "scenes/" : "";
@@ -229,11 +229,11 @@ static int make(const char *kind, const char *name) {
     return cli_report_unknown(&cli_new, "kind", kind, KINDS, sizeof KINDS / sizeof *KINDS);
 }
 
-static int run(int argc, char **argv) {
+static int run_new(int argc, char **argv) {
     CliList plain = {0};
     int status = cli_parse(&cli_new, argc, argv, NULL, &plain);
     if (status == CLI_GO_ON)
-        status = make(plain.items[0], plain.items[1]);
+        status = make_kind(plain.items[0], plain.items[1]);
     cli_free(&cli_new, NULL, &plain);
     return status;
 }
@@ -255,5 +255,5 @@ const CliCommand cli_new = {
     .least = 2,
     .most = 2,
     .none_said = "say what, and its name",
-    .run = run,
+    .run = run_new,
 };

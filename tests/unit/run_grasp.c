@@ -35,7 +35,7 @@ static void step_pair(Pair *p, int steps) {
     p->other = jox_agents_find(p->a, 1);
 }
 
-static float measure_gap(const Pair *p) {
+static float measure_pair_gap(const Pair *p) {
     const JoxParameterColumn radius = p->a->param[JOX_PARAM_radius];
     return jox_length(jox_offset(p->a, p->one, p->other)) - jox_at(radius, p->one) -
            jox_at(radius, p->other);
@@ -64,7 +64,7 @@ static void approaching_agent_runs_into_its_target(void **state) {
         assert_int_equal(p.a->approached[p.one], approaches ? 2 : 0);
         assert_true(approaches ? least > 1.25f : least < 0.9f);
         assert_true(p.a->x[p.other] > 2.5f &&
-                    measure_gap(&p) < 0.05f); /* the shoved agent moves along */
+                    measure_pair_gap(&p) < 0.05f); /* the shoved agent moves along */
         came[approaches] = p.a->x[p.one];
         jo_scene_free(p.scene);
     }
@@ -113,7 +113,7 @@ static void weak_hold_slips(void **state) {
     assert_string_equal(read_pair_state(&p, p.one), "Free");
     assert_int_equal(p.a->grasped[p.one], 0);
     assert_int_equal(p.a->held[p.other], 0);
-    assert_true(measure_gap(&p) > 1.0f);
+    assert_true(measure_pair_gap(&p) > 1.0f);
     jo_scene_free(p.scene);
 }
 
