@@ -14,9 +14,9 @@ const char *const jox_force_part_names[JOX_FORCE_PARTS] = {[JOX_FORCE_PART_body]
 #undef NAME
 };
 
-static const double FORGOTTEN = 5.0; /* s, simulated, without a look */
+static const double FORGOTTEN = 5.0; /* s of simulated time after which an inspection ends */
 
-static void end(JoWorld *w, uint32_t n) {
+static void end_inspection(JoWorld *w, uint32_t n) {
     JoxInspection *all = &w->scratch.inspection;
     JOX_ASSERT(n < all->count);
     jox_watched_end(&all->watched[n]);
@@ -26,8 +26,8 @@ static void end(JoWorld *w, uint32_t n) {
     w->machines.watched_count = all->count;
 }
 
-/* The forces of the last step. */
-static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
+/* Copies the forces of the last step. */
+static void copy_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     const JoxAgents *a = &w->state.agents;
     const JoxV2 body = jox_force_of_bodies(w->scratch.forces, i + a->index_drop[i]);
 #define PART(X, keep, role, name, label)                                                           \
@@ -39,14 +39,15 @@ static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
     seen->forces[JOX_FORCE_PART_body] = body;
 }
 
-/* Whether the agent was in the last step, so that its scratch columns hold figures: they do not of
-   who came since, nor in a world that was restored since. */
+/* Returns whether the agent was in the last step, so that its scratch columns are valid: not if it
+   entered since, or the world was restored since. */
 static bool was_in_step(const JoWorld *w, uint32_t i) {
     return w->scratch.substep.step.timing.dt > 0.0 && w->state.agents.breadth[i] > 0.0f;
 }
 
-/* What the agent would choose as everything stands; unknown of who was not in the last step. */
-static void look_now(JoWorld *w, uint32_t i, JoxInspected *seen) {
+/* Computes what the agent would choose in the present state; nothing if it was not in the last
+   step. */
+static void inspect_now(JoWorld *w, uint32_t i, JoxInspected *seen) {
     const JoxAgents *a = &w->state.agents;
     if (!was_in_step(w, i))
         return;
@@ -63,18 +64,18 @@ static void look_now(JoWorld *w, uint32_t i, JoxInspected *seen) {
     seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
     seen->speed_limit = a->speed_limit[i];
     seen->seen = true;
-    take_forces(w, i, seen);
+    copy_forces(w, i, seen);
     jox_free(plan);
 }
 
-static JoxInspected *begin(JoWorld *w, uint32_t slot, uint32_t id) {
+static JoxInspected *begin_inspection(JoWorld *w, uint32_t slot, uint32_t id) {
     JoxInspection *all = &w->scratch.inspection;
     uint32_t oldest = 0;
     for (uint32_t n = 1; n < all->count; n++)
         if (all->agents[n].asked < all->agents[oldest].asked)
             oldest = n;
     if (all->count == JOX_MOST_INSPECTED)
-        end(w, oldest);
+        end_inspection(w, oldest);
     JOX_ASSERT(all->count < JOX_MOST_INSPECTED);
     uint32_t n = all->count++;
     all->agents[n] = (JoxInspected){.slot = slot, .id = id};
@@ -93,14 +94,14 @@ JoxInspected *jox_world_inspect(JoWorld *w, uint32_t slot, const JoxWatched **wa
         if (all->agents[n].slot != slot)
             continue;
         if (i == JOX_NO_INDEX || w->state.agents.id[i] != all->agents[n].id) {
-            end(w, n);
+            end_inspection(w, n);
             return NULL;
         }
         found = &all->agents[n];
     }
     if (!found && i != JOX_NO_INDEX) {
-        found = begin(w, slot, w->state.agents.id[i]);
-        look_now(w, i, found);
+        found = begin_inspection(w, slot, w->state.agents.id[i]);
+        inspect_now(w, i, found);
     }
     if (!found)
         return NULL;
@@ -113,10 +114,10 @@ void jox_inspect_end_old(JoWorld *w) {
     for (uint32_t n = w->scratch.inspection.count; n-- > 0;)
         if ((double)(w->state.tick - w->scratch.inspection.agents[n].asked) * w->model.def.dt >
             FORGOTTEN)
-            end(w, n);
+            end_inspection(w, n);
 }
 
-/* All that is shown of a net force adds up to it. */
+/* Checks that the parts of a net force add up to it. */
 static void check_sum(const JoxInspected *seen, JoxV2 force) {
     JoxV2 left = force;
     float size = jox_length(force);

@@ -1,5 +1,5 @@
-/* What a step did with agents that somebody looks at: their half-planes, what their forces were
-   made of, why they changed state. Written beside the step; nothing of it is read by a step. */
+/* Inspection of agents for display: their half-planes, the parts of their net force, their
+   transitions. The stages write it for up to JOX_MOST_INSPECTED agents; no step reads it. */
 #ifndef JOX_WORLD_INSPECTED_H
 #define JOX_WORLD_INSPECTED_H
 
@@ -9,11 +9,10 @@
 
 enum { JOX_MOST_INSPECTED = 16 };
 
-/* What is shown of a net force, N: a part for each of its terms, and parts that are told apart
-   within a term, so that all parts add up to the net force. */
+/* Parts of a net force, N, that add up to it: one per term, and parts separated from a term. */
 typedef enum JoxForcePart {
-    JOX_FORCE_PART_body,         /* of contact: with bodies, and hits by fast ones */
-    JOX_FORCE_PART_deceleration, /* of inferred: equation 8 */
+    JOX_FORCE_PART_body,         /* separated from contact: bodies, and hits by fast ones */
+    JOX_FORCE_PART_deceleration, /* separated from inferred: equation 8 */
 #define PART(X, keep, role, name, label) JOX_FORCE_PART_##name,
     JOX_FORCE_TERMS(PART, ) JOX_FORCE_PARTS
 #undef PART
@@ -22,15 +21,15 @@ extern const char *const jox_force_part_names[JOX_FORCE_PARTS];
 
 typedef struct JoxInspected {
     uint32_t slot, id;
-    uint32_t asked; /* tick at which somebody looked last */
-    bool seen;      /* what follows is known: of the last step, or as it stands since */
+    uint32_t asked; /* tick of the last call of jox_world_inspect */
+    bool seen;      /* the members below are known: of the last step, or of the present state */
     JoxConstraint planes[JOX_MOST_CONSTRAINTS];
     uint32_t plane_count;
     JoxV2 forces[JOX_FORCE_PARTS];
-    JoxV2 summed; /* the net force before fast bodies hit, N */
-    JoxV2 slowed; /* of its inferred force, what comes of equation 8 */
-    JoxV2 preferred, chosen;
-    float speed_limit; /* of that step, m/s */
+    JoxV2 summed;            /* N: net force before hits of fast bodies */
+    JoxV2 slowed;            /* N: part of the inferred force by equation 8 */
+    JoxV2 preferred, chosen; /* m/s */
+    float speed_limit;       /* m/s */
     bool failed;
 } JoxInspected;
 
@@ -42,19 +41,19 @@ typedef struct JoxInspection {
 } JoxInspection;
 
 struct JoWorld;
-/* The inspection of the agent that is in a slot; begun where there is none, in place of the one
-   that was asked for longest ago: then it says what the agent would choose as everything stands, or
-   is not `seen` where the agent was not in the last step or the world was restored since. NULL
-   where nobody is in the slot, or who was inspected there is gone: that inspection then ends.
- */
+/* Returns the inspection of the agent in a slot, and in *watched its transitions. Begins one if
+   there is none, in place of the one asked for longest ago: it holds what the agent would choose in
+   the present state, or is not `seen` if the agent was not in the last step or the world was
+   restored since. NULL if the slot is empty, or if its inspected agent left, which ends the
+   inspection. */
 JoxInspected *jox_world_inspect(struct JoWorld *world, uint32_t slot, const JoxWatched **watched);
-/* In a step, behind the stages push, solve and infer. */
+/* Write what the stages push, solve and infer of a step did. */
 void jox_inspect_after_push(JoxInspection *inspection, const JoxAgents *agents,
                             const JoxForces *forces);
 void jox_inspect_after_solve(JoxInspection *inspection, const JoxNav *nav, const JoxStep *step);
 void jox_inspect_after_infer(JoxInspection *inspection, const JoxAgents *agents,
                              const JoxForces *forces);
-/* Nobody has looked for a while: ends what is old. */
+/* Ends inspections that were not asked for in a while. */
 void jox_inspect_end_old(struct JoWorld *world);
 void jox_inspection_free(JoxInspection *inspection);
 

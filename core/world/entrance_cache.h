@@ -1,20 +1,22 @@
-/* Entrances of a world's places, made when they are first asked for. */
+/* Entrances of a world's places, made at first use: the floors on which agents of sources come in.
+ */
 #ifndef JOX_WORLD_ENTRANCES_H
 #define JOX_WORLD_ENTRANCES_H
 
 #include "geom/entrance.h"
 
-/* Zero-initialised there are none. */
+/* Zero-initialised is empty. */
 typedef struct JoxEntrances {
-    JoxEntrance **items; /* by place; NULL: not asked for yet */
+    JoxEntrance **items; /* by place; NULL: not made yet */
     uint32_t count;
     JoxWallGrid grid;
 } JoxEntrances;
 
-/* The entrance of a place that is no set, among `count` of a scene, by the walls that stand. */
+/* Returns the entrance of a place that is no set, one of `count` of a scene, between standing
+   walls. */
 const JoxEntrance *jox_entrances_get(JoxEntrances *entrances, const JoxWalls *walls,
                                      const JoxPlace *places, uint32_t count, uint32_t place);
-/* Places moved, or other walls stand: forgets them all. */
+/* Frees all entrances; call it if places or standing walls changed. */
 void jox_entrances_clear(JoxEntrances *entrances);
 
 #endif

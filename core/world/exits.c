@@ -25,7 +25,7 @@ void jox_exits_free(JoxExits *exits) {
     *exits = (JoxExits){0};
 }
 
-static double now(const JoWorld *world) {
+static double get_time(const JoWorld *world) {
     return (double)world->state.tick * world->model.def.dt;
 }
 
@@ -41,30 +41,30 @@ void jox_world_set_sinks(JoWorld *world, const JoxAgentSink *sinks, uint32_t cou
     }
 }
 
-static void count_at(JoWorld *world, const JoxPlace *place) {
+static void count_at_exit(JoWorld *world, const JoxPlace *place) {
     JOX_ASSERT(place->name);
     struct JoxExit *exit = jox_exits_get(&world->state.exits, place->name);
     exit->people++;
-    exit->last = now(world);
+    exit->last = get_time(world);
 }
 
-/* Counts somebody who left at a point of a place: a set's member is the exit, not the set. */
-static void count_exit(JoWorld *world, uint32_t place, JoxV2 at) {
+/* Counts an agent that left at a point of a place. The exit of a set is its member. */
+static void count_at_place(JoWorld *world, uint32_t place, JoxV2 at) {
     const JoxPlace *places = world->model.places, *of = &places[place];
     for (uint32_t m = 0; jox_place_is_set(of) && m < of->member_count; m++)
         if (jox_place_is_reached(places, (uint32_t)of->members[m], &world->model.all_walls, at)) {
             of = &places[of->members[m]];
             break;
         }
-    count_at(world, of);
+    count_at_exit(world, of);
 }
 
 static bool can_be_exit(const JoxPlace *place) {
     return !jox_place_is_set(place) && !jox_place_is_queue(place);
 }
 
-/* Who left where a behaviour said so left by the smallest place that they stood in. */
-static void count_leavers(JoWorld *world) {
+/* Counts agents that left by their behaviour: the exit is the smallest place that they stood in. */
+static void count_departures(JoWorld *world) {
     for (uint32_t g = 0; g < world->scratch.departures.count; g++) {
         const JoxPlace *of = NULL;
         for (uint32_t p = 0; p < world->model.scene_places; p++) {
@@ -77,11 +77,11 @@ static void count_leavers(JoWorld *world) {
         }
         JOX_ASSERT(!of || !jox_place_is_set(of)); /* a member is the exit */
         if (of)
-            count_at(world, of);
+            count_at_exit(world, of);
     }
     if (world->state.statistics.removed > world->state.exits.left) {
         world->state.exits.left = world->state.statistics.removed;
-        world->state.exits.last = now(world);
+        world->state.exits.last = get_time(world);
     }
 }
 
@@ -97,7 +97,7 @@ static void empty_sinks(JoWorld *world) {
             if (!jox_place_is_reached(world->model.places, sink->place, &world->model.all_walls,
                                       (JoxV2){a->x[i], a->y[i]}))
                 continue;
-            count_exit(world, sink->place, (JoxV2){a->x[i], a->y[i]});
+            count_at_place(world, sink->place, (JoxV2){a->x[i], a->y[i]});
             a->removed[i] = 1;
             any = true;
         }
@@ -108,7 +108,7 @@ static void empty_sinks(JoWorld *world) {
 
 void jox_world_empty_sinks(JoWorld *world) {
     empty_sinks(world);
-    count_leavers(world);
+    count_departures(world);
 }
 
 void jox_exits_sections(JoxExits *exits, JoxSections *s) {

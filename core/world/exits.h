@@ -1,5 +1,5 @@
-/* Who leaves a world, and where: sinks, which take agents out that stand in a place, and figures of
-   all who left. */
+/* Sinks, which remove agents that stand in a place, and counts of the agents that left by each
+   exit. */
 #ifndef JOX_WORLD_EXITS_H
 #define JOX_WORLD_EXITS_H
 
@@ -11,30 +11,30 @@ typedef struct JoWorld JoWorld;
 
 typedef struct JoxAgentSink {
     uint32_t place;
-    int32_t group; /* -1: everyone */
+    int32_t group; /* -1: all agents */
 } JoxAgentSink;
 
-/* Who left, and where. */
+/* Counts of agents that left, by exit: a place that is the sink, or that they last stood in. */
 typedef struct JoxExits {
     struct JoxExit {
         char *name;
         uint32_t people;
-        double last; /* s */
+        double last; /* s: when the last agent left here */
     } * items;
     uint32_t count, capacity;
-    uint64_t left; /* everyone, through these or otherwise */
-    double last;   /* s; when the last of all left */
+    uint64_t left; /* all agents, by these exits or elsewhere */
+    double last;   /* s: when the last of all left */
 } JoxExits;
-/* The exit of a name, made where there is none. */
+/* Returns the exit of a name, added if new. */
 struct JoxExit *jox_exits_get(JoxExits *exits, const char *name);
 void jox_exits_free(JoxExits *exits);
 
-/* Sinks of a world, in place of those before; they stay the caller's, and have to stay until they
-   are replaced. Their exits are listed before anybody has left. */
+/* Sets the sinks of a world, in place of those before. The caller keeps them until they are
+   replaced. Their exits are listed before any agent left. */
 void jox_world_set_sinks(JoWorld *world, const JoxAgentSink *sinks, uint32_t count);
-/* After a step: takes out who stands in a sink (at every fourth), and counts all who left. */
+/* After a step: removes agents in sinks, at every fourth step, and counts all that left. */
 void jox_world_empty_sinks(JoWorld *world);
-/* Lists the figures; no step reads them, so they are no part of the hash. */
+/* Lists the counts; no step reads them, so that they are not hashed. */
 void jox_exits_sections(JoxExits *exits, JoxSections *sections);
 
 #endif

@@ -1,5 +1,6 @@
-/* The guard: people and bodies whose numbers go wrong, before the next step reads them. It names
-   the first, and does with people what the world's definition says. */
+/* Finds agents whose numbers are not finite or too large before the next step reads them, and
+   reports lost agents and bodies. The first is named; what happens to it is set by the world's def.
+ */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -11,8 +12,8 @@
 
 enum { MOST_TOLD = 5 };
 
-/* X(what, column, rest): numbers of agents, and what they are where nothing is known. Causes before
-   effects: an agent whose preferred velocity is no number spoils its neighbours' velocities in the
+/* X(what, column, rest): checked columns of agents, and the values they are reset to. Causes before
+   effects: an agent whose preferred velocity is not finite spoils its neighbours' velocities in the
    same step. */
 #define COLUMNS_OF_STATE(X, name, label)                                                           \
     X(label " force", name##_x, 0.0f) X(label " force", name##_y, 0.0f)
@@ -42,14 +43,14 @@ typedef struct Column {
     const char *what;
     float *of;
     float rest;
-    float most; /* of either sign */
+    float most; /* greatest magnitude */
 } Column;
 
 static void list_columns(JoxAgents *a, Column out[COLUMN_COUNT]) {
     Column *next = out;
 #define LIST(what, column, rest) *next++ = (Column){what, a->column, rest, INFINITY};
     COLUMNS(LIST)
-    next[-2].most = next[-1].most = JOX_WORLD_FARTHEST; /* of the position */
+    next[-2].most = next[-1].most = JOX_WORLD_FARTHEST; /* the last two are the position */
     JOX_ASSERT(next == out + COLUMN_COUNT);
 }
 
@@ -57,17 +58,16 @@ static bool is_wrong(const Column *column, uint32_t i) {
     return !isfinite(column->of[i]) || fabsf(column->of[i]) > column->most;
 }
 
-static bool any_wrong(const Column *column, uint32_t count) {
+static bool has_wrong(const Column *column, uint32_t count) {
     bool wrong = false;
     for (uint32_t i = 0; i < count; i++)
         wrong |= is_wrong(column, i);
     return wrong;
 }
 
-/* Whether somebody may have a wrong number: never false where there is one. A sum is finite if all
-   its parts are, unless they are huge; an exponent of all ones carries into the sign; and, without
-   its sign, what is farther is a greater whole number. In blocks, of which compilers make vector
-   instructions. */
+/* Returns whether an agent may have a wrong number; never false if one has. A sum of finite numbers
+   is finite unless they are huge; an exponent of all ones carries into the sign bit; and magnitudes
+   of floats order like their bits. Works in blocks, which compilers vectorize. */
 static bool may_be_wrong(const JoxAgents *a, uint32_t begin, uint32_t end) {
     enum { BLOCK = 64 };
     const uint32_t exponent = 0x7f800000u, one = 0x00800000u, magnitude = 0x7fffffffu;
@@ -88,26 +88,26 @@ static bool may_be_wrong(const JoxAgents *a, uint32_t begin, uint32_t end) {
     return signs >> 31;
 }
 
-typedef struct Look {
+typedef struct Scan {
     const JoxAgents *agents;
     atomic_bool found;
-} Look;
+} Scan;
 
-static void look_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    Look *look = context;
+static void scan_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    Scan *scan = context;
     (void)worker;
-    if (may_be_wrong(look->agents, begin, end))
-        atomic_store(&look->found, true);
+    if (may_be_wrong(scan->agents, begin, end))
+        atomic_store(&scan->found, true);
 }
 
-static bool anybody_may_be_wrong(const JoWorld *w) {
+static bool may_any_be_wrong(const JoWorld *w) {
     enum { GRAIN = 2048 };
-    Look look = {.agents = &w->state.agents};
-    jox_parallel_for(w->scratch.pool, look.agents->count, GRAIN, look_chunk, &look);
-    return atomic_load(&look.found);
+    Scan scan = {.agents = &w->state.agents};
+    jox_parallel_for(w->scratch.pool, scan.agents->count, GRAIN, scan_chunk, &scan);
+    return atomic_load(&scan.found);
 }
 
-/* ---- who it is ---- */
+/* ---- messages ---- */
 
 static void add_when(const JoWorld *w, JoxText *out) {
     jox_text_printf(out, "step %llu, t = %.2f s: ", (unsigned long long)w->state.tick,
@@ -118,7 +118,7 @@ static void add_vector(JoxText *out, const char *label, JoxV3 v) {
     jox_text_printf(out, "%s (%.6g, %.6g, %.6g)", label, (double)v.x, (double)v.y, (double)v.z);
 }
 
-static void add_who(const JoWorld *w, uint32_t i, JoxText *out) {
+static void add_machine(const JoWorld *w, uint32_t i, JoxText *out) {
     const uint16_t number = w->state.agents.machine[i];
     const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->model.machines.items[number];
     if (machine)
@@ -131,7 +131,7 @@ static void add_who(const JoWorld *w, uint32_t i, JoxText *out) {
 static void add_forces(const JoxAgents *a, uint32_t i, JoxText *out) {
     jox_text_add(out, "; forces, N:");
 #define ADD(X, keep, role, name, label)                                                            \
-    if (a->name##_x != a->ext_x) /* which is used up by now, and in the net force */               \
+    if (a->name##_x != a->ext_x) /* cleared by now, and part of the net force */                   \
         jox_text_printf(out, " " label " (%.6g, %.6g),", (double)a->name##_x[i],                   \
                         (double)a->name##_y[i]);
     JOX_FORCE_TERMS(ADD, )
@@ -139,29 +139,29 @@ static void add_forces(const JoxAgents *a, uint32_t i, JoxText *out) {
     jox_text_printf(out, " net (%.6g, %.6g)", (double)a->force_x[i], (double)a->force_y[i]);
 }
 
-/* Of those with a wrong number in a column: the one of the least id, and all that is known of it.
- */
-static void blame(const JoWorld *w, const Column *column, JoxText *out) {
+/* Describes the agent with the least id that has a wrong number in a column. */
+static void describe_agent(const JoWorld *w, const Column *column, JoxText *out) {
     const JoxAgents *a = &w->state.agents;
     uint32_t worst = JOX_NO_INDEX;
     for (uint32_t i = 0; i < a->count; i++)
         if (is_wrong(column, i) && (worst == JOX_NO_INDEX || a->id[i] < a->id[worst]))
             worst = i;
-    JOX_ASSERT(worst != JOX_NO_INDEX); /* any_wrong found one */
+    JOX_ASSERT(worst != JOX_NO_INDEX); /* the caller found one */
     const bool left = isfinite(column->of[worst]);
     add_when(w, out);
     jox_text_printf(out, "the %s of agent %u is %s", column->what, a->id[worst],
                     left ? "more than 10 km from the origin" : "not finite");
-    add_who(w, worst, out);
+    add_machine(w, worst, out);
     jox_text_printf(out, ", at (%.6g, %.6g) m, before at (%.6g, %.6g) m, with (%.6g, %.6g) m/s",
                     (double)a->x[worst], (double)a->y[worst], (double)a->prev_x[worst],
                     (double)a->prev_y[worst], (double)a->vx[worst], (double)a->vy[worst]);
     add_forces(a, worst, out);
 }
 
-/* ---- what becomes of them ---- */
+/* ---- recovery ---- */
 
-/* Back to where it was before the substep, at rest. False where nobody knows where that was. */
+/* Puts an agent back to where it was before the substep, at rest. Returns false if that position is
+   unknown. */
 static bool put_to_rest(JoWorld *w, const Column *columns, uint32_t i) {
     JoxAgents *a = &w->state.agents;
     const bool known =
@@ -185,9 +185,9 @@ static bool put_to_rest(JoWorld *w, const Column *columns, uint32_t i) {
     return known;
 }
 
-/* Those who are wrong in the column that names the cause are lost; others who are wrong only since
-   those were near them go on from rest. */
-static void mend(JoWorld *w, const Column *columns, int cause) {
+/* Puts all agents with wrong numbers to rest. Those with a wrong number in the column of the cause
+   are lost; the others only had them near, and continue. */
+static void recover_agents(JoWorld *w, const Column *columns, int cause) {
     const JoxAgents *a = &w->state.agents;
     for (uint32_t i = 0; i < a->count; i++) {
         bool wrong = false;
@@ -196,7 +196,7 @@ static void mend(JoWorld *w, const Column *columns, int cause) {
         if (!wrong)
             continue;
         const bool lost = is_wrong(&columns[cause], i);
-        /* Its pair of numbers stands in two columns. */
+        /* A vector is in two columns. */
         const bool pair = cause + 1 < COLUMN_COUNT &&
                           columns[cause + 1].what == columns[cause].what &&
                           is_wrong(&columns[cause + 1], i);
@@ -209,11 +209,11 @@ static void mend(JoWorld *w, const Column *columns, int cause) {
             w->scratch.lost.ids[w->scratch.lost.count++] = a->id[i];
         }
     }
-    jox_nav_invalidate_order(w->scratch.nav); /* some lie elsewhere than they were sorted */
+    jox_nav_invalidate_order(w->scratch.nav); /* moved agents are not where they were sorted */
 }
 
-/* Ends the world, or tells of what was lost and that it goes on. */
-static bool tell(JoWorld *w, JoLost lost, uint64_t before, JoxText *what) {
+/* Ends the world with a reason, or adds a message; returns whether it continues. */
+static bool report_loss(JoWorld *w, JoLost lost, uint64_t before, JoxText *what) {
     const char *const ends[] = {[JO_LOST_END] = "the run cannot go on",
                                 [JO_LOST_REMOVE] = "removed",
                                 [JO_LOST_STOP] = "put back, at rest"};
@@ -240,7 +240,7 @@ void jox_world_report_lost_body(JoWorld *w, const JoxBodyGone *gone) {
     add_vector(&what, " m, with", gone->velocity);
     add_vector(&what, " m/s; people gave it", gone->force);
     jox_text_add(&what, " N");
-    tell(w, w->model.def.lost_bodies, w->state.statistics.bodies_lost, &what);
+    report_loss(w, w->model.def.lost_bodies, w->state.statistics.bodies_lost, &what);
 }
 
 void jox_world_end_overloaded(JoWorld *w, const JoxDriveLoad *load) {
@@ -258,25 +258,25 @@ void jox_world_end_overloaded(JoWorld *w, const JoxDriveLoad *load) {
     if (i != JOX_NO_INDEX)
         jox_text_printf(&what, ", at (%.6g, %.6g) m", (double)w->state.agents.x[i],
                         (double)w->state.agents.y[i]);
-    tell(w, JO_LOST_END, 0, &what);
+    report_loss(w, JO_LOST_END, 0, &what);
 }
 
 bool jox_world_guard_numbers(JoWorld *w) {
-    if (w->failure[0]) /* by a body */
+    if (w->failure[0]) /* set for a lost body */
         return false;
-    if (!anybody_may_be_wrong(w))
+    if (!may_any_be_wrong(w))
         return true;
     Column columns[COLUMN_COUNT];
     list_columns(&w->state.agents, columns);
     for (int c = 0; c < COLUMN_COUNT; c++) {
-        if (!any_wrong(&columns[c], w->state.agents.count))
+        if (!has_wrong(&columns[c], w->state.agents.count))
             continue;
         const uint64_t before = w->state.statistics.people_lost;
         JoxText what = {0};
-        blame(w, &columns[c], &what);
+        describe_agent(w, &columns[c], &what);
         if (w->model.def.lost_people != JO_LOST_END)
-            mend(w, columns, c);
-        return tell(w, w->model.def.lost_people, before, &what);
+            recover_agents(w, columns, c);
+        return report_loss(w, w->model.def.lost_people, before, &what);
     }
     return true;
 }
@@ -285,7 +285,7 @@ void jox_world_remove_lost(JoWorld *w) {
     JoxAgents *a = &w->state.agents;
     for (uint32_t n = 0; n < w->scratch.lost.count; n++) {
         const uint32_t i = jox_agents_find(a, w->scratch.lost.ids[n]);
-        if (i != JOX_NO_INDEX) /* who has not left meanwhile */
+        if (i != JOX_NO_INDEX) /* not removed meanwhile */
             a->removed[i] = 1;
     }
     if (w->scratch.lost.count)

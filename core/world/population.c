@@ -16,7 +16,7 @@ static const float FARTHEST_POINT = 1e6f; /* m: no plan is larger */
 
 /* ---- one agent ---- */
 
-/* Which behaviour of a mix an agent gets. */
+/* Draws the machine of an agent from the mix of its group. */
 static uint32_t pick_machine(const JoWorld *world, const JoxGroup *group, uint32_t id) {
     double u = jox_random_unit(world->model.def.seed, id, 0, JOX_DRAW_MIX, 0);
     JOX_ASSERT(group->mix_count > 0);
@@ -28,7 +28,7 @@ static uint32_t pick_machine(const JoWorld *world, const JoxGroup *group, uint32
     return group->mix[group->mix_count - 1].machine;
 }
 
-/* Which profile of a group an agent has; NULL where it has none. */
+/* Draws the profile of an agent; NULL if its group has none. */
 static const JoxProfile *pick_profile(const JoWorld *world, const JoxGroup *group, uint32_t id) {
     double sum = 0.0;
     for (uint32_t p = 0; p < group->profile_count; p++)
@@ -42,7 +42,7 @@ static const JoxProfile *pick_profile(const JoWorld *world, const JoxGroup *grou
     return NULL;
 }
 
-static int32_t add_point(JoWorld *world, JoxV2 at) {
+static int32_t add_spot(JoWorld *world, JoxV2 at) {
     JOX_ASSERT(world->model.place_count < world->model.place_capacity);
     JoxPlace *place = &world->model.places[world->model.place_count];
     *place = (JoxPlace){
@@ -52,9 +52,9 @@ static int32_t add_point(JoWorld *world, JoxV2 at) {
     return (int32_t)world->model.place_count++;
 }
 
-/* A place of its own for an agent that is bound for the opposite side of its circle. */
+/* Adds the place of an agent that goes to the opposite side of its circle. */
 static int32_t add_antipode(JoWorld *world, const JoxGroup *group, JoxV2 from) {
-    return add_point(world, (JoxV2){2 * group->centre.x - from.x, 2 * group->centre.y - from.y});
+    return add_spot(world, (JoxV2){2 * group->centre.x - from.x, 2 * group->centre.y - from.y});
 }
 
 /* Values that a group sets, in the order of a machine's slots: as many as that has are valid. */
@@ -65,7 +65,7 @@ typedef struct Overrides {
     uint32_t place_count;
 } Overrides;
 
-static uint32_t least(uint32_t slots) {
+static uint32_t limit_slots(uint32_t slots) {
     return slots < JOX_MOST_GIVEN ? slots : JOX_MOST_GIVEN;
 }
 
@@ -102,8 +102,8 @@ static void collect_overrides(JoWorld *world, const JoxGroup *group, const JoxPr
                               JoxV2 at, Overrides *o) {
     const JoxMachine *machine = world->model.machines.items[index];
     o->place_count = 0;
-    memset(o->own, 0, least(machine->own_count) * sizeof *o->own);
-    memset(o->memory, 0, least(machine->memory_count) * sizeof *o->memory);
+    memset(o->own, 0, limit_slots(machine->own_count) * sizeof *o->own);
+    memset(o->memory, 0, limit_slots(machine->memory_count) * sizeof *o->memory);
     override_own(world, group, group->set, group->set_count, index, at, o);
     if (profile)
         override_own(world, group, profile->set, profile->set_count, index, at, o);
@@ -111,7 +111,7 @@ static void collect_overrides(JoWorld *world, const JoxGroup *group, const JoxPr
     override_memory(memory, memory_count, index, o); /* a source's, where it gives some */
 }
 
-/* The team of a group's next agent: the group's, or its party's own. */
+/* Returns the team of a group's next agent: that of the group, or of its party. */
 static uint32_t next_team(JoWorld *world, uint32_t number) {
     JoxPopulation *population = &world->state.population;
     const JoxWorldModel *model = &world->model;
@@ -119,7 +119,7 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
     if (group->party < 2)
         return group->team_number;
     if (population->party_left[number] == 0) {
-        uint32_t first = model->group_count + 1; /* teams of groups come before */
+        uint32_t first = model->group_count + 1; /* lower numbers are teams of groups */
         population->party_team[number] =
             (first + population->next_party++ % (JOX_FIRST_SET_TEAM - first));
         population->party_left[number] = group->party;
@@ -134,7 +134,7 @@ JoxBirth jox_world_birth(const JoWorld *world, uint32_t group, JoxV2 at) {
     return (JoxBirth){group, of->memory, of->memory_count, {.at = at}};
 }
 
-/* Puts an agent who has a machine by now into its group. */
+/* Gives an agent with a machine the properties of its group. */
 static void join_group(JoWorld *world, uint32_t i, uint32_t number) {
     const JoxGroup *group = &world->model.groups[number];
     JoxAgents *a = &world->state.agents;
@@ -163,7 +163,7 @@ JoxBirthSpot jox_world_spawn(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
     const JoxBirthSpot found =
         jox_nav_find_birth(world->scratch.nav, &world->state.agents, wish, &spot);
     if (!jox_birth_succeeds(found)) {
-        while (world->model.place_count > places) /* its own: see add_antipode */
+        while (world->model.place_count > places) /* places of the agent: see add_antipode */
             jox_place_free(&world->model.places[--world->model.place_count]);
         return found;
     }
@@ -201,16 +201,17 @@ void jox_world_explain_unplaced(JoxBirthSpot spot, double x, double y, JoxText *
 
 /* ---- starts ---- */
 
-/* Radii of another within which nobody comes in, as nav/placement.c would move them aside. */
+/* Distance to another agent, in its radii, below which no agent enters: nav/placement.c would shift
+   it. */
 static const float CLEAR = 1.5f;
 
-static int by_time(const void *left, const void *right, const void *context) {
+static int compare_times(const void *left, const void *right, const void *context) {
     const JoxStart *a = left, *b = right;
     (void)context;
     return a->time < b->time ? -1 : a->time > b->time;
 }
 
-/* Those of all groups that lie after 0 s, in order of time. */
+/* Lists the starts of all groups after 0 s, ordered by time. */
 static void list_starts(JoWorld *world) {
     JoxWorldModel *model = &world->model;
     uint32_t count = 0;
@@ -227,12 +228,12 @@ static void list_starts(JoWorld *world) {
             model->starts[model->start_count++].group = g;
         }
     JOX_ASSERT(model->start_count == count);
-    jox_sort(model->starts, count, sizeof *model->starts, by_time, NULL, NULL);
+    jox_sort(model->starts, count, sizeof *model->starts, compare_times, NULL, NULL);
     world->state.population.entered = jox_alloc(count, sizeof *world->state.population.entered);
 }
 
-/* Gives an agent a velocity, and has it look there; NAN leaves it as it is. */
-static void set_going(JoWorld *world, uint32_t agent, JoxV2 velocity) {
+/* Sets velocity and facing of an agent; NAN changes nothing. */
+static void set_velocity(JoWorld *world, uint32_t agent, JoxV2 velocity) {
     JoxAgents *a = &world->state.agents;
     JOX_ASSERT(agent < a->count);
     if (!isfinite(velocity.x))
@@ -246,7 +247,7 @@ static void set_going(JoWorld *world, uint32_t agent, JoxV2 velocity) {
     a->face_y[agent] = velocity.y / speed;
 }
 
-static bool is_free(const JoxAgents *a, JoxV2 at) {
+static bool is_point_free(const JoxAgents *a, JoxV2 at) {
     for (uint32_t i = 0; i < a->count; i++) {
         const float least = CLEAR * jox_param(a, JOX_PARAM_radius, i);
         if (jox_length2(jox_sub(at, jox_v2(a->x[i], a->y[i]))) < least * least)
@@ -255,8 +256,8 @@ static bool is_free(const JoxAgents *a, JoxV2 at) {
     return true;
 }
 
-/* Whoever would begin in a wall never comes in. */
-static void lose_start(JoWorld *world, const JoxStart *start) {
+/* Gives up a start in a wall, with a message. */
+static void give_up_start(JoWorld *world, const JoxStart *start) {
     const JoxGroup *group = &world->model.groups[start->group];
     JoxText *news = &world->scratch.messages;
     world->state.statistics.not_placed++;
@@ -273,16 +274,16 @@ void jox_world_spawn_due_starts(JoWorld *world) {
     const double time = (double)world->state.tick * model->def.dt + 1e-9;
     for (uint32_t s = p->all_until; s < model->start_count && model->starts[s].time <= time; s++) {
         const JoxStart *start = &model->starts[s];
-        if (p->entered[s] || !is_free(&world->state.agents, start->at))
+        if (p->entered[s] || !is_point_free(&world->state.agents, start->at))
             continue;
         uint32_t agent;
         const JoxBirthSpot spot = jox_world_spawn_at(world, start->group, start->at, &agent);
         if (spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_NOT_FOUND)
             continue;
         if (spot == JOX_BIRTH_IN_SOLID)
-            lose_start(world, start);
+            give_up_start(world, start);
         else
-            set_going(world, agent, start->velocity);
+            set_velocity(world, agent, start->velocity);
         p->entered[s] = 1;
     }
     while (p->all_until < model->start_count && p->entered[p->all_until])
@@ -292,7 +293,8 @@ void jox_world_spawn_due_starts(JoWorld *world) {
 uint32_t jox_world_starts_waiting(const JoWorld *world, uint32_t group) {
     const JoxWorldModel *model = &world->model;
     const JoxPopulation *p = &world->state.population;
-    const double last = ((double)world->state.tick - 1.0) * model->def.dt + 1e-9; /* step's begin */
+    const double last =
+        ((double)world->state.tick - 1.0) * model->def.dt + 1e-9; /* start of the last step */
     uint32_t waiting = 0;
     for (uint32_t s = p->all_until; s < model->start_count && model->starts[s].time <= last; s++)
         waiting += !p->entered[s] && model->starts[s].group == group;
@@ -317,7 +319,7 @@ static bool area_contains(const void *area, JoxV2 spot) {
     return jox_area_contains(area, spot);
 }
 
-/* Makes those of one group, and says how they were placed. */
+/* Makes the agents of one group, and returns how they were placed. */
 static JoxPlaced place_group(JoWorld *world, uint32_t number) {
     const JoxGroup *group = &world->model.groups[number];
     const JoxArea area = {.places = world->model.places,
@@ -349,7 +351,7 @@ static JoxPlaced place_group(JoWorld *world, uint32_t number) {
         placed.shifted += spot == JOX_BIRTH_SHIFTED;
         placed.farthest = jox_maxf(placed.farthest, jox_length(way));
         if (group->starts)
-            set_going(world, agent, group->starts[i].velocity);
+            set_velocity(world, agent, group->starts[i].velocity);
     }
     if (index)
         jox_area_index_free(index);
@@ -369,7 +371,7 @@ void jox_world_populate(JoWorld *world, JoxPlaced *placed) {
     list_starts(world);
 }
 
-/* Places of single agents follow from where they are. */
+/* Lists the places of single agents by their points. */
 static void list_points(JoWorld *world, JoxSections *s) {
     const uint32_t first = world->model.scene_places;
     const size_t count =
@@ -389,7 +391,7 @@ static void list_points(JoWorld *world, JoxSections *s) {
         while (world->model.place_count > first)
             jox_place_free(&world->model.places[--world->model.place_count]);
         for (uint32_t p = 0; p < count; p++)
-            add_point(world, points[p]);
+            add_spot(world, points[p]);
     }
     jox_free(points);
 }

@@ -11,9 +11,9 @@ static const double NEARLY = 1e-9;   /* s: times of steps are sums of rounded st
 static const double FASTEST = 100.0; /* m/s, rad/s */
 static const double FAR = 10000.0;   /* m */
 
-/* ---- what is done ---- */
+/* ---- actions ---- */
 
-static uint32_t wall_names(const JoWorld *world, const char *names[MOST_NAMES]) {
+static uint32_t list_wall_names(const JoWorld *world, const char *names[MOST_NAMES]) {
     uint32_t count = 0;
     for (uint32_t r = 0; r < world->model.all_walls.ring_count && count < MOST_NAMES; r++)
         if (world->model.all_walls.rings[r].name)
@@ -21,7 +21,7 @@ static uint32_t wall_names(const JoWorld *world, const char *names[MOST_NAMES]) 
     return count;
 }
 
-static uint32_t body_names(const JoWorld *world, const char *names[MOST_NAMES]) {
+static uint32_t list_body_names(const JoWorld *world, const char *names[MOST_NAMES]) {
     uint32_t count = 0;
     for (uint32_t row = 0; row < jox_bodies_rows(world->state.bodies) && count < MOST_NAMES; row++)
         if (*jox_bodies_name(world->state.bodies, row))
@@ -37,8 +37,8 @@ static bool unknown(const char *kind, const char *name, const char *const *names
     return false;
 }
 
-static bool within(const char *what, const double v[3], double most, const char *unit,
-                   JoxText *why) {
+static bool check_range(const char *what, const double v[3], double most, const char *unit,
+                        JoxText *why) {
     for (int k = 0; k < 3; k++)
         if (!(fabs(v[k]) <= most)) {
             jox_text_printf(why, "%s must be from %g to %g %s, not %g", what, -most, most, unit,
@@ -52,7 +52,7 @@ static uint32_t find_body(const JoWorld *world, const char *name, JoxText *why) 
     const uint32_t row = jox_bodies_find_name(world->state.bodies, name);
     if (row == JOX_NO_BODY) {
         const char *names[MOST_NAMES];
-        unknown("body", name, names, body_names(world, names), why);
+        unknown("body", name, names, list_body_names(world, names), why);
     }
     return row;
 }
@@ -61,8 +61,9 @@ bool jox_event_throw(JoWorld *world, const char *body, const double from[3],
                      const double velocity[3], const double spin[3], JoxText *why) {
     static const double NONE[3] = {0.0, 0.0, 0.0};
     const double *v = velocity ? velocity : NONE, *turn = spin ? spin : NONE;
-    if ((from && !within("from", from, FAR, "m", why)) ||
-        !within("velocity", v, FASTEST, "m/s", why) || !within("spin", turn, FASTEST, "rad/s", why))
+    if ((from && !check_range("from", from, FAR, "m", why)) ||
+        !check_range("velocity", v, FASTEST, "m/s", why) ||
+        !check_range("spin", turn, FASTEST, "rad/s", why))
         return false;
     const uint32_t row = find_body(world, body, why);
     if (row == JOX_NO_BODY)
@@ -91,7 +92,7 @@ bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],
 bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why) {
     if (jox_world_open_walls(world, wall, open) == 0) {
         const char *names[MOST_NAMES];
-        uint32_t count = wall_names(world, names);
+        uint32_t count = list_wall_names(world, names);
         return unknown("wall", wall, names, count, why);
     }
     *(open ? &world->state.statistics.opened : &world->state.statistics.closed) += 1;
@@ -109,9 +110,9 @@ bool jox_event_signal(JoWorld *world, const char *name, JoxText *why) {
     return true;
 }
 
-/* ---- when ---- */
+/* ---- times ---- */
 
-static void happen(JoWorld *world, const JoxEvent *event) {
+static void run_event(JoWorld *world, const JoxEvent *event) {
     JoxText why = {0};
     bool good = false;
     switch (event->kind) {
@@ -129,19 +130,19 @@ static void happen(JoWorld *world, const JoxEvent *event) {
     case JOX_EVENT_SIGNAL:
         good = jox_event_signal(world, event->name, &why);
         break;
-    case JOX_EVENT_PUSH: /* what it does, it does in each step that it lasts */
+    case JOX_EVENT_PUSH: /* applied each step while it lasts */
         good = event->place >= 0 || find_body(world, event->name, &why) != JOX_NO_BODY;
         break;
     }
-    if (!good) /* a body that fell off the world, or that an edit brings at the next start */
+    if (!good) /* the body was lost, or an edit adds it at the next start only */
         jox_text_printf(&world->scratch.messages, "%s:%d:%d: t = %.2f s: %s\n",
                         event->position.file, event->position.line, event->position.column,
                         (double)world->state.tick * world->model.def.dt, why.data ? why.data : "");
     jox_text_free(&why);
 }
 
-/* The first time of an event that is later than `after`; INFINITY where there is none. */
-static double next_time(const JoxEvent *event, double after) {
+/* Returns the first time of an event later than `after`; INFINITY if there is none. */
+static double find_next_time(const JoxEvent *event, double after) {
     if (event->at > after)
         return event->at;
     if (!(event->every > 0.0))
@@ -155,7 +156,7 @@ static double next_time(const JoxEvent *event, double after) {
 
 /* ---- pushes ---- */
 
-/* Whether an event that lasts is under way at a time. */
+/* Returns whether a push is under way at a time. */
 static bool is_lasting(const JoxEvent *event, double now) {
     double began = event->at;
     if (now < began)
@@ -179,7 +180,7 @@ static void push_people(JoWorld *world, const JoxEvent *event) {
     }
 }
 
-/* Through its centre, so that it does not turn. */
+/* Pushes a body through its centre, so that it does not turn. */
 static void push_body(JoWorld *world, const JoxEvent *event) {
     const uint32_t row = jox_bodies_find_name(world->state.bodies, event->name);
     const double dt = world->model.def.dt;
@@ -193,8 +194,8 @@ static void push_body(JoWorld *world, const JoxEvent *event) {
     jox_bodies_impulses(world->state.bodies, &impulse, 1);
 }
 
-/* Those that are under way; in the order of the list. */
-static void push(JoWorld *world, double now) {
+/* Applies the pushes that are under way, in the order of the list. */
+static void apply_pushes(JoWorld *world, double now) {
     for (uint32_t e = 0; e < world->model.event_count; e++) {
         const JoxEvent *event = &world->model.events[e];
         if (event->kind != JOX_EVENT_PUSH || !is_lasting(event, now))
@@ -206,21 +207,20 @@ static void push(JoWorld *world, double now) {
     }
 }
 
-/* ---- a step's ---- */
+/* ---- the events of a step ---- */
 
-/* What is due follows from the step's number alone, so that an edited list goes on from here. */
 void jox_world_run_events(JoWorld *world) {
     const double dt = world->model.def.dt;
     const double now = (double)world->state.tick * dt + NEARLY;
     double after = world->state.tick ? (double)(world->state.tick - 1) * dt + NEARLY : -1.0;
-    uint32_t done = UINT32_MAX; /* at the time `after`: events up to this one */
+    uint32_t done = UINT32_MAX; /* events up to this one were run at time `after` */
     while (world->model.event_count > 0) {
         double least = INFINITY;
         uint32_t next = 0;
         for (uint32_t e = 0; e < world->model.event_count; e++) {
-            bool same_time = done != UINT32_MAX && e > done; /* may fall on `after` itself */
+            bool same_time = done != UINT32_MAX && e > done; /* may be due at `after` itself */
             double time =
-                next_time(&world->model.events[e], same_time ? nextafter(after, -1.0) : after);
+                find_next_time(&world->model.events[e], same_time ? nextafter(after, -1.0) : after);
             if (time < least) {
                 least = time;
                 next = e;
@@ -228,12 +228,12 @@ void jox_world_run_events(JoWorld *world) {
         }
         if (!(least <= now))
             break;
-        JOX_ASSERT(least > after || (least == after && next > done)); /* each happens once */
-        happen(world, &world->model.events[next]);
+        JOX_ASSERT(least > after || (least == after && next > done)); /* none runs twice */
+        run_event(world, &world->model.events[next]);
         after = least;
         done = next;
     }
-    push(world, now);
+    apply_pushes(world, now);
 }
 
 void jox_world_set_events(JoWorld *world, const JoxEvent *events, uint32_t count) {

@@ -1,5 +1,5 @@
-/* What happens in a world at given times: walls open and close, bodies are thrown, signals sound,
-   people and bodies are pushed for a while. */
+/* Events of a scene at given times: gates open and close, bodies are thrown or driven, signals are
+   sent, agents and bodies are pushed for a while. */
 #ifndef JOX_WORLD_EVENTS_H
 #define JOX_WORLD_EVENTS_H
 
@@ -19,29 +19,30 @@ typedef enum JoxEventKind {
     JOX_EVENT_PUSH
 } JoxEventKind;
 
-/* What happens at given times. */
+/* One event. The caller of jox_world_set_events owns it. */
 typedef struct JoxEvent {
     JoxEventKind kind;
-    double at, every, until;     /* s; `every` 0: once */
-    char *name;                  /* of the body or walls, or what is called out */
-    bool placed;                 /* the body is thrown from `from`; else from where it lies */
-    double from[3];              /* of the shape's own frame, m */
+    double at, every, until;     /* s: first time, interval (0: once), last time */
+    char *name;                  /* name of a body, of walls, or of a signal */
+    bool placed;                 /* thrown from `from`, else from where it lies */
+    double from[3];              /* m: origin of the shape's frame */
     double velocity[3], spin[3]; /* m/s, rad/s */
-    int32_t place;               /* of a push: whoever stands in it; -1: the body of that name */
-    double force[2], lasts;      /* of a push: N on each, s */
+    int32_t place;               /* push: place whose agents are pushed; -1: body `name` */
+    double force[2], lasts;      /* push: N on each; duration, s */
     JoxPosition position;
 } JoxEvent;
 
-/* Events of a world, in place of those before; they stay the caller's, and have to stay until they
-   are replaced. */
+/* Sets the events of a world, in place of those before. The caller keeps them until they are
+   replaced. */
 void jox_world_set_events(JoWorld *world, const JoxEvent *events, uint32_t count);
-/* Before a step: does what is due. It follows from the number of the step alone, so that an edited
-   list goes on from there, and there is no state. What could not be done is added to
-   `scratch.messages`, a line each. */
+/* Runs the events that are due, before a step. They follow from the number of the step alone: there
+   is no state, and an edited list continues from there. Failed events add a line to
+   scratch.messages. */
 void jox_world_run_events(JoWorld *world);
 
-/* What events do, by names; m, m/s, rad/s. False, with a sentence in `why`, where there is no such
-   thing or a number is out of range. `from` NULL: from where the body lies. */
+/* The actions of events, which verbs call too: throw or drive a body, open or close walls, send a
+   signal; m, m/s, rad/s. `from` NULL: from where the body lies. Return false, with a sentence in
+   `why`, if nothing has the name or a number is out of range. */
 bool jox_event_throw(JoWorld *world, const char *body, const double from[3],
                      const double velocity[3], const double spin[3], JoxText *why);
 bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],

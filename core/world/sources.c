@@ -10,9 +10,9 @@
 #include "geom/polygon.h"
 #include "world/world.h"
 
-enum { AT_ONCE = 256 };            /* agents that one source makes in a step at most */
-enum { ATTEMPTS = 64 };            /* points that are drawn for an agent at most */
-static const double FULL = 0.75;   /* share of a floor that people cover who leave no spots free */
+enum { AT_ONCE = 256 };            /* most agents that one source makes in a step */
+enum { ATTEMPTS = 64 };            /* most points that are drawn for an agent */
+static const double FULL = 0.75;   /* covered share of a floor at which it has no free spots */
 static const double NEARLY = 1e-9; /* s: times of steps are sums of rounded steps */
 
 /* ---- entrances ---- */
@@ -33,9 +33,9 @@ const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t
                              world->model.scene_places, jox_source_door(world, source, number));
 }
 
-/* ---- where people come in ---- */
+/* ---- where agents enter ---- */
 
-/* A point of a place, drawn for a source, on the floor of its entrance. */
+/* Draws a point of a place for a source, on the floor of its entrance. */
 static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, const JoxEntrance *entrance,
                         uint32_t source, uint32_t n) {
     JoxV2 low = place->centre, high = place->centre, p = place->centre;
@@ -65,23 +65,23 @@ static JoxV2 draw_point(const JoWorld *world, const JoxPlace *place, const JoxEn
     return entrance->cut ? jox_entrance_pick(entrance, u) : place->centre;
 }
 
-/* m2 that somebody covers. */
-static double cover_of(const JoxAgents *a, uint32_t i) {
+/* Returns the area of an agent's disc, m2. */
+static double get_cover(const JoxAgents *a, uint32_t i) {
     const double radius = jox_param(a, JOX_PARAM_radius, i);
     return JOX_PI * radius * radius;
 }
 
-/* m2 that people cover of a floor. */
-static double covered(const JoxEntrance *entrance, const JoxAgents *a) {
+/* Returns the area that agents cover of a floor, m2. */
+static double sum_cover(const JoxEntrance *entrance, const JoxAgents *a) {
     double sum = 0.0;
     for (uint32_t i = 0; i < a->count; i++)
         if (jox_entrance_holds(entrance, jox_v2(a->x[i], a->y[i])))
-            sum += cover_of(a, i);
+            sum += get_cover(a, i);
     return sum;
 }
 
-/* By which member of a set the n-th of a step comes in; 0 where the source's place is no set. */
-static uint32_t pick_door(const JoWorld *world, uint32_t s, uint32_t doors, uint32_t n) {
+/* Draws the member of a set by which the n-th agent of a step enters; 0 if the place is no set. */
+static uint32_t draw_door(const JoWorld *world, uint32_t s, uint32_t doors, uint32_t n) {
     if (doors == 1)
         return 0;
     const double u = jox_random_unit(world->model.def.seed, s, world->state.tick, JOX_DRAW_DOOR, n);
@@ -92,8 +92,8 @@ static bool floor_contains(const void *entrance, JoxV2 spot) {
     return jox_entrance_holds(entrance, spot);
 }
 
-/* Who is wished for at a point of an entrance's floor, and stays on it. */
-static JoxBirthWish wish_on(const JoxEntrance *entrance, JoxV2 at, uint32_t number) {
+/* Returns the wish for a birth at a point of an entrance's floor, within that floor. */
+static JoxBirthWish make_wish(const JoxEntrance *entrance, JoxV2 at, uint32_t number) {
     const JoxPlace *floor = &entrance->floor;
     const float beside = jox_place_is_spot(floor) ? floor->radius : JOX_ENTRANCE_REACH;
     JoxBirthWish wish = {.at = at,
@@ -107,17 +107,17 @@ static JoxBirthWish wish_on(const JoxEntrance *entrance, JoxV2 at, uint32_t numb
     return wish;
 }
 
-/* Of those who are due, who comes in by one of the doors while it has room: how many. */
+/* Makes the due agents that enter by door `number`, while it has room; returns how many. */
 static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t number,
                           uint32_t due) {
     const JoxAgentSource *source = &world->model.sources[s];
     const uint32_t door = jox_source_door(world, s, number);
     const JoxEntrance *entrance = jox_source_entrance(world, s, number);
-    double sum = covered(entrance, &world->state.agents);
+    double sum = sum_cover(entrance, &world->state.agents);
     uint32_t made = 0;
     bool full = false;
     for (uint32_t n = 0; n < due && !full && sum < FULL * entrance->area; n++) {
-        if (pick_door(world, s, doors, n) != number)
+        if (draw_door(world, s, doors, n) != number)
             continue;
         const JoxV2 at = draw_point(world, &world->model.places[door], entrance, s, n);
         JoxBirth birth = jox_world_birth(world, source->like, at);
@@ -125,13 +125,13 @@ static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t n
             birth.memory = source->memory;
             birth.memory_count = source->memory_count;
         }
-        birth.wish = wish_on(entrance, at, world->model.group_count + 1 + door);
+        birth.wish = make_wish(entrance, at, world->model.group_count + 1 + door);
         uint32_t agent = JOX_NO_INDEX;
         const JoxBirthSpot spot = jox_world_spawn(world, &birth, &agent);
         full = spot == JOX_BIRTH_NO_ROOM || spot == JOX_BIRTH_NOT_FOUND;
         if (agent == JOX_NO_INDEX)
             continue;
-        sum += cover_of(&world->state.agents, agent);
+        sum += get_cover(&world->state.agents, agent);
         made++;
     }
     return made;
@@ -139,8 +139,8 @@ static uint32_t fill_door(JoWorld *world, uint32_t s, uint32_t doors, uint32_t n
 
 /* ---- how many are due ---- */
 
-/* Area below a curve from its beginning to a time: how many have come by it. */
-static double below_curve(const JoxAgentSource *source, double time) {
+/* Integrates a curve of rates from its start to a time: expected agents. */
+static double integrate_curve(const JoxAgentSource *source, double time) {
     double sum = 0.0;
     for (uint32_t k = 0; k + 1 < source->curve_count; k++) {
         const double *a = source->curve + 2 * k, *b = a + 2;
@@ -153,8 +153,8 @@ static double below_curve(const JoxAgentSource *source, double time) {
     return sum;
 }
 
-/* How many a source has been due to make at its times by a time: those from its beginning on and
-   before its end. */
+/* Counts agents due at the given times of a source up to `time`, from its start to before its end.
+ */
 static double count_scheduled(const JoxAgentSource *source, double time) {
     double due = 0.0;
     for (uint32_t t = 0; t < source->time_count; t++)
@@ -170,19 +170,20 @@ static double count_scheduled(const JoxAgentSource *source, double time) {
     return due;
 }
 
-/* How many are expected by rate and curve from a source's beginning to a time, or to its end. */
+/* Returns the agents expected by rate and curve from a source's start to a time, at most its end.
+ */
 static double count_expected(const JoxAgentSource *source, double time) {
     const double end = time < source->until ? time : source->until;
-    return source->rate * (end - source->from) + below_curve(source, end) -
-           below_curve(source, source->from);
+    return source->rate * (end - source->from) + integrate_curve(source, end) -
+           integrate_curve(source, source->from);
 }
 
-/* People expected between two arrivals of a source, the number-th and the one after it. */
+/* Draws the expected agents between arrival `number` of a source and the next. */
 static double draw_gap(const JoWorld *world, uint32_t s, uint64_t number) {
     return -jox_log(1.0 - jox_random_unit(world->model.def.seed, s, number, JOX_DRAW_ARRIVAL, 0));
 }
 
-/* How many a source has been due to make by a time, at any step. */
+/* Counts the agents due at a source up to a time; independent of the length of the step. */
 static double count_due(const JoWorld *world, const JoxAgentSource *source, uint32_t s,
                         JoxArrivals *arrivals, double time) {
     if (time < source->from)
@@ -195,7 +196,7 @@ static double count_due(const JoWorld *world, const JoxAgentSource *source, uint
     return exact + (double)arrivals->count;
 }
 
-/* The arrivals of a source that is there from a time on: before it as many as were expected. */
+/* Starts the arrivals of a source that exists from a time on: before it as many as expected. */
 static JoxArrivals begin_arrivals(const JoWorld *world, const JoxAgentSource *source, uint32_t s,
                                   double time) {
     if (source->even)
@@ -205,13 +206,13 @@ static JoxArrivals begin_arrivals(const JoWorld *world, const JoxAgentSource *so
     return (JoxArrivals){.next = before + draw_gap(world, s, count), .count = count};
 }
 
-/* Whether a source makes people in the step that begins at a time. It ends with the first step that
-   begins at its end or later, in which those come who were due since the step before. */
+/* Returns whether a source makes agents in the step that begins at a time. Its last step is the
+   first that begins at its end or later, for agents due since the step before. */
 static bool is_at_work(const JoWorld *world, const JoxAgentSource *source, double time) {
     return time >= source->from && time < source->until + world->model.def.dt - NEARLY;
 }
 
-/* How many of a kept number are missing. They are counted once a second. */
+/* Counts the agents missing from `keep`, once a second. */
 static uint32_t count_missing(const JoWorld *world, const JoxAgentSource *source, double time) {
     const JoxAgents *a = &world->state.agents;
     const uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);

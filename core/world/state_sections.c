@@ -1,4 +1,4 @@
-/* The state of a world as sections: what is hashed, saved, restored and compared. */
+/* Lists the state of a world as sections, which are hashed, saved, restored and compared. */
 #include <math.h>
 #include <string.h>
 
@@ -7,11 +7,11 @@
 #include "base/number/bits.h"
 #include "world/world.h"
 
-/* Lays the walls that were added; what a damaged state says of them makes none. */
-static void restore_made(JoWorld *w, JoxSections *s) {
+/* Appends the added walls of a restored state; none if the state is damaged. */
+static void restore_added_walls(JoWorld *w, JoxSections *s) {
     bool good = w->state.added_count <= JOX_MOST_ADDED_WALLS;
     for (uint32_t m = 0; good && m < w->state.added_count; m++) {
-        const JoxAddedWall *made = &w->state.made[m];
+        const JoxAddedWall *made = &w->state.added_walls[m];
         good = (made->count == 2 || made->count == 4) && made->open <= 1 && made->is_new <= 1 &&
                made->name[0] && memchr(made->name, 0, sizeof made->name);
         for (uint32_t p = 0; good && p < 4; p++)
@@ -24,7 +24,7 @@ static void restore_made(JoWorld *w, JoxSections *s) {
     jox_world_append_added_walls(w);
 }
 
-/* Which walls that open are open: state of the model's walls. */
+/* Lists the state of walls: which gates are open, and added walls. */
 static void list_walls(JoWorld *w, JoxSections *s) {
     JoxWalls *walls = &w->model.all_walls;
     JoxHash shape = jox_hash_begin();
@@ -36,9 +36,10 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     for (uint32_t v = 0; v < own; v++)
         jox_hash_add(&shape, &walls->vertices[v].point, sizeof walls->vertices[v].point);
     jox_section_model(s, "walls", jox_hash_end(&shape));
-    JOX_SECTION_ARRAY(s, "made", w->state.made, w->state.added_count, w->state.added_capacity);
-    if (s->mode == JOX_SECTIONS_RESTORE) /* where it failed too: both lists agree */
-        restore_made(w, s);
+    JOX_SECTION_ARRAY(s, "made", w->state.added_walls, w->state.added_count,
+                      w->state.added_capacity);
+    if (s->mode == JOX_SECTIONS_RESTORE) /* also after a failure, so that walls and state agree */
+        restore_added_walls(w, s);
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         struct JoxWallRing *ring = &walls->rings[r];
         if (!ring->name)
@@ -49,7 +50,8 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     JOX_SECTION(s, "walls_version", w->state.walls_version);
     JOX_SECTION(s, "walls_set", w->state.walls_applied);
     JOX_SECTION(s, "walls_came", w->state.has_new_walls);
-    for (uint32_t v = 0; w->state.has_new_walls && v < own; v++) /* of made walls they say it */
+    for (uint32_t v = 0; w->state.has_new_walls && v < own;
+         v++) /* added walls have their own is_new */
         JOX_SECTION(s, "came", walls->vertices[v].is_new);
     if (s->mode == JOX_SECTIONS_RESTORE && !s->failed && w->state.walls_applied) {
         w->state.walls_applied = false;
@@ -57,18 +59,18 @@ static void list_walls(JoWorld *w, JoxSections *s) {
     }
 }
 
-/* What players want at present, and how far the log has been read. */
+/* Lists the present inputs of players, and how far the log has been played. */
 static void list_input(JoxInputLog *log, JoxSections *s) {
     jox_sections_module(s, "input");
     JOX_SECTION_ARRAY(s, "present", log->present, log->present_count, log->present_capacity);
-    jox_sections_unhashed(s, true); /* the same people did the same, from a log or live */
+    jox_sections_unhashed(s, true); /* a replay and a live run have the same hash */
     JOX_SECTION(s, "next", log->next);
     jox_sections_unhashed(s, false);
     if (s->mode == JOX_SECTIONS_RESTORE && log->next > log->count)
         jox_sections_fail(s, "next", "the log is shorter");
 }
 
-/* Two worlds whose seeds or steps differ have different futures from the same state. */
+/* Lists parts of the def on which the future depends besides the state. */
 static void list_def(const JoWorldDef *def, JoxSections *s) {
     jox_section_model(s, "seed", def->seed);
     jox_section_model(s, "forces", def->forces);
@@ -105,8 +107,8 @@ bool jox_world_snapshot_is_exact(const JoWorld *world) {
            (world->model.reinserts_bodies && world->state.tick % JOX_BODIES_REINSERT_STEPS == 0);
 }
 
-static void save(JoWorld *world, JoxText *out) {
-    jox_nav_end_births(world->scratch.nav); /* what goes on from here begins without them, too */
+static void save_state(JoWorld *world, JoxText *out) {
+    jox_nav_end_births(world->scratch.nav); /* a restored world begins without them, too */
     JoxSections s = jox_sections_save(out);
     jox_world_sections(world, &s);
     jox_sections_end(&s);
@@ -121,12 +123,12 @@ bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error) {
             JOX_BODIES_REINSERT_STEPS, (unsigned long long)world->state.tick);
         return false;
     }
-    save(world, out);
+    save_state(world, out);
     return true;
 }
 
-/* Reads the sections, and what follows from them. */
-static bool restore(JoWorld *w, const void *data, size_t size, JoError *error) {
+/* Reads the sections into a world; false with an error if they do not fit. */
+static bool restore_state(JoWorld *w, const void *data, size_t size, JoError *error) {
     JoxSections s = jox_sections_restore(data, size);
     if (!s.failed)
         jox_world_sections(w, &s);
@@ -147,10 +149,10 @@ static bool restore(JoWorld *w, const void *data, size_t size, JoError *error) {
 
 bool jox_world_restore(JoWorld *world, const void *data, size_t size, JoError *error) {
     JoxText before = {0};
-    save(world, &before);
-    bool good = restore(world, data, size, error);
+    save_state(world, &before);
+    bool good = restore_state(world, data, size, error);
     if (!good)
-        restore(world, before.data, before.length, NULL);
+        restore_state(world, before.data, before.length, NULL);
     jox_text_free(&before);
     return good;
 }
@@ -159,7 +161,7 @@ void jox_world_forget(JoWorld *w) {
     jox_agents_forget(&w->state.agents);
     jox_machines_forget(&w->machines);
     jox_nav_invalidate_order(w->scratch.nav);
-    w->scratch.substep = (JoxSubstep){0}; /* no step has been done from here */
+    w->scratch.substep = (JoxSubstep){0}; /* no step was done since */
     jox_bodies_objects(w->state.bodies, &w->scratch.objects);
 }
 
@@ -168,10 +170,10 @@ uint64_t jox_world_hash(const JoWorld *world) {
 }
 
 uint64_t jox_world_hash_without(const JoWorld *world, const char *module) {
-    JOX_GUARD (world->heap, NULL) /* the world's own room for routes is made, whoever asks */
+    JOX_GUARD (world->heap, NULL) /* may allocate memory for routes */
         return 0;
     JoxSections s = jox_sections_hash();
     s.skipped = module;
-    jox_world_sections((JoWorld *)world, &s); /* no state is written */
+    jox_world_sections((JoWorld *)world, &s); /* in this mode it writes no state */
     return jox_hash_end(&s.hash);
 }

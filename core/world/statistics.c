@@ -5,13 +5,13 @@
 
 #include "base/assert.h"
 
-/* Bins every agent by how deep it overlaps the neighbour it overlaps most. */
+/* Bins all agents by their deepest overlap with a neighbour. */
 static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     for (uint32_t i = 0; i < a->count; i++) {
         float deepest = 0.0f;
         for (uint32_t k = 0; k < n->count[i]; k++) {
-            uint32_t j = n->index[jox_neighbour_at(n, i, k)]; /* they have moved since: measure */
+            uint32_t j = n->index[jox_neighbour_at(n, i, k)]; /* agents moved since */
             float gap = jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
             deepest = -gap > deepest ? -gap : deepest;
         }
@@ -22,7 +22,7 @@ static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
     s->overlap_samples += a->count;
 }
 
-/* The sum of bytes that are 0 or 1. */
+/* Returns the sum of bytes that are 0 or 1. */
 static uint64_t sum_of_ones(const uint8_t *bytes, uint32_t count) {
     uint64_t sum = 0;
     uint32_t i = 0;

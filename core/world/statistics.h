@@ -1,4 +1,5 @@
-/* Figures gathered while a world steps: counts are exact, so they do not depend on threads. */
+/* Figures gathered while a world steps; whole counts, so that they do not depend on threads. The
+   stages write them; run reports them. */
 #ifndef JOX_WORLD_STATISTICS_H
 #define JOX_WORLD_STATISTICS_H
 
@@ -23,60 +24,59 @@ typedef enum JoxStage {
     JOX_STAGE_OBSERVE
 } JoxStage;
 
-/* Momentum that passes between people and bodies by contacts and hits, in the plane: what people
-   are given against how the momentum of the bodies in Bullet changes. */
+/* Momentum exchanged between agents and bodies by contacts and hits, in the plane; checks what
+   agents get against the change of the momentum of the bodies in Bullet. */
 typedef struct JoxExchange {
     uint64_t contacts;
-    double impulse;  /* sum of their sizes, N s */
-    double residual; /* sum over the steps of the size of what does not cancel, N s */
+    double impulse;  /* sum of magnitudes, N s */
+    double residual; /* sum over the steps of the magnitude of what does not cancel, N s */
 } JoxExchange;
 
-/* Of bonds between blocks. */
+/* Bonds between blocks of bodies. */
 typedef struct JoxBondStatistics {
     uint64_t broken;
-    uint32_t pieces; /* bodies that came of it */
-    double first_s;  /* when the first broke */
-    uint32_t rows;   /* then: rows that press, the first on the body, each on the one before; with
-                        at least half as many people as the first */
-    uint32_t people; /* then: in those chains */
-    bool touched;    /* anybody touched a bonded body; the first time: */
-    double touch_s;  /* when that was */
-    double front_speed; /* before: mean speed of those within 0.3 m of it, over a second, m/s */
-    uint32_t front;     /* and the most there were */
+    uint32_t pieces;    /* bodies that breaks made */
+    double first_s;     /* s: when the first broke */
+    uint32_t rows;      /* then: rows of agents that press, the first on the body, each on the one
+                           before, each at least half as many as in the first */
+    uint32_t people;    /* then: agents in all rows */
+    bool touched;       /* an agent touched a bonded body */
+    double touch_s;     /* s: when one first did */
+    double front_speed; /* before: mean speed of agents within 0.3 m of it, over a second, m/s */
+    uint32_t front;     /* before: most agents within 0.3 m of it */
 } JoxBondStatistics;
 
-/* What driven bodies press people with whom they move towards. */
+/* Forces of driven bodies on agents that they move towards. */
 typedef struct JoxDriveStatistics {
-    uint64_t
-        held_up;   /* times that one met its force limit, which it had not met in the step before */
-    double force;  /* N: the greatest, of all whom one pressed; then: */
-    double at_s;   /* when that was */
-    uint32_t body; /* its id */
-    uint32_t people; /* whom it pressed */
-    double hardest;  /* N: what one of them bore of it */
-    uint32_t inside; /* most people at a time whose middle was in driven bodies */
+    uint64_t held_up; /* times a body met its force limit that it had not met in the step before */
+    double force;     /* N: greatest force of one body on all agents that it pressed */
+    double at_s;      /* s: when that was */
+    uint32_t body;    /* id of that body */
+    uint32_t people;  /* agents that it pressed then */
+    double hardest;   /* N: greatest part on one of them */
+    uint32_t inside;  /* most agents at a time with their centre in driven bodies */
 } JoxDriveStatistics;
 
 typedef struct JoxStatistics {
     uint64_t steps, agent_steps;
     double stage_s[JO_STAGE_COUNT]; /* wall time */
-    double bullet_s;                /* of that, Bullet's own steps */
-    double objects_s;               /* likewise, to tell agents of the bodies near them */
-    double wall_s, cpu_s;           /* of stepping; CPU time of the process */
+    double bullet_s;                /* part of that: steps of Bullet */
+    double objects_s;               /* part of that: listing bodies for agents */
+    double wall_s, cpu_s;           /* time of stepping; CPU time of the process in it */
     uint64_t failures;              /* agent-steps whose 2-D program was infeasible */
     double failure_peak;            /* greatest share of a second's agent-steps */
     uint64_t second_failures, second_agent_steps;
-    uint64_t walls_relaxed;  /* agent-steps in which a wall had to give */
-    uint64_t contact_passes; /* of the solve of contacts, over all steps */
-    double contact_residual; /* N: the most by which a last pass still changed a force */
+    uint64_t walls_relaxed;  /* agent-steps in which a wall's half-plane was relaxed */
+    uint64_t contact_passes; /* passes of the contact solve, over all steps */
+    double contact_residual; /* N: greatest change of a force in a last pass */
     uint64_t transitions, kicks, throws, pickups, spawned, removed, hits;
-    uint64_t dropped;                   /* bodies that their carriers had no room for any more */
-    uint64_t shifted_at_birth;          /* to a free spot, out of walls or others */
-    uint64_t not_placed;                /* who were to be born, and found no spot */
-    uint64_t most_without_spot;         /* agents at a time that waited where there was no room */
-    uint64_t moved_out, not_moved_out;  /* in whose way a wall came: moved; without a free spot */
-    uint64_t people_lost, bodies_lost;  /* that the guard found */
-    uint64_t opened, closed, announced; /* walls by name, and signals to everybody */
+    uint64_t dropped;           /* carried bodies that fell for want of room */
+    uint64_t shifted_at_birth;  /* agents born on a free spot near their point */
+    uint64_t not_placed;        /* births without a free spot */
+    uint64_t most_without_spot; /* most agents at a time that waited for room at their goal */
+    uint64_t moved_out, not_moved_out;  /* agents in new walls: moved; without a free spot */
+    uint64_t people_lost, bodies_lost;  /* found by number_guard.c */
+    uint64_t opened, closed, announced; /* gates, and signals to all agents */
     /* Agents by their deepest overlap, as a share of their diameter, in bins of 0.1 %; sampled once
        a simulated second. */
     uint64_t overlap[JOX_OVERLAP_BINS];
@@ -89,10 +89,11 @@ typedef struct JoxStatistics {
 /* Counts this step's failures and, once a second, overlaps. `tick` counts from 0. */
 void jox_statistics_observe(JoxStatistics *statistics, const JoxAgents *agents,
                             const JoxNeighbours *neighbours, uint64_t tick, double dt);
-/* The overlap that 99 % of the sampled agents stay below, as a share of their diameter; NAN
-   where none was sampled, as in runs of less than a second. */
+/* Returns the overlap below which 99 % of the sampled agents stay, as a share of their diameter;
+   NAN without samples, as in runs of less than a second. */
 double jox_statistics_overlap_p99(const JoxStatistics *statistics);
-/* Share of the sampled agents that overlap by more than a share of their diameter; NAN of none. */
+/* Returns the share of sampled agents that overlap by more than a share of their diameter; NAN
+   without samples. */
 double jox_statistics_overlap_share(const JoxStatistics *statistics, double over);
 
 #endif

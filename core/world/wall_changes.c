@@ -1,4 +1,5 @@
-/* Walls that come and go: opened, closed, or edited while the crowd runs. */
+/* Walls that change while a world runs: opened, closed, added, removed, or edited. Changes are
+   applied before the next step, and agents moved out of new walls. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +9,7 @@
 #include "geom/polygon.h"
 #include "world/world.h"
 
-static void change(JoWorld *world) {
+static void note_change(JoWorld *world) {
     world->state.walls_applied = false;
     world->state.walls_version++;
 }
@@ -39,10 +40,10 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
     world->model.added_ring = world->model.all_walls.ring_count;
     world->model.added_vertex = world->model.all_walls.count;
     jox_world_append_added_walls(world);
-    if (world->state.agents.count > 0) /* else there is nobody to be in their way */
+    if (world->state.agents.count > 0) /* else there are no agents to move out */
         world->state.has_new_walls |= jox_walls_mark_new(&world->model.all_walls, &old);
     jox_walls_free(&old);
-    change(world);
+    note_change(world);
 }
 
 /* ---- walls that are added ---- */
@@ -54,8 +55,8 @@ void jox_world_mark_added_walls(JoWorld *world) {
     world->model.added_vertex = world->model.all_walls.count;
 }
 
-/* One ring each, so that number m of them is ring added_ring + m. */
-static void lay(JoWorld *world, const JoxAddedWall *made) {
+/* Appends an added wall as one ring, so that wall m is ring added_ring + m. */
+static void append_added_wall(JoWorld *world, const JoxAddedWall *made) {
     JoxWalls *walls = &world->model.all_walls;
     const uint32_t ring = walls->ring_count;
     if (made->count == 2)
@@ -76,7 +77,7 @@ void jox_world_append_added_walls(JoWorld *world) {
         jox_free(walls->rings[--walls->ring_count].name);
     walls->count = world->model.added_vertex;
     for (uint32_t m = 0; m < world->state.added_count; m++)
-        lay(world, &world->state.made[m]);
+        append_added_wall(world, &world->state.added_walls[m]);
 }
 
 bool jox_world_add_wall(JoWorld *world, const char *name, const JoxV2 *points, uint32_t count,
@@ -98,16 +99,16 @@ bool jox_world_add_wall(JoWorld *world, const char *name, const JoxV2 *points, u
         jox_text_add(why, "a solid must enclose an area and not cross itself");
     if (why->length)
         return false;
-    for (uint32_t r = 0; r < walls->ring_count; r++) /* it is as others of its name are */
+    for (uint32_t r = 0; r < walls->ring_count; r++) /* open or closed as others of its name */
         if (walls->rings[r].name && strcmp(walls->rings[r].name, name) == 0)
             made.open = walls->rings[r].open;
     made.is_new = !made.open;
     jox_world_mark_added_walls(world);
-    JOX_RESERVE(state->made, state->added_capacity, state->added_count + 1);
-    state->made[state->added_count++] = made;
-    lay(world, &made);
+    JOX_RESERVE(state->added_walls, state->added_capacity, state->added_count + 1);
+    state->added_walls[state->added_count++] = made;
+    append_added_wall(world, &made);
     state->has_new_walls |= !made.open;
-    change(world);
+    note_change(world);
     return true;
 }
 
@@ -116,13 +117,13 @@ bool jox_world_remove_walls(JoWorld *world, const char *name) {
     uint32_t kept = 0;
     const uint32_t before = state->added_count;
     for (uint32_t m = 0; m < before; m++)
-        if (strcmp(state->made[m].name, name) != 0)
-            state->made[kept++] = state->made[m];
+        if (strcmp(state->added_walls[m].name, name) != 0)
+            state->added_walls[kept++] = state->added_walls[m];
     if (kept == before)
         return false;
     state->added_count = kept;
     jox_world_append_added_walls(world);
-    change(world);
+    note_change(world);
     return true;
 }
 
@@ -140,11 +141,11 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
         if (!open)
             jox_walls_mark_ring_new(&world->model.all_walls, r);
         if (world->state.added_count > 0 && r >= world->model.added_ring) {
-            world->state.made[r - world->model.added_ring].open = open;
-            world->state.made[r - world->model.added_ring].is_new |= !open;
+            world->state.added_walls[r - world->model.added_ring].open = open;
+            world->state.added_walls[r - world->model.added_ring].is_new |= !open;
         }
         world->state.has_new_walls |= !open;
-        change(world);
+        note_change(world);
     }
     return count;
 }
@@ -179,8 +180,8 @@ void jox_world_apply_walls(JoWorld *world) {
     jox_bodies_set_walls(world->state.bodies, &world->scratch.walls, JOX_WALL_HEIGHT);
 }
 
-/* Moves those in whose way walls came, and says of whom that cannot be. */
-static void clear_new_walls(JoWorld *world) {
+/* Moves agents out of new walls, and adds a message about those that cannot be moved. */
+static void clear_agents_from_new_walls(JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
     JoxStatistics *s = &world->state.statistics;
     const JoxCleared cleared = jox_nav_clear_new_walls(world->scratch.nav, &world->state.agents);
@@ -201,12 +202,12 @@ static void clear_new_walls(JoWorld *world) {
     jox_walls_clear_new_marks(&world->scratch.walls);
     jox_walls_clear_new_marks(&world->scratch.images.walls);
     for (uint32_t m = 0; m < world->state.added_count; m++)
-        world->state.made[m].is_new = 0;
+        world->state.added_walls[m].is_new = 0;
     world->state.has_new_walls = false;
 }
 
 void jox_world_settle_walls(JoWorld *world) {
     jox_world_apply_walls(world);
     if (world->state.has_new_walls)
-        clear_new_walls(world);
+        clear_agents_from_new_walls(world);
 }

@@ -71,7 +71,7 @@ static void free_world(JoWorld *world) {
     jox_walls_free(&world->model.all_walls);
     jox_walls_free(&world->scratch.walls);
     jox_wall_images_free(&world->scratch.images);
-    jox_free(world->state.made);
+    jox_free(world->state.added_walls);
     jox_input_free(&world->state.input);
     jox_inspection_free(&world->scratch.inspection);
     jox_neighbours_free(&world->scratch.neighbours);

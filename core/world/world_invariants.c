@@ -1,16 +1,17 @@
-/* Checks of whole parts of a world, which builds with assertions call before and after each step,
-   and all builds for a state that was read. */
+/* Invariants of whole parts of a world: builds with assertions check them before and after each
+   step, all builds after reading a state. Each find_*_fault returns the first that does not hold.
+ */
 #include <math.h>
 
 #include "base/assert.h"
 #include "world/world.h"
 
-/* An index of something, or -1. */
-static bool names_one(int32_t index, uint32_t count) {
+/* Returns whether an index is valid or -1. */
+static bool is_index(int32_t index, uint32_t count) {
     return index == -1 || (index >= 0 && (uint32_t)index < count);
 }
 
-static const char *machine_fault(const JoWorld *w, uint32_t i) {
+static const char *find_machine_fault(const JoWorld *w, uint32_t i) {
     const JoxAgents *a = &w->state.agents;
     if (a->machine[i] == JOX_NO_MACHINE)
         return NULL;
@@ -20,7 +21,7 @@ static const char *machine_fault(const JoWorld *w, uint32_t i) {
     return NULL;
 }
 
-static const char *agents_fault(const JoWorld *w) {
+static const char *find_agents_fault(const JoWorld *w) {
     const JoxAgents *a = &w->state.agents;
     JOX_MUST(w->state.tick < UINT32_MAX && w->machines.tick <= w->state.tick);
     const uint32_t bodies = jox_bodies_rows(w->state.bodies);
@@ -35,13 +36,13 @@ static const char *agents_fault(const JoWorld *w) {
         JOX_MUST(a->slot_generation[a->slot[i]] > 0);
         JOX_MUST(!a->removed[i]);
         JOX_MUST(a->group[i] == 0 || a->group[i] < w->model.group_count);
-        JOX_MUST(names_one(a->goal[i], w->model.place_count));
+        JOX_MUST(is_index(a->goal[i], w->model.place_count));
         JOX_MUST(a->bound[i] <= w->model.place_count && a->queue_at[i] <= w->model.place_count);
         JOX_MUST(a->kicked[i] <= bodies && a->struck[i] <= bodies && a->approach[i] <= bodies);
         JOX_MUST(jox_param(a, JOX_PARAM_radius, i) > 0.0f &&
                  jox_param(a, JOX_PARAM_mass, i) > 0.0f);
         JOX_MUST(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
-        const char *fault = machine_fault(w, i);
+        const char *fault = find_machine_fault(w, i);
         if (fault)
             return fault;
     }
@@ -49,7 +50,7 @@ static const char *agents_fault(const JoWorld *w) {
 }
 
 void jox_world_check_agents(const JoWorld *w) {
-    JOX_NO_FAULT(agents_fault(w));
+    JOX_NO_FAULT(find_agents_fault(w));
 }
 
 static bool all_within(const float *column, uint32_t count, float most) {
@@ -59,11 +60,11 @@ static bool all_within(const float *column, uint32_t count, float most) {
     return good;
 }
 
-/* m/s, N, N/m, s: far more than of people, and squares of it are still finite. */
+/* m/s, N, N/m, s: far more than agents reach, with finite squares. */
 static const float MOST = 1e9f;
 
-/* Numbers that the guard, or what wrote them, keeps in bounds. */
-static const char *numbers_fault(const JoWorld *w) {
+/* Bounds that number_guard.c or the writer of a number keeps. */
+static const char *find_numbers_fault(const JoWorld *w) {
     const JoxAgents *a = &w->state.agents;
     const uint32_t n = a->count;
     const float *const positions[] = {a->x, a->y, a->prev_x, a->prev_y, a->still_x, a->still_y};
@@ -88,8 +89,8 @@ static const char *numbers_fault(const JoWorld *w) {
     return NULL;
 }
 
-/* Who is to come, and in which parties. */
-static const char *population_fault(const JoWorld *w) {
+/* Starts, sources and parties. */
+static const char *find_population_fault(const JoWorld *w) {
     const JoxPopulation *p = &w->state.population;
     JOX_MUST(p->all_until <= w->model.start_count);
     for (uint32_t s = 0; s < w->model.start_count; s++)
@@ -129,7 +130,7 @@ void jox_world_check_model(const JoWorld *w) {
         JOX_ASSERT(m->sources[s].place < m->scene_places);
         JOX_ASSERT(m->sources[s].like < m->group_count);
     }
-    JOX_NO_FAULT(population_fault(w));
+    JOX_NO_FAULT(find_population_fault(w));
     for (uint32_t s = 0; s < m->sink_count; s++) {
         JOX_ASSERT(m->sinks[s].place < m->scene_places);
         JOX_ASSERT(m->sinks[s].group < (int64_t)m->group_count);
@@ -138,7 +139,7 @@ void jox_world_check_model(const JoWorld *w) {
     check_walls(&m->all_walls);
 }
 
-static const char *input_fault(const JoxInputLog *log) {
+static const char *find_input_fault(const JoxInputLog *log) {
     JOX_MUST(log->next <= log->count);
     for (size_t e = log->next; e < log->count; e++)
         JOX_MUST(e == 0 || log->entries[e - 1].tick <= log->entries[e].tick);
@@ -150,8 +151,8 @@ static const char *input_fault(const JoxInputLog *log) {
     return NULL;
 }
 
-/* Ids of bodies only grow: the boxes, the oldest first, ascend. */
-static const char *drags_fault(const JoxDrags *drags, const JoxBodies *bodies) {
+/* Boxes are listed oldest first, and ids of bodies only grow. */
+static const char *find_drags_fault(const JoxDrags *drags, const JoxBodies *bodies) {
     JOX_MUST(drags->box_count <= JOX_MOST_BOXES && drags->grab_count <= JOX_MOST_GRABS);
     for (uint32_t b = 1; b < drags->box_count; b++)
         JOX_MUST(drags->boxes[b - 1] < drags->boxes[b]);
@@ -174,7 +175,7 @@ static void check_inspection(const JoxInspection *all, const JoWorld *w) {
     }
 }
 
-static const char *figures_fault(const JoWorld *w) {
+static const char *find_figures_fault(const JoWorld *w) {
     const JoxStatistics *s = &w->state.statistics;
     uint64_t samples = 0;
     for (int bin = 0; bin < JOX_OVERLAP_BINS; bin++)
@@ -190,20 +191,20 @@ static const char *figures_fault(const JoWorld *w) {
     return NULL;
 }
 
-static const char *lists_fault(const JoWorld *w) {
-    const char *fault = input_fault(&w->state.input);
-    fault = fault ? fault : drags_fault(&w->state.drags, w->state.bodies);
-    return fault ? fault : figures_fault(w);
+static const char *find_lists_fault(const JoWorld *w) {
+    const char *fault = find_input_fault(&w->state.input);
+    fault = fault ? fault : find_drags_fault(&w->state.drags, w->state.bodies);
+    return fault ? fault : find_figures_fault(w);
 }
 
 void jox_world_check_lists(const JoWorld *w) {
     check_inspection(&w->scratch.inspection, w);
-    JOX_NO_FAULT(lists_fault(w));
+    JOX_NO_FAULT(find_lists_fault(w));
 }
 
 const char *jox_world_find_fault(const JoWorld *w) {
-    const char *fault = agents_fault(w);
-    fault = fault ? fault : population_fault(w);
-    fault = fault ? fault : numbers_fault(w);
-    return fault ? fault : lists_fault(w);
+    const char *fault = find_agents_fault(w);
+    fault = fault ? fault : find_population_fault(w);
+    fault = fault ? fault : find_numbers_fault(w);
+    return fault ? fault : find_lists_fault(w);
 }

@@ -8,12 +8,12 @@
 #include "base/number/pi.h"
 #include "geom/polygon.h"
 
-static const float LONG = 1.0f;  /* m: what is shorter is walked round, or pushed aside */
-static const float SLOW = 0.5f;  /* m/s: what is faster is gone before a way round it is known */
-static const float MOVED = 0.3f; /* m */
-enum { ROUND = 12 };             /* corners in place of a circle */
+static const float LONG = 1.0f;  /* m: shorter bodies are passed or pushed aside */
+static const float SLOW = 0.5f;  /* m/s: faster bodies are gone before a way round them is made */
+static const float MOVED = 0.3f; /* m: displacement of a corner that counts */
+enum { ROUND = 12 };             /* corners of the polygon round a circle */
 
-static float length_of(const JoxObject *o) {
+static float measure_length(const JoxObject *o) {
     float most2 = 0.0f;
     for (uint32_t i = 0; i < o->footprint_count; i++)
         for (uint32_t k = 0; k < i; k++)
@@ -26,11 +26,12 @@ static bool is_obstacle(const JoxObject *o) {
         return false;
     if (!o->moves && !o->kinematic)
         return true;
-    return jox_length2((JoxV2){o->velocity.x, o->velocity.y}) < SLOW * SLOW && length_of(o) > LONG;
+    return jox_length2((JoxV2){o->velocity.x, o->velocity.y}) < SLOW * SLOW &&
+           measure_length(o) > LONG;
 }
 
-/* What one body is now; a circle becomes the polygon about it. */
-static void look(const JoxObject *o, JoxObstacle *out) {
+/* Writes a body as an obstacle; a circle becomes the polygon round it. */
+static void describe_obstacle(const JoxObject *o, JoxObstacle *out) {
     const JoxObstacleKind kind = o->moves       ? JOX_OBSTACLE_MOVABLE
                                  : o->kinematic ? JOX_OBSTACLE_DRIVEN
                                                 : JOX_OBSTACLE_FIXED;
@@ -48,7 +49,7 @@ static void look(const JoxObject *o, JoxObstacle *out) {
     }
 }
 
-static const char *fault(const JoxObstacles *obstacles) {
+static const char *find_fault(const JoxObstacles *obstacles) {
     for (uint32_t i = 0; i < obstacles->count; i++) {
         const JoxObstacle *o = &obstacles->items[i];
         JOX_MUST(o->count > 0 && o->count <= JOX_FOOTPRINT_POINTS);
@@ -61,7 +62,7 @@ static const char *fault(const JoxObstacles *obstacles) {
     return NULL;
 }
 
-/* Whether a corner of `a` is farther than that from the outline of `b`. */
+/* Returns whether a corner of `a` is farther than MOVED from the outline of `b`. */
 static bool sticks_out(const JoxObstacle *a, const JoxObstacle *b) {
     for (uint32_t i = 0; i < a->count; i++) {
         float least2 = INFINITY;
@@ -87,7 +88,7 @@ static bool has_changed(const JoxObstacles *obstacles, const JoxObjects *objects
         const JoxObstacle *before = &obstacles->items[at++];
         if (!o->moves && !o->kinematic)
             continue;
-        look(o, &now);
+        describe_obstacle(o, &now);
         if (sticks_out(&now, before) || sticks_out(before, &now))
             return true;
     }
@@ -102,10 +103,10 @@ void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects) {
         if (!is_obstacle(&objects->rows[row]))
             continue;
         JOX_RESERVE(obstacles->items, obstacles->capacity, obstacles->count + 1);
-        look(&objects->rows[row], &obstacles->items[obstacles->count++]);
+        describe_obstacle(&objects->rows[row], &obstacles->items[obstacles->count++]);
     }
     obstacles->version++;
-    JOX_CHECK(JOX_NO_FAULT(fault(obstacles)));
+    JOX_CHECK(JOX_NO_FAULT(find_fault(obstacles)));
 }
 
 void jox_obstacles_add(const JoxObstacles *obstacles, uint32_t kinds, JoxWalls *walls) {
@@ -119,8 +120,8 @@ void jox_obstacles_add(const JoxObstacles *obstacles, uint32_t kinds, JoxWalls *
 void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "obstacles", obstacles->items, obstacles->count, obstacles->capacity);
     JOX_SECTION(s, "obstacles_version", obstacles->version);
-    if (s->mode == JOX_SECTIONS_RESTORE && fault(obstacles))
-        jox_sections_fail(s, "obstacles", fault(obstacles));
+    if (s->mode == JOX_SECTIONS_RESTORE && find_fault(obstacles))
+        jox_sections_fail(s, "obstacles", find_fault(obstacles));
 }
 
 void jox_obstacles_free(JoxObstacles *obstacles) {

@@ -1,4 +1,4 @@
-/* Bodies that ways lead round, as they stood when last looked at closely. */
+/* Bodies that ways lead round, as they were when routes last examined them. */
 #ifndef JOX_WORLD_OBSTACLES_H
 #define JOX_WORLD_OBSTACLES_H
 
@@ -8,14 +8,14 @@
 
 typedef enum JoxObstacleKind {
     JOX_OBSTACLE_FIXED,   /* nothing moves it */
-    JOX_OBSTACLE_MOVABLE, /* by what pushes it */
+    JOX_OBSTACLE_MOVABLE, /* anything that pushes it moves it */
     JOX_OBSTACLE_DRIVEN,  /* kinematic, as doors are */
     JOX_OBSTACLE_KINDS
 } JoxObstacleKind;
-#define JOX_OBSTACLES_ALL ((1u << JOX_OBSTACLE_KINDS) - 1) /* a bit for each kind */
+#define JOX_OBSTACLES_ALL ((1u << JOX_OBSTACLE_KINDS) - 1) /* one bit per kind */
 
 typedef struct JoxObstacle {
-    uint32_t id;   /* of the body */
+    uint32_t id;   /* id of the body */
     uint32_t kind; /* JoxObstacleKind */
     uint32_t count;
     JoxV2 ring[JOX_FOOTPRINT_POINTS]; /* counter-clockwise, m */
@@ -28,11 +28,11 @@ typedef struct JoxObstacles {
     uint32_t version; /* counts the changes */
 } JoxObstacles;
 
-/* Looks at the bodies: those that do not move by themselves, and others that are longer than 1 m
-   and slower than 0.5 m/s. Where one came, went, or has a corner of its footprint more than 0.3 m
-   from where it was, all are taken as they stand now, and `version` counts up. */
+/* Examines bodies: static ones, and others longer than 1 m and slower than 0.5 m/s. If one is new,
+   gone, or has a corner of its footprint more than 0.3 m from its old outline, copies all as they
+   are now and increments `version`. */
 void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects);
-/* Adds those of some kinds, a bit for each, to walls as solids. */
+/* Adds the bodies of some kinds, one bit per kind, to walls as solids. */
 void jox_obstacles_add(const JoxObstacles *obstacles, uint32_t kinds, JoxWalls *walls);
 void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *sections);
 void jox_obstacles_free(JoxObstacles *obstacles);

@@ -7,27 +7,27 @@
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
 
-static const float THIN = 0.05f;   /* m: clearance of a way that only walls can cut */
-static const float SQUEEZE = 0.7f; /* clearance in radii: a gap of less than 1.2 radii is shut */
+static const float THIN = 0.05f;   /* m: clearance of a way that only walls block */
+static const float SQUEEZE = 0.7f; /* clearance in radii: blocks gaps below 1.2 radii */
 static const float CLASS = 0.02f;  /* m: step between classes of radii */
 static const float STRIDE = 0.1f;  /* m */
 enum { CLASSES = 64, MOST_STRIDES = 100000 };
 
-/* What a field takes into account, each with all before it. */
+/* Obstacles of a field; each layer includes those before it. */
 typedef enum Layer {
-    WALLS,   /* that never open */
-    BODIES,  /* that nothing moves */
+    WALLS,   /* walls that never open */
+    BODIES,  /* bodies that nothing moves */
     LASTING, /* closed gates that nothing opens */
-    ALL,     /* gates and all bodies as they stand */
+    ALL,     /* gates and bodies as they are */
     LAYERS
 } Layer;
 
 struct JoxHindrances {
     const JoxRouteStage *stage;
-    JoxRouteStage later;  /* the stage, of layer LASTING: gates that something opens are open */
-    JoxWalls later_walls; /* with rings of its own alone */
-    uint32_t place, gate; /* gate: ring of the closed one on the place; UINT32_MAX */
-    JoxField *thin;       /* layer WALLS for whoever passes the least gap */
+    JoxRouteStage later;  /* the stage for layer LASTING: gates that something opens are open */
+    JoxWalls later_walls; /* shares all but its rings with all_walls */
+    uint32_t place, gate; /* gate: ring of the closed gate on the place, or UINT32_MAX */
+    JoxField *thin;       /* layer WALLS with clearance THIN */
     JoxField *fields[CLASSES][LAYERS]; /* by class of radius */
 };
 
@@ -87,12 +87,12 @@ static JoxField *make_field(const JoxHindrances *h, Layer layer, float clearance
     return jox_routes_make_field(layer == LASTING ? &h->later : h->stage, h->place, &look);
 }
 
-static int class_of(float radius) {
+static int get_class(float radius) {
     const int class = (int)floorf(radius / CLASS + 1e-3f);
     return class < 1 ? 1 : class < CLASSES ? class : CLASSES - 1;
 }
 
-static const JoxField *field_of(JoxHindrances *h, int class, Layer layer) {
+static const JoxField *get_field(JoxHindrances *h, int class, Layer layer) {
     JoxField **field = &h->fields[class][layer];
     if (!*field)
         *field = make_field(h, layer, jox_maxf(THIN, SQUEEZE * CLASS * (float)class));
@@ -105,21 +105,21 @@ static bool leads_from(const JoxField *field, JoxV2 from) {
 
 /* ---- where a way is cut ---- */
 
-/* m: from a point to a body's outline, 0 within it. */
-static float gap_to_body(const JoxObstacle *body, JoxV2 p) {
+/* Returns the distance of a point to a body's outline, m; 0 inside. */
+static float measure_gap(const JoxObstacle *body, JoxV2 p) {
     if (jox_polygon_contains(body->ring, body->count, p))
         return 0.0f;
     return jox_polygon_distance(body->ring, body->count, p, false);
 }
 
-static JoxV2 middle_of(const JoxObstacle *body) {
+static JoxV2 get_middle(const JoxObstacle *body) {
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < body->count; k++)
         sum = jox_add(sum, body->ring[k]);
     return jox_scale(sum, 1.0f / (float)body->count);
 }
 
-/* Whether a stride passes an edge or, where edges of the world are joined, one of its images. */
+/* Returns whether a stride crosses an edge or one of its images beyond joined edges. */
 static bool is_passed(const JoxHindrances *h, JoxV2 from, JoxV2 to, JoxV2 p, JoxV2 q) {
     const JoxV2 period = h->stage->agents->period;
     const int across = period.x > 0.0f, up = period.y > 0.0f;
@@ -132,7 +132,7 @@ static bool is_passed(const JoxHindrances *h, JoxV2 from, JoxV2 to, JoxV2 p, Jox
     return false;
 }
 
-/* The closed gate or the body of a layer that a stride passes or comes nearer to than `clear` m. */
+/* Finds the closed gate of a layer that a stride crosses, or the body nearer than `clear` m. */
 static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, float clear,
                      JoxHindrance *out) {
     const JoxWalls *walls = layer == LASTING ? &h->later_walls : h->stage->all_walls;
@@ -152,16 +152,16 @@ static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, floa
     for (uint32_t b = 0; layer != LASTING && b < bodies->count; b++) {
         const JoxObstacle *body = &bodies->items[b];
         if ((body->kind == JOX_OBSTACLE_FIXED) != (layer == BODIES) || body->count < 3 ||
-            gap_to_body(body, q) >= clear)
+            measure_gap(body, q) >= clear)
             continue;
         const JoxHindranceKind kind = layer == BODIES ? JOX_HINDRANCE_FILLED : JOX_HINDRANCE_BODY;
-        *out = (JoxHindrance){kind, body->id, middle_of(body)};
+        *out = (JoxHindrance){kind, body->id, get_middle(body)};
         return true;
     }
     return false;
 }
 
-/* Goes the way of `open`, which leads on, until something of a layer cuts it. */
+/* Follows the way of the field `open` until something of a layer blocks it. */
 static JoxHindrance trace_cut(const JoxHindrances *h, const JoxField *open, JoxV2 from, Layer layer,
                               float clear) {
     JoxHindrance cut = {layer == ALL ? JOX_HINDRANCE_BODY : JOX_HINDRANCE_FILLED, UINT32_MAX, from};
@@ -175,18 +175,19 @@ static JoxHindrance trace_cut(const JoxHindrances *h, const JoxField *open, JoxV
     return cut;
 }
 
-/* Finds what shuts the way: a gate that nothing opens where every way has one, else the first gate
-   or body on a way that leads on later. */
+/* Finds what blocks the way: a gate that nothing opens if every way has one, else the first gate or
+   body on a way that opens later. */
 static JoxHindrance trace_shut(JoxHindrances *h, int class, JoxV2 from, float clear) {
-    const JoxField *lasting = field_of(h, class, LASTING);
+    const JoxField *lasting = get_field(h, class, LASTING);
     if (leads_from(lasting, from))
         return trace_cut(h, lasting, from, ALL, clear);
-    const JoxField *bodies = field_of(h, class, BODIES);
+    const JoxField *bodies = get_field(h, class, BODIES);
     const JoxHindrance cut = trace_cut(h, bodies, from, LASTING, clear);
     return cut.by != UINT32_MAX ? cut : trace_cut(h, bodies, from, ALL, clear);
 }
 
-/* The first point on the way of `thin` from which the broad way leads on: where it was narrow. */
+/* Returns the first point on the way of `thin` from which the field `broad` leads on: the narrow
+   spot. */
 static JoxV2 trace_narrow(const JoxField *thin, const JoxField *broad, JoxV2 from) {
     for (int n = 0; n < MOST_STRIDES && !leads_from(broad, from); n++) {
         const JoxV2 way = jox_field_direction(thin, from);
@@ -198,29 +199,30 @@ static JoxV2 trace_narrow(const JoxField *thin, const JoxField *broad, JoxV2 fro
 }
 
 JoxHindranceKind jox_hindrances_kind(JoxHindrances *h, JoxV2 from, float radius) {
-    const int class = class_of(radius);
+    const int class = get_class(radius);
     JOX_ASSERT(h->place < h->stage->place_count);
-    if (leads_from(field_of(h, class, ALL), from))
+    if (leads_from(get_field(h, class, ALL), from))
         return h->gate == UINT32_MAX ? JOX_HINDRANCE_NONE : JOX_HINDRANCE_GATE;
     if (!h->thin)
         h->thin = make_field(h, WALLS, THIN);
     if (!leads_from(h->thin, from))
         return JOX_HINDRANCE_WALL;
-    if (!leads_from(field_of(h, class, WALLS), from))
+    if (!leads_from(get_field(h, class, WALLS), from))
         return JOX_HINDRANCE_NARROW;
-    return leads_from(field_of(h, class, BODIES), from) ? JOX_HINDRANCE_GATE : JOX_HINDRANCE_FILLED;
+    return leads_from(get_field(h, class, BODIES), from) ? JOX_HINDRANCE_GATE
+                                                         : JOX_HINDRANCE_FILLED;
 }
 
 JoxHindrance jox_hindrances_find(JoxHindrances *h, JoxV2 from, float radius) {
-    const int class = class_of(radius);
+    const int class = get_class(radius);
     const float clear = SQUEEZE * CLASS * (float)class;
     const JoxHindranceKind kind = jox_hindrances_kind(h, from, radius);
     switch (kind) {
     case JOX_HINDRANCE_NARROW:
         return (JoxHindrance){kind, UINT32_MAX,
-                              trace_narrow(h->thin, field_of(h, class, WALLS), from)};
+                              trace_narrow(h->thin, get_field(h, class, WALLS), from)};
     case JOX_HINDRANCE_FILLED:
-        return trace_cut(h, field_of(h, class, WALLS), from, BODIES, clear);
+        return trace_cut(h, get_field(h, class, WALLS), from, BODIES, clear);
     case JOX_HINDRANCE_GATE:
         if (h->gate != UINT32_MAX)
             return (JoxHindrance){kind, h->gate, h->stage->places[h->place].centre};

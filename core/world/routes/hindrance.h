@@ -1,5 +1,5 @@
-/* What keeps people from a place: walls, a gap, a body or a gate. Asked between steps, by checks
-   and by those who watch a run; a step never asks, as fields are made at once. */
+/* Finds what keeps an agent from a place: walls, a gap, a body or a gate. Called between steps, by
+   checks and for display; never in a step, as it makes fields at once. */
 #ifndef JOX_WORLD_HINDRANCE_H
 #define JOX_WORLD_HINDRANCE_H
 
@@ -18,27 +18,28 @@ typedef enum JoxHindranceKind {
 typedef struct JoxHindrance {
     JoxHindranceKind kind;
     uint32_t by; /* GATE: ring of all_walls; FILLED, BODY: id of the body; else UINT32_MAX */
-    JoxV2 at;    /* m: of NARROW where the way is cut, of GATE its middle, of FILLED and BODY the
-                    body's    middle, of WALL the person's point */
+    JoxV2 at; /* m: NARROW: where the way is cut; GATE: middle of the gate; FILLED, BODY: middle of
+                 the body; WALL: the given point */
 } JoxHindrance;
 
-/* Ring of the closed gate on which a place lies that is a point or a line: nobody leaves there
-   while it is closed. UINT32_MAX: none. */
+/* Returns the ring of the closed gate on which a point or line lies, by which no agent leaves while
+   it is closed; UINT32_MAX: none. */
 uint32_t jox_hindrance_find_gate(const JoxRouteStage *stage, uint32_t place);
 
-/* The fields to one place, made as they are needed. */
+/* Fields to one place, made as needed. */
 typedef struct JoxHindrances JoxHindrances;
 
-/* The stage and what it points to outlive it and do not change. Bodies are taken as routes saw them
-   last. `opening`: by ring of all_walls, whether it is a gate that something opens; NULL: none. */
+/* Creates it for one place. The stage and what it points to must outlive it unchanged. Bodies are
+   where routes saw them last. `opening`: by ring of all_walls, whether something opens that gate;
+   NULL: none. */
 JoxHindrances *jox_hindrances_create(const JoxRouteStage *stage, uint32_t place,
                                      const bool *opening);
 void jox_hindrances_free(JoxHindrances *hindrances);
-/* What keeps a person of `radius` m at a point from the place; of gates, one that nothing opens
-   where every way leads through such. People squeeze through gaps of 1.4
-   radii and through none of less than 1.2; radii are rounded down to 0.02 m. */
+/* Finds what keeps an agent of `radius` m at a point from the place; a gate that nothing opens if
+   every way has one. Agents squeeze through gaps of 1.4 radii and through none below 1.2; radii are
+   rounded down to 0.02 m. */
 JoxHindrance jox_hindrances_find(JoxHindrances *hindrances, JoxV2 from, float radius);
-/* Its kind alone, without tracing the way; GATE stands for BODY, too. */
+/* Returns the kind alone, without tracing the way; GATE for BODY too. */
 JoxHindranceKind jox_hindrances_kind(JoxHindrances *hindrances, JoxV2 from, float radius);
 
 #endif

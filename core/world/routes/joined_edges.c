@@ -33,7 +33,7 @@ void jox_routes_free_goal(JoxPlace *places, uint32_t count) {
     jox_free(places);
 }
 
-/* Whether a place lies between two joined edges, from `low` on. */
+/* Returns whether a place lies between two joined edges, from `low` on. */
 static bool lies_between_edges(float from, float to, float reach, float low, float period) {
     return from - reach >= low && to + reach <= low + period;
 }

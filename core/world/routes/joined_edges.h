@@ -8,11 +8,11 @@
 #include "geom/place.h"
 #include "geom/walls.h"
 
-/* Whether routes lead over edges: some are joined, and there are walls to go round. */
+/* Returns whether routes lead over edges: some are joined, and there are walls. */
 bool jox_routes_lead_over_edges(const JoxAgents *agents, const JoxWalls *walls);
 /* Adds the images of walls a period beyond joined edges. */
 void jox_routes_add_wall_images(const JoxAgents *agents, JoxWalls *walls);
-/* A place as a goal of routes, with its members behind it: *count places that are freed by
+/* Copies a place as a goal of routes, followed by its members: *count places, freed by
    jox_routes_free_goal. */
 JoxPlace *jox_routes_copy_goal(const JoxPlace *places, uint32_t place, uint32_t *count);
 void jox_routes_free_goal(JoxPlace *places, uint32_t count);

@@ -10,58 +10,60 @@
 #include "world/routes/joined_edges.h"
 
 enum { MOST_FIELDS = 64 };
-/* m: the smallest that gives few enough cells to be done within DELAY; the largest still shows
-   doors of half a metre. */
+/* m: sizes of cells; a field has the smallest with at most MOST_CELLS cells, so that it is done
+   within DELAY. The largest still shows doors of half a metre. */
 static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
 static const float MOST_CELLS = 400000.0f;
-/* Of a field that goes by where the crowd is, which has moved on by the time it is used; it is made
-   anew every CROWD_PAUSE. */
+/* The same for fields round crowds, which are made anew every CROWD_PAUSE. */
 static const float MOST_CROWD_CELLS = 100000.0f;
-static const float CLEARANCE = 0.15f;  /* m: half of a person who turns sideways */
-static const float MOST_ROOM = 1.5f;   /* times the box that would be laid out */
-static const float SPARE = 3.0f;       /* m more, once people have gone beyond the box before */
-static const float MARGIN = 3.0f;      /* m about all walls and agents */
-static const double DELAY = 0.5;       /* s from asking to use */
-static const double PAUSE = 2.0;       /* s between renewals for bodies that move */
-static const double LOOK = 0.25;       /* s between looks at bodies and crowds */
-static const double CROWD_PAUSE = 1.0; /* s between renewals for a crowd, */
-static const float CROWD_CELLS = 150000.0f; /* and for so many cells 1 s at least */
-enum { HELD = 256, FEW_HELD = 5 * HELD };   /* one person held up; fewer make no crowd */
+static const float CLEARANCE = 0.15f; /* m: half the width of a person turned sideways */
+static const float MOST_ROOM = 1.5f;  /* greatest area of a reused box, in areas of a new one */
+static const float SPARE = 3.0f;      /* m: margin added once agents went beyond the previous box */
+static const float MARGIN = 3.0f;     /* m: margin round all walls and agents */
+static const double DELAY = 0.5;      /* s: from the request of a field to its use */
+static const double PAUSE = 2.0;      /* s: between fields made anew for moving bodies */
+static const double LOOK = 0.25;      /* s: interval at which bodies and crowds are examined */
+static const double CROWD_PAUSE = 1.0;      /* s: between fields made anew for a crowd */
+static const float CROWD_CELLS = 150000.0f; /* cells; larger fields wait longer in proportion */
+enum {
+    HELD = 256,
+    FEW_HELD = 5 * HELD
+}; /* unit of one agent held up; fewer than FEW_HELD are no crowd */
 
-/* One field to be made, with copies of all that it is made of. */
+/* One field being made, with copies of all that it is made of, as a worker thread makes it. */
 typedef struct Making {
     JoxWorkItem item; /* first */
     JoxWalls walls;
-    JoxPlace *places; /* the place, and behind it its members */
+    JoxPlace *places; /* the place, followed by its members */
     uint32_t place_count;
     JoxV2 low, high;
     float cell, clearance; /* m */
     JoxFieldCrowd crowd;
     bool keeps_marks;
-    JoxFieldMarks *marks; /* of the route's field before, then of this one; NULL: none */
+    JoxFieldMarks *marks; /* marks of the previous field, then of this one; NULL: none */
     JoxField *field;
 } Making;
 
 typedef struct Route {
     Making *making;            /* or NULL */
-    uint64_t asked, due;       /* ticks: when the last making began, when its field is used */
-    uint32_t walls, obstacles; /* versions of what it was made of */
-    JoxFieldMarks *marks;      /* of crowds: what its walls do, as it is made again and again */
+    uint64_t asked, due;       /* ticks: of the last request, and of the first use of its field */
+    uint32_t walls, obstacles; /* versions that the field was made of */
+    JoxFieldMarks *marks;      /* fields round crowds: marks of walls, kept from field to field */
 } Route;
 
 struct JoxRoutes {
     JoxWorker *worker;
     JoxObstacles obstacles;
-    uint32_t walls; /* version, as a Route's */
+    uint32_t walls; /* version of walls */
     uint32_t seen;  /* world->state.walls_version */
     bool begun;
     uint32_t capacity; /* places */
-    /* By place and kind of field, as the mind sees them: [place * JOX_ROUTE_KINDS + kind]. */
+    /* By place and kind, as machines read them: [place * JOX_ROUTE_KINDS + kind]. */
     JoxField **fields;
     Route *items;
-    uint8_t *wanted; /* by place */
-    uint32_t *held;  /* by place: people bound there who are held up, in 1 / HELD; scratch */
-    uint32_t count;  /* fields that are there or under way */
+    uint8_t *wanted; /* by place: a bit for each kind that agents asked for */
+    uint32_t *held;  /* by place: agents held up on the way there, in 1 / HELD; scratch */
+    uint32_t count;  /* fields in use or being made */
 };
 
 JoxRoutes *jox_routes_create(void) {
@@ -70,8 +72,8 @@ JoxRoutes *jox_routes_create(void) {
     return routes;
 }
 
-/* Only fields that are there or under way are counted, and none was asked for in the future. */
-static const char *fault(const JoxRouteStage *w) {
+/* Returns the first invariant that does not hold, or NULL. */
+static const char *find_fault(const JoxRouteStage *w) {
     const JoxRoutes *routes = w->routes;
     uint32_t count = 0;
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++) {
@@ -99,23 +101,24 @@ static void free_making(Making *making) {
     jox_free(making);
 }
 
-static void make(JoxWorkItem *item) {
+static void make_field(JoxWorkItem *item) {
     Making *m = (Making *)item;
     m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, m->clearance,
                                 &m->crowd, m->keeps_marks ? &m->marks : NULL);
 }
 
-static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void make_fields(void *context, uint32_t begin_route, uint32_t end, uint32_t worker) {
     (void)worker;
     Making **makings = context;
-    for (uint32_t i = begin; i < end; i++)
-        make(&makings[i]->item);
+    for (uint32_t i = begin_route; i < end; i++)
+        make_field(&makings[i]->item);
 }
 
 /* ---- crowds ---- */
 
-/* How far an agent is held up on its way, in 1 / HELD. */
-static uint32_t held_up(const JoxAgents *a, uint32_t i) {
+/* Returns by how much an agent is held up: the lacking share of its preferred speed, in 1 / HELD.
+ */
+static uint32_t measure_hold_up(const JoxAgents *a, uint32_t i) {
     JoxV2 preferred = {a->pref_x[i], a->pref_y[i]}, velocity = {a->vx[i], a->vy[i]};
     float speed2 = jox_length2(preferred);
     if (!(speed2 > 0.0f))
@@ -124,15 +127,15 @@ static uint32_t held_up(const JoxAgents *a, uint32_t i) {
     return (uint32_t)(jox_clampf(share, 0.0f, 1.0f) * (float)HELD);
 }
 
-/* Whole numbers, so that the order of the agents does not matter. */
-static void count_held(const JoxRouteStage *w) {
+/* Sums agents held up by place; in whole numbers, so that their order does not matter. */
+static void sum_held(const JoxRouteStage *w) {
     JoxRoutes *routes = w->routes;
     const JoxAgents *a = w->agents;
     if (routes->capacity)
         memset(routes->held, 0, routes->capacity * sizeof *routes->held);
     for (uint32_t i = 0; i < a->count; i++)
         if (a->bound[i] && a->bound[i] <= routes->capacity)
-            routes->held[jox_referred(a->bound[i])] += held_up(a, i);
+            routes->held[jox_referred(a->bound[i])] += measure_hold_up(a, i);
 }
 
 static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *crowd) {
@@ -143,7 +146,7 @@ static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *cr
     crowd->held = jox_alloc(a->count + 1, sizeof *crowd->held);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* in ascending id */
         uint32_t i = a->by_rank[rank],
-                 held = jox_referred(a->bound[i]) == (int32_t)place ? held_up(a, i) : 0;
+                 held = jox_referred(a->bound[i]) == (int32_t)place ? measure_hold_up(a, i) : 0;
         if (held == 0)
             continue;
         crowd->at[crowd->count] = (JoxV2){a->x[i], a->y[i]};
@@ -151,15 +154,15 @@ static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *cr
     }
 }
 
-/* s: fields of many cells are renewed less often. */
-static double crowd_pause(const JoxField *field) {
+/* Returns the time between fields round a crowd, s: longer for many cells. */
+static double get_crowd_pause(const JoxField *field) {
     double cells = field ? (double)jox_field_cells(field) : 0.0;
     return cells > CROWD_CELLS ? CROWD_PAUSE * cells / (double)CROWD_CELLS : CROWD_PAUSE;
 }
 
-/* Whether the field before serves for the box low..high too, and has not many more cells than one
-   that is laid out for it now. */
-static bool is_room(const JoxField *before, JoxV2 low, JoxV2 high, float cell) {
+/* Returns whether the box of the previous field contains low..high, and is not much larger than a
+   new box for it. */
+static bool can_reuse_box(const JoxField *before, JoxV2 low, JoxV2 high, float cell) {
     JoxV2 from, to;
     float size;
     if (!before)
@@ -170,10 +173,10 @@ static bool is_room(const JoxField *before, JoxV2 low, JoxV2 high, float cell) {
            (to.x - from.x) * (to.y - from.y) < MOST_ROOM * width * height;
 }
 
-/* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells; where
-   it can be, it is that of the field before: so those that are made anew judge narrow gaps alike,
-   and what walls do to them needs no second look. */
-static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_cells,
+/* Sets the box of a field round all walls, open gates too, and agents; its corner is on the grid of
+   cells. If possible it is the box of the previous field, so that narrow gaps are judged alike and
+   marks of walls can be reused. */
+static void set_box(const JoxRouteStage *w, const JoxField *before, float most_cells,
                     Making *making) {
     const JoxWalls *walls = w->all_walls;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
@@ -196,7 +199,7 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_c
     if (over_edges)
         jox_routes_box_over_edges(w->agents, cell, &low, &high);
     JOX_ASSERT(low.x < high.x && low.y < high.y); /* there are walls or agents */
-    if (is_room(before, low, high, cell)) {
+    if (can_reuse_box(before, low, high, cell)) {
         jox_field_box(before, &making->low, &making->high, &making->cell);
         return;
     }
@@ -210,11 +213,12 @@ static void lay_out(const JoxRouteStage *w, const JoxField *before, float most_c
     making->high = high;
 }
 
-/* What a field is made of: what stands where now. `before`: the field that it replaces, or NULL. */
-static Making *prepare(const JoxRouteStage *w, uint32_t place, const JoxRouteFieldOptions *look,
-                       float most_cells, const JoxField *before) {
+/* Copies all that a field is made of. `before`: the field that it replaces, or NULL. */
+static Making *prepare_field(const JoxRouteStage *w, uint32_t place,
+                             const JoxRouteFieldOptions *look, float most_cells,
+                             const JoxField *before) {
     Making *making = jox_alloc(1, sizeof *making);
-    making->item.run = make;
+    making->item.run = make_field;
     making->clearance = look->clearance;
     jox_walls_standing(&making->walls, w->all_walls, look->gates);
     jox_obstacles_add(&w->routes->obstacles, look->bodies, &making->walls);
@@ -223,7 +227,7 @@ static Making *prepare(const JoxRouteStage *w, uint32_t place, const JoxRouteFie
         jox_routes_add_wall_images(w->agents, &making->walls);
         jox_routes_add_goal_images(w->agents, &making->places, &making->place_count);
     }
-    lay_out(w, before, most_cells, making);
+    set_box(w, before, most_cells, making);
     return making;
 }
 
@@ -237,24 +241,25 @@ const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes) {
 
 JoxField *jox_routes_make_field(const JoxRouteStage *w, uint32_t place,
                                 const JoxRouteFieldOptions *look) {
-    Making *making = prepare(w, place, look, MOST_CELLS, NULL);
-    make(&making->item);
+    Making *making = prepare_field(w, place, look, MOST_CELLS, NULL);
+    make_field(&making->item);
     JoxField *field = making->field;
     making->field = NULL;
     free_making(making);
     return field;
 }
 
-/* Begins to make a field. */
-static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, double delay) {
+/* Prepares the field of a route, to be used after `delay` s. */
+static Making *begin_route(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind,
+                           double delay) {
     JoxRoutes *routes = w->routes;
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
-    JOX_ASSERT(!route->making); /* it would be lost */
+    JOX_ASSERT(!route->making); /* a running one would be lost */
     const bool open = kind == JOX_ROUTE_OPEN, crowd = kind == JOX_ROUTE_CROWD;
     const JoxRouteFieldOptions look = {!open, open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
                                        CLEARANCE};
-    Making *making = prepare(w, place, &look, crowd ? MOST_CROWD_CELLS : MOST_CELLS,
-                             routes->fields[place * JOX_ROUTE_KINDS + kind]);
+    Making *making = prepare_field(w, place, &look, crowd ? MOST_CROWD_CELLS : MOST_CELLS,
+                                   routes->fields[place * JOX_ROUTE_KINDS + kind]);
     if (crowd) {
         copy_crowd(w, place, &making->crowd);
         if (jox_routes_lead_over_edges(w->agents, w->all_walls))
@@ -270,8 +275,8 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     return making;
 }
 
-/* The field that was made comes into use. */
-static void take(JoxRoutes *routes, uint32_t at) {
+/* Puts a finished field into use. */
+static void take_field(JoxRoutes *routes, uint32_t at) {
     Making *making = routes->items[at].making;
     jox_field_free(routes->fields[at]);
     JOX_ASSERT(making->field);
@@ -285,8 +290,8 @@ static void take(JoxRoutes *routes, uint32_t at) {
 
 /* ---- which ones ---- */
 
-/* Whether routes could lead elsewhere if what can go away were not there. */
-static bool is_shut(const JoxRouteStage *w) {
+/* Returns whether a closed gate or a movable body may block ways. */
+static bool can_be_blocked(const JoxRouteStage *w) {
     for (uint32_t r = 0; r < w->all_walls->ring_count; r++)
         if (w->all_walls->rings[r].name && !w->all_walls->rings[r].open)
             return true;
@@ -305,16 +310,17 @@ static bool is_due(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind) {
     if (kind == JOX_ROUTE_CROWD)
         return routes->held[place] >= FEW_HELD &&
                (routes->fields[at] || routes->count < MOST_FIELDS) &&
-               (double)(w->tick - route->asked) * w->dt >= crowd_pause(routes->fields[at]) - 1e-9;
+               (double)(w->tick - route->asked) * w->dt >=
+                   get_crowd_pause(routes->fields[at]) - 1e-9;
     if (!routes->fields[at])
-        return routes->count < MOST_FIELDS && (kind == JOX_ROUTE_NOW || is_shut(w));
+        return routes->count < MOST_FIELDS && (kind == JOX_ROUTE_NOW || can_be_blocked(w));
     if (route->walls != routes->walls)
         return true;
     return kind == JOX_ROUTE_NOW && route->obstacles != routes->obstacles.version &&
            (double)(w->tick - route->asked) * w->dt >= PAUSE - 1e-9;
 }
 
-static void make_room(const JoxRouteStage *w) {
+static void reserve_places(const JoxRouteStage *w) {
     JoxRoutes *routes = w->routes;
     if (w->place_count > routes->capacity) {
         uint32_t had = routes->capacity, has = w->place_count;
@@ -334,29 +340,29 @@ static void make_room(const JoxRouteStage *w) {
     w->machines->wanted = routes->wanted;
 }
 
-/* What is asked for in the first step, at once and on all threads. */
+/* Makes the fields asked for in the first step at once, on all threads. */
 static void make_first(const JoxRouteStage *w) {
     JoxRoutes *routes = w->routes;
     for (JoxRouteKind kind = JOX_ROUTE_NOW; kind < JOX_ROUTE_KINDS; kind++) {
         Making *makings[MOST_FIELDS];
         uint32_t count = 0, at[MOST_FIELDS];
-        jox_machines_ask_routes(w->machines); /* who finds no route asks for the other kind */
+        jox_machines_ask_routes(w->machines); /* agents without a route ask for the other kind */
         for (uint32_t p = 0; p < routes->capacity; p++) {
             if (!is_due(w, p, kind))
                 continue;
             JOX_ASSERT(count < MOST_FIELDS);
             at[count] = p * JOX_ROUTE_KINDS + kind;
-            makings[count++] = begin(w, p, kind, 0.0);
+            makings[count++] = begin_route(w, p, kind, 0.0);
             routes->count++;
         }
-        jox_parallel_for(w->pool, count, 1, make_range, makings);
+        jox_parallel_for(w->pool, count, 1, make_fields, makings);
         for (uint32_t n = 0; n < count; n++)
-            take(routes, at[n]);
+            take_field(routes, at[n]);
     }
 }
 
-/* Where the crowd has gone, the way as all stands is as good. */
-static void drop_idle(JoxRoutes *routes) {
+/* Frees fields round crowds that are gone. */
+static void free_crowd_fields(JoxRoutes *routes) {
     for (uint32_t p = 0; p < routes->capacity; p++) {
         uint32_t at = p * JOX_ROUTE_KINDS + JOX_ROUTE_CROWD;
         if (!routes->fields[at] || routes->items[at].making || routes->held[p] >= FEW_HELD)
@@ -372,7 +378,7 @@ static void drop_idle(JoxRoutes *routes) {
 void jox_routes_update(const JoxRouteStage *w) {
     JoxRoutes *routes = w->routes;
     uint64_t every = (uint64_t)jox_maxf(1.0f, (float)floor(LOOK / w->dt + 0.5));
-    make_room(w);
+    reserve_places(w);
     if (routes->seen != w->walls_version) {
         routes->seen = w->walls_version;
         routes->walls++;
@@ -392,12 +398,12 @@ void jox_routes_update(const JoxRouteStage *w) {
         if (!routes->items[at].making || routes->items[at].due > w->tick)
             continue;
         jox_worker_wait(routes->worker, &routes->items[at].making->item);
-        take(routes, at);
+        take_field(routes, at);
     }
     bool looks = w->tick % every == 0;
     if (looks && routes->count > 0) {
-        count_held(w);
-        drop_idle(routes);
+        sum_held(w);
+        free_crowd_fields(routes);
     }
     for (uint32_t p = 0; any && p < routes->capacity; p++) {
         for (JoxRouteKind kind = JOX_ROUTE_NOW; routes->wanted[p] && kind < JOX_ROUTE_KINDS;
@@ -405,11 +411,11 @@ void jox_routes_update(const JoxRouteStage *w) {
             if ((kind == JOX_ROUTE_CROWD && !looks) || !is_due(w, p, kind))
                 continue;
             routes->count += !routes->fields[p * JOX_ROUTE_KINDS + kind];
-            jox_worker_enqueue(routes->worker, &begin(w, p, kind, DELAY)->item);
+            jox_worker_enqueue(routes->worker, &begin_route(w, p, kind, DELAY)->item);
         }
         routes->wanted[p] = 0;
     }
-    JOX_CHECK(JOX_NO_FAULT(fault(w)));
+    JOX_CHECK(JOX_NO_FAULT(find_fault(w)));
 }
 
 void jox_routes_renew(JoxRoutes *routes) {
@@ -418,14 +424,14 @@ void jox_routes_renew(JoxRoutes *routes) {
 
 /* ---- state ---- */
 
-/* Fields under way are finished first: what they will be does not depend on when. */
-static void finish(JoxRoutes *routes) {
+/* Waits for fields being made; their result does not depend on when they are made. */
+static void wait_for_fields(JoxRoutes *routes) {
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
         if (routes->items[at].making)
             jox_worker_wait(routes->worker, &routes->items[at].making->item);
 }
 
-static void clear(JoxRoutes *routes) {
+static void clear_routes(JoxRoutes *routes) {
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++) {
         jox_field_free(routes->fields[at]);
         routes->fields[at] = NULL;
@@ -436,7 +442,7 @@ static void clear(JoxRoutes *routes) {
     }
 }
 
-/* When a route was asked for and comes into use; the field in use, and the one that will be. */
+/* Lists a route: its times and versions, the field in use, and the one being made. */
 static void list_route(JoxRoutes *routes, uint32_t at, JoxSections *s) {
     Route *route = &routes->items[at];
     bool used = jox_section_count(s, "used", routes->fields[at] != NULL, 1) > 0;
@@ -457,11 +463,11 @@ static void list_route(JoxRoutes *routes, uint32_t at, JoxSections *s) {
 
 void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
     JoxRoutes *routes = w->routes;
-    make_room(w);
-    finish(routes);
+    reserve_places(w);
+    wait_for_fields(routes);
     jox_sections_module(s, "routes");
     if (s->mode == JOX_SECTIONS_RESTORE)
-        clear(routes);
+        clear_routes(routes);
     jox_obstacles_sections(&routes->obstacles, s);
     jox_section_model(s, "places", routes->capacity);
     JOX_SECTION(s, "walls", routes->walls);
@@ -471,15 +477,15 @@ void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
     jox_section(s, "wanted", routes->wanted, 1, routes->capacity);
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
         list_route(routes, at, s);
-    if (s->mode == JOX_SECTIONS_RESTORE && fault(w))
-        jox_sections_fail(s, "routes", fault(w));
+    if (s->mode == JOX_SECTIONS_RESTORE && find_fault(w))
+        jox_sections_fail(s, "routes", find_fault(w));
 }
 
 void jox_routes_free(JoxRoutes *routes) {
     if (!routes)
         return;
     jox_worker_free(routes->worker);
-    clear(routes);
+    clear_routes(routes);
     jox_obstacles_free(&routes->obstacles);
     jox_free(routes->fields);
     jox_free(routes->items);

@@ -1,5 +1,6 @@
-/* Routes round walls and large bodies: a distance field for each place that some agent asks its
-   way to, made beside the steps. */
+/* Routes round walls and large bodies: a distance field for each place that agents ask the way to,
+   made on a worker thread beside the steps. think calls jox_routes_update; machines read the
+   fields. */
 #ifndef JOX_WORLD_ROUTES_H
 #define JOX_WORLD_ROUTES_H
 
@@ -11,50 +12,48 @@
 
 typedef struct JoxRoutes JoxRoutes;
 
-/* What routes are made of, and where they are found. */
+/* What routes are made of, and where they are stored; filled by jox_world_route_stage. */
 typedef struct JoxRouteStage {
     const JoxPlace *places;
     uint32_t place_count;
     const JoxWalls *all_walls;
-    uint32_t walls_version; /* counts their changes */
+    uint32_t walls_version; /* counts changes of walls */
     const JoxAgents *agents;
     const JoxObjects *objects;
     uint64_t tick;
     double dt;            /* s */
-    double crowd_slowing; /* of the walking law, m2 */
-    JoIsa isa;            /* of kernels */
+    double crowd_slowing; /* m2: parameter of the walking law */
+    JoIsa isa;            /* of the kernels of fields */
     JoxPool *pool;
-    JoxMachineRun *machines; /* is given the fields; marks which it wants */
+    JoxMachineRun *machines; /* gets the fields; marks the wanted ones */
     JoxRoutes *routes;
 } JoxRouteStage;
 
 JoxRoutes *jox_routes_create(void);
 void jox_routes_free(JoxRoutes *routes);
-/* Before think of each step. In the first step: makes all fields that agents ask for in the states
-   they are in. Later: what was asked for at a tick is used from half a second of simulated time
-   after it on, however long it takes to make. A field is renewed where walls went up or down; where
-   large bodies moved (see obstacles.h), at most every 2 s; and only if somebody still asks. While
-   people bound for a place are held up, who walks by the law has a field that is slow where they
-   stand, made anew each second. */
+/* Before think of each step. In the first step makes all fields that agents ask for. Later a field
+   is in use half a second of simulated time after it was asked for, however long it takes to make.
+   While agents ask for it, it is made anew if walls changed, and at most every 2 s if large bodies
+   moved (body_obstacles.h). While agents bound for a place are held up, agents that walk by the law
+   have a field that is slow where those stand, made anew each second. */
 void jox_routes_update(const JoxRouteStage *stage);
-/* What a field takes into account besides walls that never open. */
+/* Obstacles of a field besides walls that never open. */
 typedef struct JoxRouteFieldOptions {
-    bool gates;      /* closed ones */
+    bool gates;      /* closed gates */
     uint32_t bodies; /* a bit for each JoxObstacleKind */
-    float clearance; /* m: from walls, at least 0.05 */
+    float clearance; /* m: distance to walls, at least 0.05 */
 } JoxRouteFieldOptions;
-/* A field to a place that is made at once, for who asks whether a way leads there; the caller frees
-   it. There are walls or agents. Changes nothing: bodies are where routes saw them last. */
+/* Makes a field to a place at once, to see whether a way leads there; the caller frees it. Needs
+   walls or agents. Changes nothing: bodies are where routes saw them last. */
 JoxField *jox_routes_make_field(const JoxRouteStage *stage, uint32_t place,
                                 const JoxRouteFieldOptions *look);
-/* Has routes see where bodies are, in a world that is not stepped any more. */
+/* Updates where routes see bodies, in a world that is not stepped any more. */
 void jox_routes_update_bodies(const JoxRouteStage *stage);
-/* Bodies that ways lead round, as routes saw them last. */
+/* Returns the bodies that ways lead round, as routes saw them last. */
 const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes);
-/* Places moved: all fields are renewed. */
+/* Makes all fields anew, as places moved. */
 void jox_routes_renew(JoxRoutes *routes);
-/* Lists the fields in use, those under way, which are finished first, and when they come into use.
- */
+/* Lists as state the fields in use, those being made, which are finished first, and their times. */
 void jox_routes_sections(const JoxRouteStage *stage, JoxSections *sections);
 
 #endif
