@@ -1,6 +1,5 @@
 /* Reads keys of the whole scene: bounds, input log, camera, area of the density map; and chooses
    the quantity that agents are coloured by. */
-#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -1,7 +1,6 @@
 /* Sets values of the command line (--set PATH=VALUE) in a scene's tree, before it is read. Called
    by read_specification.c. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scene/scene_draft.h"

@@ -1,6 +1,5 @@
 /* Reads the starts of a group: when, where and how fast each agent comes in, as in a recording. */
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/sort.h"

@@ -67,7 +67,10 @@ static bool hash_files_below(ModFiles *c, const char *folder, size_t root, int d
     return good;
 }
 
-bool jox_mods_hash_folder(const char *folder, char out[65], JoxText *error) {
+/* Computes SHA-256 over paths and contents of all files of a mod, as 64 hexadecimal digits. False
+   with a sentence in `error` if a file is not a plain one or cannot be read, or if there are too
+   many. */
+static bool hash_mod_folder(const char *folder, char out[65], JoxText *error) {
     ModFiles content = {.error = error};
     bool good = hash_files_below(&content, folder, strlen(folder), 0);
     if (good)
@@ -132,7 +135,7 @@ JoxModSwitch jox_mods_look_up_enabled(const char *list, const char *name, const 
     for (const char *at = list; found != JOX_MOD_ON && parse_list_line(&at, &line);) {
         if (!equals_text(line.name, line.name_length, name))
             continue;
-        if (!*hash && !jox_mods_hash_folder(folder, hash, &ignored))
+        if (!*hash && !hash_mod_folder(folder, hash, &ignored))
             hash[0] = '-'; /* equal to no hash */
         if (equals_text(line.hash, HASH, hash))
             found = JOX_MOD_ON;
@@ -171,7 +174,7 @@ bool jox_mods_enable(const char *name, const char *folder, bool on, JoxText *err
     const char *real = realpath(folder, room);
     JoxText out = {0};
     EnabledLine line;
-    bool good = real && !strchr(real, '\n') && jox_mods_hash_folder(folder, hash, error);
+    bool good = real && !strchr(real, '\n') && hash_mod_folder(folder, hash, error);
     if (!real || strchr(real, '\n'))
         jox_text_printf(error, "'%s' is no folder", folder);
     good |= !on && real; /* a mod that cannot be read can be disabled */

@@ -17,9 +17,5 @@ char *jox_mods_read_enabled(void);
 JoxModSwitch jox_mods_look_up_enabled(const char *list, const char *name, const char *folder);
 /* Enables or disables a mod, in the file. False with a sentence in `error`. */
 bool jox_mods_enable(const char *name, const char *folder, bool on, JoxText *error);
-/* Computes SHA-256 over paths and contents of all files of a mod, as 64 hexadecimal digits. False
-   with a sentence in `error` if a file is not a plain one or cannot be read, or if there are too
-   many. */
-bool jox_mods_hash_folder(const char *folder, char out[65], JoxText *error);
 
 #endif

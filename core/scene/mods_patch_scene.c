@@ -4,7 +4,6 @@
 #include "base/format/patch.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scene/scene_draft.h"

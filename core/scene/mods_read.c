@@ -1,6 +1,5 @@
 /* Reads a mod: its mod.yaml, and the files of its folders. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 

@@ -1,8 +1,6 @@
 /* Reads a scene's file into a JoxSceneSpec: reads the tree of YAML, merges the patches of mods and
    the values of the command line into it, then fills the spec by the table of keys (key_table.c).
    Reports all errors, not only the first. Called by run/, and by tools that need no world. */
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"

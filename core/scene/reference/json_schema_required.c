@@ -1,6 +1,5 @@
 /* Writes the part of JSON Schemas that says what must be there: required keys and alternatives.
    Called by json_schema.c. */
-#include <stdio.h>
 #include <string.h>
 
 #include "scene/reference/json_schema_parts.h"
