@@ -202,7 +202,7 @@ static uint32_t add_unique(const char **names, uint32_t count, const char *name)
 }
 
 /* Adds the tools that the page offers: those that the scene allows and that have something to act
-   on, with the names of walls and signals. */
+   on, with the names of walls and signals, and gravity, m/s2, for throws. */
 static void add_scene_tools(JoxJson *json, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const uint32_t allowed = scene->spec->view.tools;
@@ -234,6 +234,7 @@ static void add_scene_tools(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
     add_name_list(json, "walls", walls, wall_count);
     add_name_list(json, "signal_names", signals, signal_count);
+    jox_json_number(json, "gravity", world->model.def.gravity);
     jox_json_end(json);
 }
 

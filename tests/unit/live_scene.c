@@ -94,6 +94,7 @@ static void scene_message_escapes_names(void **state) {
         "jostle: 1\n"
         "title: \"a \\\"title\\\" \\\\ with\\ttab, \\x01, \xC3\xA9 and \xE2\x82\xAC\"\n"
         "view: {tools: [throw, gates, push], colour: speed, field: pressure}\n"
+        "gravity: 1.62\n"
         "camera: {position: [1, -2, 3], target: [0, 0.5, 0]}\n"
         "places: {\"y\xC3\xA4rd 1.b\": {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\n"
         "walls:\n"
@@ -116,6 +117,7 @@ static void scene_message_escapes_names(void **state) {
     assert_non_null(strstr(text.data, "\"parameters\": false"));
     assert_non_null(strstr(text.data, "\"walls\": [\"g\xC3\xA4-te\"]"));
     assert_non_null(strstr(text.data, "\"charts\": [\"out\"]"));
+    assert_near(number_at("tools.gravity", 0, 0, 0), 1.62, 0);
     assert_near(number_at("camera.at.1", 0, 0, 0), -2, 0);
     assert_near(number_at("camera.look.1", 0, 0, 0), 0.5, 0);
     /* The status, before and after the first step. */

@@ -65,7 +65,8 @@ class Page {
         this.player = new Player({ view: this.view, connection: this.connection });
         this.tools = new Tools(byId("picture"), {
             view: this.view, crowd: this.crowd, overlay: this.overlay, connection: this.connection,
-            inspect: (slot) => this.inspect(slot), box: () => this.act.box(), share: () => this.crowd.share(performance.now()),
+            inspect: (slot) => this.inspect(slot), box: () => this.act.box(),
+            gravity: () => this.scene.tools.gravity, share: () => this.crowd.share(performance.now()),
             agentId: (slot) => (this.person && this.person.slot === slot ? this.person.id : null),
         });
         this.toolBar = new ToolBar({

@@ -2,7 +2,6 @@
 import { stroke } from "../draw/overlay.js";
 import { pickBody, pickPerson } from "../draw/picking.js";
 
-const GRAVITY = 9.81; // m/s²
 const HAND = 1.5; // m: height from which boxes are thrown
 const SLOPE = (35 * Math.PI) / 180; // elevation of a throw's start, rad
 const FASTEST = 20; // m/s
@@ -17,20 +16,20 @@ export const TOOLS = {
     push: { name: "Push", key: "4", hint: `Press a person and drag: ${NEWTONS} N for each metre.` },
 };
 
-/** Velocity (m/s) with which a box thrown from `from` comes down at `to`; [x, y] in m. */
-export function throwTo(from, to, high = HAND) {
+/** Velocity (m/s) with which a box thrown from `from` comes down at `to`, [x, y] in m, under `gravity`, m/s²; none: the fastest. */
+export function throwTo(from, to, gravity, high = HAND) {
     const dx = to[0] - from[0], dy = to[1] - from[1], range = Math.hypot(dx, dy);
     if (range < 0.05) return [0, 0, 0];
     const cos = Math.cos(SLOPE), fall = range * Math.tan(SLOPE) + high;
-    const speed = Math.min(FASTEST, Math.sqrt((GRAVITY * range * range) / (2 * cos * cos * fall)));
+    const speed = gravity > 0 ? Math.min(FASTEST, Math.sqrt((gravity * range * range) / (2 * cos * cos * fall))) : FASTEST;
     return [(speed * cos * dx) / range, (speed * cos * dy) / range, speed * Math.sin(SLOPE)];
 }
 
-/** Points of a flight until the floor, every 1/30 s. */
-function flight(from, velocity, high = HAND) {
+/** Points of a flight under `gravity`, m/s², until the floor, every 1/30 s. */
+function flight(from, velocity, gravity, high = HAND) {
     const out = [];
     for (let t = 0; t < 6; t += 1 / 30) {
-        const z = high + velocity[2] * t - 0.5 * GRAVITY * t * t;
+        const z = high + velocity[2] * t - 0.5 * gravity * t * t;
         out.push([from[0] + velocity[0] * t, from[1] + velocity[1] * t, Math.max(0, z)]);
         if (z <= 0) break;
     }
@@ -38,7 +37,7 @@ function flight(from, velocity, high = HAND) {
 }
 
 export class Tools {
-    /** `page`: {view, crowd, overlay, connection, inspect(slot), box(): {size, mass}, share()} */
+    /** `page`: {view, crowd, overlay, connection, inspect(slot), box(): {size, mass}, gravity(), share()} */
     constructor(canvas, page) {
         this.page = page;
         this.canvas = canvas;
@@ -148,12 +147,16 @@ export class Tools {
 
     finish() {
         const g = this.gesture, { connection } = this.page;
-        if (g.kind === "throw") this.release(g.from, throwTo(g.from, g.to));
+        if (g.kind === "throw") this.release(g.from, this.throwTo(g.from, g.to));
         if (g.kind === "drag") {
             connection.input("drag", g.row, ...g.to, g.z);
             connection.input("release", g.row);
         }
         this.cancel(true);
+    }
+
+    throwTo(from, to) {
+        return throwTo(from, to, this.page.gravity());
     }
 
     release(from, velocity) {
@@ -181,7 +184,7 @@ export class Tools {
         const onto = view.floorAt(...at);
         if (this.tool === "throw" && onto) {
             const from = [onto[0] - 5 * unit[0], onto[1] - 5 * unit[1]];
-            return this.release(from, throwTo(from, onto));
+            return this.release(from, this.throwTo(from, onto));
         }
         if (!this.begin(at)) return undefined;
         const g = this.gesture;
@@ -194,7 +197,7 @@ export class Tools {
         const g = this.gesture;
         if (!g) return;
         if (g.kind === "throw") {
-            const velocity = throwTo(g.from, g.to), path = flight(g.from, velocity);
+            const velocity = this.throwTo(g.from, g.to), path = flight(g.from, velocity, this.page.gravity());
             for (const [style, wide] of [["#000000a0", 5], ["#ffd21f", 2.5]]) {
                 stroke(pen, path.map((p) => project(...p)), style, wide);
                 stroke(pen, [project(...g.from, 0), project(...g.from, HAND)], style, wide);
