@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "base/number/random.h"
-#include "nav/state.h"
+#include "nav/near/perceive.h"
 
 enum { CROWDS = 35, MOST_PEOPLE = 700 };
 
@@ -205,6 +205,19 @@ static void compare_agent_neighbours(const JoxAgents *a, const JoxNeighbours *n)
     }
 }
 
+/* Compares the search of one agent without the grid for some agents. */
+static void compare_alone(const JoxAgents *a, const JoxNeighbours *n) {
+    JoxNeighbours alone = {0};
+    for (uint32_t i = 0; i < a->count; i += 7) {
+        jox_perceive_alone(a, i, &alone);
+        assert_int_equal(alone.count[i], n->count[i]);
+        for (uint32_t k = 0; k < n->count[i]; k++)
+            assert_int_equal(alone.index[jox_neighbour_at(&alone, i, k)],
+                             n->index[jox_neighbour_at(n, i, k)]);
+    }
+    jox_neighbours_free(&alone);
+}
+
 static void compare_near_crowd(JoIsa isa, uint32_t crowd) {
     JoxAgents agents = {0};
     JoxNeighbours neighbours = {0};
@@ -215,6 +228,7 @@ static void compare_near_crowd(JoIsa isa, uint32_t crowd) {
     for (uint32_t pass = 0; pass < 4; pass++) {
         jox_nav_perceive(nav, &agents, &neighbours, NULL);
         compare_agent_neighbours(&agents, &neighbours);
+        compare_alone(&agents, &neighbours);
         remove_some(nav, &agents, pass + 1);
         stir(nav, &agents, crowd);
         if (pass == 0)

@@ -1,6 +1,6 @@
 /* The nearest neighbours of one agent at a time, in plain C. The kernel of perceive calls it for
    agents with too many candidates for its lists, and for agents whose neighbour lists do not cover
-   touch range. */
+   touch range; jox_nav_plan calls it between two steps. */
 #include <math.h>
 
 #include "base/number/bits.h"
@@ -61,8 +61,14 @@ static inline void buffer_candidate(const JoxAgents *a, uint32_t i, uint32_t j, 
         sort_in_waiting(found);
 }
 
-/* Buffers the agents within `radius` (m) of a point, except agent i. */
-static void search_image(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV2 point,
+/* Buffers the agents within `radius` (m) of a point, except agent i, among all agents. */
+static void search_all(const JoxAgents *a, uint32_t i, JoxV2 point, float radius, Nearest *found) {
+    for (uint32_t j = 0; j < a->count; j++)
+        buffer_candidate(a, i, j, point, radius * radius, found);
+}
+
+/* Does the same by the cells of the grid. */
+static void search_cells(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV2 point,
                          float radius, Nearest *found) {
     const float x = point.x, y = point.y, r2 = radius * radius;
     const JoxV2 least = nav->drift.least, most = nav->drift.most;
@@ -84,20 +90,24 @@ static void search_image(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
     }
 }
 
-/* Finds the agents nearest to agent i within `radius` (m), over periodic edges too. */
+/* Finds the agents nearest to agent i within `radius` (m), over periodic edges too. Without `nav`
+   all agents are candidates: between two steps the grid may be out of date. */
 static void search_nearest(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius,
                            Nearest *found) {
     JoxV2 point = {a->x[i], a->y[i]};
-    float wide = radius + nav->drift.farthest;
+    float wide = radius + (nav ? nav->drift.farthest : 0.0f);
     clear_nearest(found);
     for (int row = -1; row <= 1; row++)
         for (int column = -1; column <= 1; column++)
             if (jox_sees_image(point.x, a->origin.x, a->period.x, wide, column) &&
-                jox_sees_image(point.y, a->origin.y, a->period.y, wide, row))
-                search_image(
-                    nav, a, i,
-                    jox_add(point, (JoxV2){(float)column * a->period.x, (float)row * a->period.y}),
-                    radius, found);
+                jox_sees_image(point.y, a->origin.y, a->period.y, wide, row)) {
+                const JoxV2 image =
+                    jox_add(point, (JoxV2){(float)column * a->period.x, (float)row * a->period.y});
+                if (nav)
+                    search_cells(nav, a, i, image, radius, found);
+                else
+                    search_all(a, i, image, radius, found);
+            }
     sort_in_waiting(found);
     found->count = found->count < found->most ? found->count : found->most;
 }
@@ -112,7 +122,21 @@ void jox_perceive_touching(const JoxPerceive *p, uint32_t i, float range) {
         out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] = a->by_rank[(uint32_t)found.keys[k]];
 }
 
-/* Writes the neighbours found for agent i into the columns. */
+/* Lists the neighbours found for agent i. */
+static void list_nearest(const JoxAgents *a, uint32_t i, const Nearest *found, JoxNeighbours *out) {
+    const float touch = jox_touch_most(out);
+    uint32_t close = 0;
+    for (uint32_t k = 0; k < found->count; k++) {
+        out->index[jox_neighbour_at(out, i, k)] = a->by_rank[(uint32_t)found->keys[k]];
+        close += read_distance2(found->keys[k]) <= touch * touch;
+    }
+    out->count[i] = (uint8_t)found->count;
+    out->close[i] = (uint8_t)close;
+    if (found->count > JOX_CROWD_RANK)
+        out->crowding2[i] = read_distance2(found->keys[JOX_CROWD_RANK]);
+}
+
+/* Writes the neighbours found for agent i, and its columns. */
 static void write_nearest(const JoxPerceive *p, uint32_t i, float perception,
                           const Nearest *found) {
     const JoxAgents *a = p->agents;
@@ -121,16 +145,7 @@ static void write_nearest(const JoxPerceive *p, uint32_t i, float perception,
     a->search_radius[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
     a->density[i] =
         (float)found->count / ((float)JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
-    const float touch = jox_touch_most(p->out);
-    uint32_t close = 0;
-    for (uint32_t k = 0; k < found->count; k++) {
-        p->out->index[jox_neighbour_at(p->out, i, k)] = a->by_rank[(uint32_t)found->keys[k]];
-        close += read_distance2(found->keys[k]) <= touch * touch;
-    }
-    p->out->count[i] = (uint8_t)found->count;
-    p->out->close[i] = (uint8_t)close;
-    if (found->count > JOX_CROWD_RANK)
-        p->out->crowding2[i] = read_distance2(found->keys[JOX_CROWD_RANK]);
+    list_nearest(a, i, found, p->out);
 }
 
 void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
@@ -146,4 +161,18 @@ void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
         radius *= JOX_SEARCH_GROWTH;
     }
     write_nearest(p, i, perception, &found);
+}
+
+float jox_nav_sight(const JoxAgents *a) {
+    float most = a->period.x > 0.0f ? 0.49f * a->period.x : INFINITY;
+    return a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
+}
+
+void jox_perceive_alone(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
+    Nearest found = {.most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i)};
+    jox_neighbours_reserve(out, i + 1, found.most > 0 ? found.most : 1);
+    out->widest = jox_param_greatest(a, JOX_PARAM_radius);
+    search_nearest(NULL, a, i, jox_minf(jox_param(a, JOX_PARAM_perception, i), jox_nav_sight(a)),
+                   &found);
+    list_nearest(a, i, &found, out);
 }

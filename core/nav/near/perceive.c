@@ -1,9 +1,8 @@
 /* The stage perceive: each agent's nearest neighbours, by the kernel of the run's instruction set.
  */
-#include <math.h>
+#include "nav/near/perceive.h"
 
 #include "base/assert.h"
-#include "nav/near/perceive.h"
 #include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_perceive_packets_##name,
@@ -23,11 +22,6 @@ static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
     const uint32_t most = (uint32_t)jox_param_greatest(a, JOX_PARAM_neighbours);
     out->widest = jox_param_greatest(a, JOX_PARAM_radius);
     jox_neighbours_reserve(out, a->count, most > 0 ? most : 1);
-}
-
-float jox_nav_sight(const JoxAgents *a) {
-    float most = a->period.x > 0.0f ? 0.49f * a->period.x : INFINITY;
-    return a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
 }
 
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {

@@ -27,11 +27,14 @@ JOX_ISAS(X)
 #undef X
 /* Does so for one agent, with any number of candidates; searches within `radius` (m) first. */
 void jox_perceive_one(const JoxPerceive *perceive, uint32_t agent, float radius);
+/* Finds the neighbours of one agent exactly as the kernel does, at any time and by no grid; writes
+   no column. */
+void jox_perceive_alone(const JoxAgents *agents, uint32_t agent, JoxNeighbours *out);
 /* Lists the agents within `range` (m) of one agent in touch_index. */
 void jox_perceive_touching(const JoxPerceive *perceive, uint32_t agent, float range);
 
-/* perceive.c: returns how far any agent sees at most, m: less than half a period, so that no agent
-   is seen from two sides; INFINITY without periods. */
+/* Returns how far any agent sees at most, m: less than half a period, so that no agent is seen from
+   two sides; INFINITY without periods. */
 float jox_nav_sight(const JoxAgents *agents);
 
 #endif

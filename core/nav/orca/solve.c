@@ -109,38 +109,6 @@ uint32_t jox_nav_solve(JoxNav *nav, const JoxStep *step) {
 
 /* ---- one agent, between two steps ---- */
 
-/* Finds the neighbours of one agent exactly as perceive does: the nearest within its perception,
-   nearest first, ties by id. */
-static void find_neighbours(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
-    const uint32_t most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
-    const float reach = jox_minf(jox_param(a, JOX_PARAM_perception, i), jox_nav_sight(a));
-    float distance2[JOX_MOST_NEIGHBOURS];
-    jox_neighbours_reserve(out, i + 1, most > 0 ? most : 1);
-    out->count[i] = 0;
-    for (uint32_t j = 0; j < a->count; j++) {
-        const float d2 = jox_length2(jox_offset(a, i, j));
-        out->widest = jox_maxf(out->widest, jox_param(a, JOX_PARAM_radius, j));
-        uint32_t k = out->count[i];
-        if (j == i || most == 0 || !(d2 < reach * reach))
-            continue;
-        for (; k > 0; k--) {
-            const size_t before = jox_neighbour_at(out, i, k - 1), at = jox_neighbour_at(out, i, k);
-            const float other = distance2[k - 1];
-            if (other < d2 || (other == d2 && a->id[out->index[before]] < a->id[j]))
-                break;
-            if (k == most)
-                continue;
-            out->index[at] = out->index[before];
-            distance2[k] = other;
-        }
-        if (k == most)
-            continue;
-        out->index[jox_neighbour_at(out, i, k)] = j;
-        distance2[k] = d2;
-        out->count[i] += out->count[i] < most;
-    }
-}
-
 /* The contact planes of one agent, with the indices that the touched agents have now. */
 typedef struct Touched {
     JoxContactPlanes all;
@@ -217,7 +185,7 @@ void jox_nav_plan(const JoxNav *nav, const JoxStep *step, uint32_t agent, JoxPla
                       .moment = pick_aside_moment(step->timing.time)};
     Touched *own = solve.step.touched ? jox_alloc(1, sizeof *own) : NULL;
     JOX_ASSERT(agent < step->agents->count);
-    find_neighbours(step->agents, agent, &neighbours);
+    jox_perceive_alone(step->agents, agent, &neighbours);
     solve.step.neighbours = &neighbours;
     if (own) {
         find_touched(step->agents, agent, &neighbours, step->touched, own);
