@@ -14,16 +14,16 @@ typedef struct Mods {
     bool of_scene, trusted, has_at, has_agent;
 } Mods;
 
-static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Mods, def),
-                                    {"agent", "ID",
-                                     "with `why`: which value it has of this agent, and what set "
-                                     "it: of a parameter (speed), of its "
-                                     "memory (hits) or of its own values",
-                                     CLI_TO(Mods, agent), CLI_GIVEN(Mods, has_agent),
-                                     CLI_RANGE(0, UINT32_MAX)},
-                                    {"at", "S", "with --agent: after S simulated seconds", "0",
-                                     CLI_TO(Mods, at), CLI_GIVEN(Mods, has_at), CLI_RANGE(0, 1e6)},
-                                    CLI_TRUSTED_OPTION(Mods)};
+static const CliOption OPTIONS[] = {
+    CLI_MOD_OPTIONS(Mods, def),
+    {"agent", "ID",
+     "with `why`: show the value of this agent, and what set it: of "
+     "a parameter (speed), of its memory "
+     "(hits) or of its own values",
+     CLI_TO(Mods, agent), CLI_GIVEN(Mods, has_agent), CLI_RANGE(0, UINT32_MAX)},
+    {"at", "S", "with --agent: after S simulated seconds", "0", CLI_TO(Mods, at),
+     CLI_GIVEN(Mods, has_at), CLI_RANGE(0, 1e6)},
+    CLI_TRUSTED_OPTION(Mods)};
 
 static void print_taken(uint32_t number, const JoMod *mod) {
     printf("%u. %s %s%s%s (%s; %s)\n", number, mod->name, mod->version, *mod->title ? ": " : "",
@@ -290,20 +290,22 @@ static int run_mod(int argc, char **argv) {
 
 const CliCommand cli_mod = {
     .name = "mod",
-    .what = "list mods, turn them on and off, and tell who set a value",
+    .what = "list mods, turn them on and off, and show where a value is set",
     .usage = "list [SCENE] [--mod DIR]...\n"
              "enable|disable NAME|DIR [SCENE]\n"
              "why PATH SCENE [--mod DIR]...\n"
              "why NAME SCENE --agent ID [--at S] [--mod DIR]...\n"
              "check DIR...",
-    .about = "  list    the mods that a run of the scene takes, in order, what they change, their "
-             "settings; and those that are off\n"
-             "  enable  turns a mod on for all runs: until then it is off, whatever folder it lies "
-             "in; when its files change, it is off again\n"
-             "  disable turns it off\n"
-             "  why     who set a value, e.g. tawaf.Circle.push or bodies.ball.mass: every place, "
-             "the last counts; with --agent, what a value of somebody is in a run and what set it\n"
-             "  check   every error of mods, without running",
+    .about =
+        "  list    lists the mods that a run of the scene loads, in order, with what they change "
+        "and "
+        "their settings; and the mods that are off\n"
+        "  enable  turns a mod on for all runs; when its files change, it is off again\n"
+        "  disable turns a mod off\n"
+        "  why     lists every place that sets a value, such as tawaf.Circle.push or "
+        "bodies.ball.mass; the last one counts. With --agent: the value of one agent in a run, "
+        "and what set it\n"
+        "  check   reports every error of mods, without running",
     .notes = "exit status: 0 done, 1 it could not be done, 2 wrong usage, 3 errors found or no "
              "such path",
     .options = OPTIONS,
