@@ -1,17 +1,17 @@
-# Hostile behaviours, one file a line of attack (tests/attacks): each is the behaviour of three
-# agents beside twenty honest walkers. None may hang, crash, read what is not its own, or change
-# what others do. The first line of each says what becomes of it:
-#   -- expects: load-error TEXT   it does not load, and TEXT is said
-#   -- expects: run TEXT          it loads, its functions fail, and TEXT is said
-#   -- expects: harmless          it loads and nothing is wrong
-#   -- expects: acts TEXT         the same, but what it did until then counts
-#   -- expects: stop TEXT         it loads, and ends the run: its time has no bound
-# When it runs or is harmless the hash of the state, but for how often its functions failed, must be that
-# of agents who do nothing at all.
+# Hostile behaviours (tests/attacks, one attack per file): each is the behaviour of three agents beside twenty
+# honest walkers. None may hang or crash the run, read files of others, or change what other agents do. The first
+# line of a file gives the expected outcome:
+#   -- expects: load-error TEXT   it does not load, and TEXT is printed
+#   -- expects: run TEXT          it loads, its functions fail, and TEXT is printed
+#   -- expects: harmless          it loads and runs without an error
+#   -- expects: acts TEXT         as harmless, but its agents act, so that the hash is not compared
+#   -- expects: stop TEXT         it loads, and ends the run, as its time has no limit
+# With `run` and `harmless` the hash of the state, without the counts of failed functions, must be that of agents
+# that do nothing.
 . tests/scenes/lib.sh
 TIMEFORMAT='%U %S'
-SLOWER=${SLOWER:-1} # times that a build is slower: sanitizers
-HANGS=${HANGS:-10}  # s of processor time that no bounded attack comes near on a busy machine
+SLOWER=${SLOWER:-1} # factor by which a build is slower (sanitisers)
+HANGS=${HANGS:-10}  # s of processor time above that of an honest run at which an attack counts as a hang
 yard=$work/yard
 mkdir -p "$yard"
 
@@ -27,7 +27,7 @@ return machine { name = "honest", start = "There",
       { to = "There", when = near("west", 1) | after(1) } },
   } }
 END
-scene() { # BEHAVIOUR: the yard, with attackers unless it is empty
+scene() { # BEHAVIOUR: prints the scene, with attackers unless BEHAVIOUR is empty
     cat <<END
 jostle: 1
 limits: {${limits:-}}
@@ -41,9 +41,9 @@ groups:
 END
     [ -z "$1" ] || echo "  hostile: {behaviour: $1, count: ${count:-3}, fill: grid, in: corner}"
 }
-# seconds LIMIT: processor time of "USER SYSTEM" on stdin; fails where it is over the limit
+# within LIMIT < "USER SYSTEM": prints the sum of both times, s; fails if it is above the limit
 within() { awk -v m="$1" '{printf "%.2f", $1 + $2; exit !($1 + $2 <= m)}'; }
-run() { # BEHAVIOUR: status in $status, seconds in $work/time, output in $work/out
+run() { # BEHAVIOUR: runs the scene; sets $status and $hash, writes times to $work/time and output to $work/out
     scene "$1" >"$yard/scene.yaml"
     { time timeout $((20 * SLOWER)) "$JOSTLE" run "$yard/scene.yaml" --steps 40 --quiet \
         --summary "$work/summary" >"$work/out" 2>&1 </dev/null; } 2>"$work/time"
@@ -59,9 +59,9 @@ run inert.lua
 quiet=$hash
 honest=$(within 1000 <"$work/time")
 most=$(awk -v h="$honest" -v s="$SLOWER" -v t="$HANGS" 'BEGIN {print h + t * s}')
-[ -n "$alone" ] && [ -n "$quiet" ]; verdict "the honest runs end" $?
+[ -n "$alone" ] && [ -n "$quiet" ]; verdict "runs without attackers end" $?
 
-attack() { # FILE EXPECTS TEXT
+attack() { # FILE EXPECTS TEXT: runs an attack and checks its outcome
     local name wanted=0 took slow same
     name=$(basename "$1" .lua)
     run "$(basename "$1")"
@@ -69,7 +69,7 @@ attack() { # FILE EXPECTS TEXT
     [ ! -f "$yard/$name.lua" ] || ! grep -q "^local mine = memory { n = 0 }" "$yard/$name.lua" || same=$mindful
     took=$(within "$most" <"$work/time"); slow=$?
     case $2 in load-error) wanted=3 ;; stop) wanted=1 ;; esac
-    ! grep -q '^jostle run: behaviour ' "$work/out" || wanted=1 # the run goes on to its end all the same
+    ! grep -q '^jostle run: behaviour ' "$work/out" || wanted=1 # the run goes on to its end
     if [ $status != $wanted ]; then
         echo "not ok $name: status $status, wanted $wanted"; head -5 "$work/out"
     elif [ $slow != 0 ]; then echo "not ok $name: took $took s of processor time, at most $most"
@@ -83,7 +83,7 @@ attack() { # FILE EXPECTS TEXT
     elif [ -n "$hash" ] && [ "$2" != stop ] && [ "$2" != acts ] && [ "$hash" != "$same" ]; then echo "not ok $name: hash $hash, not $same"
     else echo "ok $name ($took s)"; fi
 }
-attack_file() { # FILE: as its first line says
+attack_file() { # FILE: runs an attack; its first line gives the outcome
     local line what text
     cp -P "$1" "$yard/"
     line=$(head -1 "$1" | tr -d '\000\r')
@@ -92,14 +92,14 @@ attack_file() { # FILE: as its first line says
     [ "$what" = "$line" ] || text=${line#* }
     attack "$1" "$what" "$text"
 }
-generated() { # NAME EXPECTS TEXT < content
+generated() { # NAME EXPECTS TEXT < content: runs an attack that is generated here
     cat >"$yard/$1.lua"
     attack "$1.lua" "$2" "$3"
 }
 times() { awk -v n="$1" -v t="$2" 'BEGIN {for (i = 0; i < n; i++) printf "%s", t}'; }
 
 for file in ${ATTACKS:-tests/attacks/*.lua}; do attack_file "$file"; done
-# A horde: what fails a hundred times in a second is suspended.
+# Many attackers: a function that fails a hundred times in a second is suspended.
 count=30
 run inert.lua
 few=$quiet quiet=$hash
@@ -114,7 +114,7 @@ cp tests/attacks/hook_busy.lua "$yard/horde_hook_busy.lua"
 attack horde_hook_busy.lua run "was suspended"
 count=3 quiet=$few
 
-# The limits are the scene's to set.
+# A scene can set the limits.
 limits="source: 1"
 { times 20 "-- 0123456789012345678901234567890123456789012345678901234567890\n"; echo "$inert"; } |
     generated limit_of_source load-error "over 1 KB"
@@ -137,7 +137,7 @@ limits="print: 1.5"
 generated limit_in_halves load-error "print" <<<"$inert"
 limits=
 
-# What a file of text cannot hold, or would be too long to read.
+# Bytes that a text file must not have, and files that are too long.
 printf '\033Lua%s' "$inert" | generated bytecode load-error "compiled Lua"
 printf '%s\n--\0\n' "$inert" | generated zero_byte load-error "zero byte"
 printf '\357\273\277%s\n' "$inert" | generated byte_order_mark harmless ""
@@ -169,7 +169,7 @@ printf 'local \377 = 1\n' | generated not_utf8_in_code load-error ""
     generated many_wrong_keys load-error "sped"
 { printf 'return machine { name = "m", start = "A", states = { A = { { to = "A", when = lasted'
   times 12000 ' & now.speed:above(1)'; printf '} } } }\n'; } | generated long_condition load-error ""
-# The compiler looks a name up in every function around it.
+# The compiler looks up a name in every enclosing function.
 { for i in $(seq 1 180); do
       printf 'local function f() local a'; for k in $(seq 1 180); do printf ',a'; done; echo
   done
@@ -201,6 +201,6 @@ echo 'require "many1"' | generated requires_seventy load-error ""
 echo 'local t = {} for i = 1, 1e9 do t[i] = i end' >"$yard/eater.lua"
 printf 'pcall(require, "eater")\n%s\n' "$inert" | generated requires_eater load-error "memory"
 
-grep -rqF 'root:' "$work"/out*; [ $? != 0 ]; verdict "nothing secret is shown" $?
+grep -rqF 'root:' "$work"/out*; [ $? != 0 ]; verdict "no output shows the contents of a secret file" $?
 run ""
-same_hash "files that nobody uses change nothing" "$alone" "$hash"
+same_hash "unused files do not change the hash" "$alone" "$hash"

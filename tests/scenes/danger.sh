@@ -1,12 +1,12 @@
-# The page of a report: danger, exits, the same run at half the step; and walls from files.
+# Reports of runs: figures of danger, exits, the same run at half the step; and walls from files.
 . tests/scenes/lib.sh
 out=$work/report
-# in_json KEY FILE: the first number behind a key
+# in_json KEY FILE: prints the first number after a key
 in_json() { sed -n "s/.*\"$1\": \([-0-9.e]*\).*/\1/p" "$2" | head -1; }
 
 "$JOSTLE" run scenes/evacuation.yaml --for 60 --report "$out" --summary "$work/run.json" >/dev/null 2>"$work/err"
 verdict "a run with a report" $?
-grep -q "once more at half the step, 0.025 s" "$work/err"; verdict "the run is repeated at half the step, and says so" $?
+grep -q "once more at half the step, 0.025 s" "$work/err"; verdict "a run with a report is repeated at half the step, and says so" $?
 [ "$(grep -c '60.0 of 60.0 s simulated' "$work/err")" = 2 ]; verdict "both runs show their progress" $?
 for file in danger.csv danger.png danger.svg danger-map.csv danger-areas.csv danger-leaving.csv leaving.png levels.svg plan.svg density.png density-greatest.png load-greatest.svg snapshot-1.png snapshot-4.png index.html; do
     [ -s "$out/$file" ]; verdict "the report has $file" $?
@@ -25,64 +25,64 @@ grep -qF "$(sha256sum scenes/evacuation.yaml | cut -c1-64)" "$out/index.html"; v
 
 outlined "the page and its plots have their sections, titles and axes" "$out" run --no-ranges
 
-# Whoever left did so by an exit; the file over time ends with the summary's count.
+# Everybody who left did so by an exit; danger.csv ends with the summary's count.
 left=$(in_json left "$work/run.json")
 south=$(in_json people <(grep -o '"south_exit": {[^}]*}' "$work/run.json")) east=$(in_json people <(grep -o '"east_exit": {[^}]*}' "$work/run.json"))
 [ "$left" = 140 ] && [ $((south + east)) = 140 ]; verdict "everybody leaves, by one of two exits ($south and $east)" $?
-between "the clearance time is when the last one left" "$(in_json clearance_s "$work/run.json")" 20 60
-awk -F, -v left="$left" -v clear="$(in_json clearance_s "$work/run.json")" 'NR==1 {for (i=1; i<=NF; i++) if ($i=="left") c=i; next} $c==left && !first {first=$1} END {exit !($c==left && first>=clear && first<=clear+0.55)}' "$out/danger.csv"; verdict "danger.csv says so, too" $?
+between "the clearance time is that of the last person who left" "$(in_json clearance_s "$work/run.json")" 20 60
+awk -F, -v left="$left" -v clear="$(in_json clearance_s "$work/run.json")" 'NR==1 {for (i=1; i<=NF; i++) if ($i=="left") c=i; next} $c==left && !first {first=$1} END {exit !($c==left && first>=clear && first<=clear+0.55)}' "$out/danger.csv"; verdict "danger.csv has the same clearance time" $?
 
-# Not cleared is said: no time of clearance while somebody is inside.
+# Without clearance: no clearance time while people are inside.
 "$JOSTLE" run scenes/evacuation.yaml --for 20 --quiet --no-half-step --report "$work/early" --summary "$work/early.json" >/dev/null 2>&1
 inside=$(sed -n 's/.*"inside": \([0-9]*\).*/\1/p' "$work/early.json")
-[ "$(in_json agents "$work/early.json")" = "$inside" ] && [ "$inside" -gt 0 ] && [ "$(in_json left "$work/early.json")" -gt 0 ]; verdict "who is still inside is counted ($inside)" $?
-grep -q '"clearance_s": null' "$work/early.json"; verdict "not cleared: there is no such time" $?
-between "the last who left is dated" "$(in_json last_left_s "$work/early.json")" 10 20
+[ "$(in_json agents "$work/early.json")" = "$inside" ] && [ "$inside" -gt 0 ] && [ "$(in_json left "$work/early.json")" -gt 0 ]; verdict "people still inside are counted ($inside)" $?
+grep -q '"clearance_s": null' "$work/early.json"; verdict "without clearance the time is null" $?
+between "the time of the last person who left is given" "$(in_json last_left_s "$work/early.json")" 10 20
 grep -q "clearance time.*<td class=n>not cleared" "$work/early/index.html" && grep -q "<b>Cleared?</b> No. $inside people were still inside at 20.0 s" "$work/early/index.html"; verdict "the page says: not cleared" $?
 
 # The greatest density is one figure, with a report or without.
 "$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --summary "$work/bare.json" 2>/dev/null
-between "the density of a run that ended empty" "$(figure density_max <"$work/bare.json")" 0.5 10
+between "density_max is that of the whole run, not of its empty end" "$(figure density_max <"$work/bare.json")" 0.5 10
 [ "$(figure density_max <"$work/bare.json")" = "$(figure density_max <"$work/run.json")" ]; verdict "the greatest density does not depend on a report" $?
 
-# What a report adds changes nothing, and can be left out.
-same_hash "a report changes nothing" "$(figure hash <"$work/run.json")" "$(hash_of "$JOSTLE" scenes/evacuation.yaml --for 60)"
+# A report does not change the run, and its second run can be left out.
+same_hash "a report does not change the hash" "$(figure hash <"$work/run.json")" "$(hash_of "$JOSTLE" scenes/evacuation.yaml --for 60)"
 "$JOSTLE" run scenes/evacuation.yaml --for 5 --report "$work/once" --no-half-step >/dev/null 2>"$work/err"
 ! grep -q "half the step" "$work/err" && grep -q "not repeated at half the step: --no-half-step was given" "$work/once/index.html" && ! grep -q "difference<" "$work/once/index.html"; verdict "--no-half-step leaves it out, and the page says so" $?
 "$JOSTLE" run scenes/circle.yaml --for 1 --dt 0.0015 --quiet --report "$work/fine" >/dev/null 2>&1
-grep -q "not repeated at half the step: it would be below 0.001 s" "$work/fine/index.html"; verdict "a step that cannot be halved is said" $?
+grep -q "not repeated at half the step: it would be below 0.001 s" "$work/fine/index.html"; verdict "the page says if the step cannot be halved" $?
 for threads in 1 3; do "$JOSTLE" run scenes/evacuation.yaml --for 30 --quiet --threads $threads --data "$work/data$threads" --summary - 2>/dev/null | sed -n '/"danger"/,/^ }/p' >"$work/danger.$threads"; done
 cmp -s "$work/danger.1" "$work/danger.3" && [ -s "$work/danger.1" ] && cmp -s "$work/data1/danger.csv" "$work/data3/danger.csv"; verdict "danger does not depend on threads" $?
 [ ! -e "$work/data1/danger.png" ] && [ ! -e "$work/data1/index.html" ]; verdict "--data draws nothing" $?
 
-# A title is text, whatever it holds.
+# Titles are escaped.
 printf 'jostle: 1\ntitle: "<script>x</script> \\"quoted\\" & so on"\nduration: 1\ngroups: {g: {behaviour: stander, at: [[0, 0]]}}\n' >"$work/odd.yaml"
 "$JOSTLE" run "$work/odd.yaml" --quiet --report "$work/odd" >/dev/null 2>&1 && ! grep -q '<script' "$work/odd/index.html" && grep -q '&lt;script&gt;' "$work/odd/index.html"; verdict "titles are escaped" $?
 
-# Walls from files hold people, a file's own and those of a recording.
+# People do not pass walls of files and of recordings.
 mkdir "$work/hall"
 echo 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' >"$work/hall/plan.wkt"
-walled() { # NAME WALLS: a scene whose people want to be outside
+walled() { # NAME WALLS: runs a scene whose people want to go outside
     printf 'jostle: 1\nduration: 8\nplaces:\n  room: {polygon: [[0.4, 0.4], [7.6, 0.4], [7.6, 1.6], [0.4, 1.6]]}\n  away: {point: [4, 30], radius: 1}\nwalls: [%s]\ngroups: {g: {behaviour: walker.lua, count: 12, in: room, set: {goal: away}}}\nprobes: {out: {flow: [[-40, 6.2], [40, 6.2]]}, hole: {measure: [[3.1, 2.1], [4.9, 2.1], [4.9, 3.9], [3.1, 3.9]]}}\n' "$2" >"$work/hall/$1.yaml"
     "$JOSTLE" run "$work/hall/$1.yaml" --quiet --record "$work/hall/$1.sqlite" --summary "$work/hall/$1.json" >/dev/null 2>&1
 }
-crossed() { echo "$(in_json passages "$work/hall/$1.json") $(in_json intervals "$work/hall/$1.json")"; } # the outer wall, and seconds in the hole
+crossed() { echo "$(in_json passages "$work/hall/$1.json") $(in_json intervals "$work/hall/$1.json")"; } # prints crossings of the outer wall, and intervals with people in the hole
 walled none ''; walled plan '{file: plan.wkt}'; walled again '{file: plan.sqlite}'
 [ "$(crossed plan)" = "0 0" ] && [ "$(crossed none)" != "0 0" ] && [ "$(in_json intervals "$work/hall/none.json")" -gt 0 ]; verdict "nobody walks through walls of well-known text ($(crossed none) without)" $?
 grep -aq 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' "$work/hall/plan.sqlite"; verdict "a recording has the plan's own outline for its walkable area" $?
-grep -aq 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' "$work/hall/again.sqlite"; verdict "and hands it on" $?
-! grep -aq 'POLYGON ((0 0, 8 0' "$work/hall/none.sqlite"; verdict "without a plan it is the box about everything" $?
+grep -aq 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' "$work/hall/again.sqlite"; verdict "a scene with these walls keeps the outline in its recording" $?
+! grep -aq 'POLYGON ((0 0, 8 0' "$work/hall/none.sqlite"; verdict "without a plan the walkable area is the bounding box" $?
 grep -q "$(sha256sum "$work/hall/plan.wkt" | cut -c1-64)" "$work/hall/plan.json"; verdict "the plan is an input, with its hash" $?
-[ "$(in_json intervals "$work/hall/again.json")" = 0 ]; verdict "nor through the solid ones that a recording has" $?
+[ "$(in_json intervals "$work/hall/again.json")" = 0 ]; verdict "nobody walks through the solid walls of a recording" $?
 echo 'POLYGON ((0 0, 8 0, 8 6, 0 6))' >"$work/hall/plan.wkt"
-"$JOSTLE" check "$work/hall/plan.yaml" >"$work/out" 2>&1; [ $? = 1 ] || [ $? = 3 ]; grep -q 'plan.wkt:1:10: this ring does not end where it begins' "$work/out"; verdict "what is wrong in a plan is shown where it is" $?
+"$JOSTLE" check "$work/hall/plan.yaml" >"$work/out" 2>&1; [ $? = 1 ] || [ $? = 3 ]; grep -q 'plan.wkt:1:10: this ring does not end where it begins' "$work/out"; verdict "an error in a plan has its line and column" $?
 
-# Crowd pressure: of a free boarding queue there is none, of people who leave a hall it is far from
-# turbulence, of a crush at a bottleneck it is turbulence.
+# Crowd pressure: none in a free boarding queue, far below that of turbulence for people who leave a hall, that of
+# turbulence in a crush at a bottleneck.
 shaken() { "$JOSTLE" run "scenes/$1.yaml" --for "$2" --quiet --data "$work/shaken" --summary "$work/shaken.json" >/dev/null 2>&1; in_json pressure_max "$work/shaken.json"; }
-[ -z "$(shaken station 60)" ] && grep -q '"pressure_max": null' "$work/shaken.json" && grep -q '"pressure_002": {"people": null' "$work/shaken.json"; verdict "a boarding queue: not measured" $?
-between "1,000 people who leave by four doors, 1/s2" "$(shaken imo-09 60)" 0.001 0.02
-between "1,000 people who press through a bottleneck, 1/s2" "$(shaken two-bottlenecks 80)" 0.02 1
+[ -z "$(shaken station 60)" ] && grep -q '"pressure_max": null' "$work/shaken.json" && grep -q '"pressure_002": {"people": null' "$work/shaken.json"; verdict "crowd pressure of a boarding queue is not measured" $?
+between "crowd pressure of 1,000 people who leave by four doors, 1/s2" "$(shaken imo-09 60)" 0.001 0.02
+between "crowd pressure of 1,000 people who press through a bottleneck, 1/s2" "$(shaken two-bottlenecks 80)" 0.02 1
 
 # Congestion: 50 people before a door of 1 m, and people who walk freely.
 door='  room: {polygon: [[0.3, 0.3], [7.7, 0.3], [7.7, 4.7], [0.3, 4.7]]}'
@@ -94,32 +94,32 @@ door='  room: {polygon: [[0.3, 0.3], [7.7, 0.3], [7.7, 4.7], [0.3, 4.7]]}'
 "$JOSTLE" run "$work/jam.yaml" --no-half-step --report "$work/jam" --summary "$work/jam.json" >"$work/jam.out" 2>&1
 jam=$(grep -o '"congestion": {.*' "$work/jam.json")
 grep -q '"cleared": true, "regions": 1,' <<<"$jam"; verdict "50 people before a door of 1 m: one region of congestion" $?
-between "it lasts, s" "$(sed 's/.*"where": \[{"seconds": \([^,]*\).*/\1/' <<<"$jam")" 8 14
-between "it lies before the door, m" "$(sed 's/.*"where": .*"x": \([^,]*\), "y".*/\1/' <<<"$jam")" 6 8
-grep -q '<b>Congestion\.</b> Significant: above 4 per m.* (Gaussian, R = 1 m) .* m from the line exit' "$work/jam/index.html"; verdict "the page says where" $?
-grep -q 'stood in a density of 7 per m² (Gaussian, R = 1 m) or more. The greatest Voronoi density of a person (cell within 1 m) was' "$work/jam/index.html"; verdict "it says by what densities are measured, and gives both" $?
-[ "$(wc -l <"$work/jam/danger-congestion.csv")" = 2 ]; verdict "and so does the table" $?
-grep -q 'exit (1.00 m wide): 50 crossings from 0 s on (its probe has [0-9]*: from 10 s on, one way, net' "$work/jam/index.html" && grep -q '"from": 10, "until": null' "$work/jam.json" && grep -q '"from_s": 0, "forward": 50' "$work/jam.json"; verdict "two counts of one line say from when on they are" $?
-grep -q '"queue_growth_max": 0,' "$work/jam.json"; verdict "though its queue never grew after ten seconds" $?
-tr -s ' \n' ' ' <"$work/jam.out" | grep -q 'are not to be trusted where it is dense: bodies overlap by [0-9]* % of a diameter' && grep -q '<b>Too dense to trust.</b>' "$work/jam/index.html" && grep -q '"holds": false' "$work/jam.json"; verdict "bodies that overlap are told: last lines, page, summary" $?
+between "duration of the congestion, s" "$(sed 's/.*"where": \[{"seconds": \([^,]*\).*/\1/' <<<"$jam")" 8 14
+between "position of the congestion before the door, m" "$(sed 's/.*"where": .*"x": \([^,]*\), "y".*/\1/' <<<"$jam")" 6 8
+grep -q '<b>Congestion\.</b> Significant: above 4 per m.* (Gaussian, R = 1 m) .* m from the line exit' "$work/jam/index.html"; verdict "the page says where the congestion is" $?
+grep -q 'stood in a density of 7 per m² (Gaussian, R = 1 m) or more. The greatest Voronoi density of a person (cell within 1 m) was' "$work/jam/index.html"; verdict "the page says how densities are measured, and gives both kinds" $?
+[ "$(wc -l <"$work/jam/danger-congestion.csv")" = 2 ]; verdict "danger-congestion.csv has the same region" $?
+grep -q 'exit (1.00 m wide): 50 crossings from 0 s on (its probe has [0-9]*: from 10 s on, one way, net' "$work/jam/index.html" && grep -q '"from": 10, "until": null' "$work/jam.json" && grep -q '"from_s": 0, "forward": 50' "$work/jam.json"; verdict "two counts of one line say when each begins" $?
+grep -q '"queue_growth_max": 0,' "$work/jam.json"; verdict "the queue of the exit never grew" $?
+tr -s ' \n' ' ' <"$work/jam.out" | grep -q 'are not to be trusted where it is dense: bodies overlap by [0-9]* % of a diameter' && grep -q '<b>Too dense to trust.</b>' "$work/jam/index.html" && grep -q '"holds": false' "$work/jam.json"; verdict "overlaps are reported in the last lines, the page and the summary" $?
 "$JOSTLE" run scenes/families.yaml --for 20 --summary "$work/loose.json" >"$work/loose.out" 2>&1
-! grep -q 'trusted' "$work/loose.out" && grep -q '"holds": true' "$work/loose.json"; verdict "and nothing where nobody is pressed" $?
+! grep -q 'trusted' "$work/loose.out" && grep -q '"holds": true' "$work/loose.json"; verdict "no such report if nobody is pressed" $?
 "$JOSTLE" run scenes/corridor.yaml --for 15 --quiet --data "$work/free" --summary "$work/free.json" >/dev/null 2>&1
 grep -q '"cleared": false, "regions": 0, "area": 0, "longest_s": 0,' "$work/free.json"; verdict "people who walk freely: no congestion" $?
 
-# Each figure is one quantity: the same in the summary, in the tables and on the page.
+# Each figure has the same value in the summary, in the tables and on the page.
 "$JOSTLE" run scenes/door-050.yaml --for 40 --quiet --no-half-step --report "$work/door" --summary "$work/door.json" >/dev/null 2>&1
 verdict "a run through a door" $?
 sed -n '/^ "danger"/,/^ }/p' "$work/door.json" >"$work/door.danger"
 column() { awk -F, -v name="$1" 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == name) c = i; next} c && $c != "" && $c != "nan" {print $c}' "$2"; } # NAME FILE
 greatest() { column "$1" "$2" | sort -g | tail -1; }
-# cells FIRST-CELL: the cells of a row of the page, a line each
+# cells FIRST-CELL: prints the cells of a row of the page, one per line
 cells() { sed -n "s/^<tr><td>$1<td\(.*\)/<td\1/p" "$work/door/index.html" | sed 's/<td[^>]*>/\n/g; s/&nbsp;/ /g; s/&ndash;/-/g' | sed 1d; }
-alike() { # NAME A B WITHIN: A = B but for the share WITHIN, or both are empty
+alike() { # NAME A B WITHIN: checks that A = B within the share WITHIN, or that both are empty
     awk -v a="$2" -v b="$3" -v d="$4" 'BEGIN {e = a - b; m = a < 0 ? -a : a; exit !(a == b || (a != "" && b != "" && e <= d * m && -e <= d * m))}'
     verdict "$1 ($2, $3)" $?
 }
-[ -n "$(figure density_max <"$work/door.json")" ] && [ "$(figure density_max <"$work/door.json")" = "$(in_json density_max "$work/door.danger")" ]; verdict "density_max of the run is that of danger" $?
+[ -n "$(figure density_max <"$work/door.json")" ] && [ "$(figure density_max <"$work/door.json")" = "$(in_json density_max "$work/door.danger")" ]; verdict "density_max of the run is that of its danger figures" $?
 for table in danger.csv danger-map.csv; do
     alike "a crush: crowd pressure of $table is that of the summary" "$(in_json pressure_max "$work/shaken.json")" "$(greatest 'pressure_max [1/s2]' "$work/shaken/$table")" 1e-6
 done
@@ -127,15 +127,15 @@ for measure in density:1/m2:"density (Gaussian, R = 1 m)" pressure:1/s2:"crowd p
     IFS=: read -r name unit title <<<"$measure"
     said=$(in_json "${name}_max" "$work/door.danger")
     alike "the greatest $name over time is that of the summary" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger.csv")" 1e-6
-    alike "and that of the map" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger-map.csv")" 1e-3
-    alike "and that of the page" "$said" "$(cells "$title" | sed -n '1s/ .*//p')" 6e-4
+    alike "the greatest $name of the map is that of the summary" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger-map.csv")" 1e-3
+    alike "the greatest $name on the page is that of the summary" "$said" "$(cells "$title" | sed -n '1s/ .*//p')" 6e-4
 done
-# A recording holds the walls, not only the outline of where one can walk: places by the 0.1 mm are the difference.
+# A recording holds the walls too; positions rounded to 0.1 mm are the only difference.
 "$JOSTLE" run scenes/evacuation.yaml --for 40 --quiet --record "$work/rooms.sqlite" --summary "$work/rooms.json" >/dev/null 2>&1
 "$JOSTLE" report "$work/rooms.sqlite" --out "$work/rooms" --summary "$work/again.json" >/dev/null 2>&1
 alike "the greatest density of a run, and of its recording" "$(figure density_max <"$work/rooms.json")" "$(in_json density_max "$work/again.json")" 0.01
 alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
-alike "the greatest dose" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
+alike "the greatest dose over time is that of the summary" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
 for limit in density_5:"density of 5 per m² (Gaussian, R = 1 m)" density_7:"density of 7 per m² (Gaussian, R = 1 m)" voronoi_5:"Voronoi density of 5 per m²" voronoi_7:"Voronoi density of 7 per m²" pressure_002:"crowd pressure of 0.02 per s²" load_623:"load of 623 N" load_1112:"load of 1112 N" load_6227:"load of 6227 N" dose_1:"dose of load of 1"; do
     IFS=: read -r limit title <<<"$limit"
     object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")
@@ -159,11 +159,11 @@ for level in A B C D E F; do
     alike "level $level: person-seconds on the page" "$said" "$(cells $level | sed -n '2s/ .*//p')" 6e-4
     total=$(awk -v a="$total" -v b="$said" 'BEGIN {print a + b}')
 done
-alike "the levels' person-seconds are those of the people over time" "$total" "$(awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "level_A") c = i} NR > 2 {for (k = c; k < c + 6; k++) s += $k * ($1 - t)} {t = $1} END {print s}' "$work/door/danger.csv")" 1e-6
+alike "person-seconds of all levels sum to those of the people over time" "$total" "$(awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "level_A") c = i} NR > 2 {for (k = c; k < c + 6; k++) s += $k * ($1 - t)} {t = $1} END {print s}' "$work/door/danger.csv")" 1e-6
 door=$(sed -n 's/.*"lines": {"door": \(.*\)/\1/p' "$work/door.danger")
-alike "the line lies where the opening is 0.8 m wide still" "$(sed 's/.*"width": \([^,]*\).*/\1/' <<<"$door")" 0.8 0.03
-alike "who passed it are the passages of the probe" "$(sed 's/.*"forward": \([^,]*\).*/\1/' <<<"$door")" "$(column forward "$work/door/danger-lines.csv" | tail -1)" 0
-alike "its greatest flow" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(greatest 'flow [1/(m s)]' "$work/door/danger-lines.csv")" 1e-6
-alike "its greatest flow on the page" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(cells door | sed -n '3s/ .*//p')" 6e-4
+alike "the width of the line is that of the opening, 0.8 m" "$(sed 's/.*"width": \([^,]*\).*/\1/' <<<"$door")" 0.8 0.03
+alike "crossings of the line are the passages of the probe" "$(sed 's/.*"forward": \([^,]*\).*/\1/' <<<"$door")" "$(column forward "$work/door/danger-lines.csv" | tail -1)" 0
+alike "the greatest flow of the line is that of its table" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(greatest 'flow [1/(m s)]' "$work/door/danger-lines.csv")" 1e-6
+alike "the greatest flow of the line on the page is that of the summary" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(cells door | sed -n '3s/ .*//p')" 6e-4
 stops=$(column stop_and_go "$work/door/danger-lines.csv" | grep -c 1)
-alike "its stop-and-go" "$(sed 's/.*"stop_and_go": {"seconds": \([^,]*\).*/\1/' <<<"$door")" "$(awk -v n="$stops" 'BEGIN {print n / 2}')" 1e-6
+alike "seconds of stop-and-go at the line are those of its table" "$(sed 's/.*"stop_and_go": {"seconds": \([^,]*\).*/\1/' <<<"$door")" "$(awk -v n="$stops" 'BEGIN {print n / 2}')" 1e-6

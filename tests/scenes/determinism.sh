@@ -1,7 +1,7 @@
-# Equal hashes for 1, 2 and 4 threads, every instruction set that the machine runs, two processes, -O0 and -O2,
-# gcc and clang. JOSTLE_MATRIX, as `make matrix` sets it, adds what changes no result either: 1 to 8 threads, 20 processes,
-# -O3, reloads of nothing new, checkpoints anywhere, recorder, report, page, trace, and a busy neighbour; it names the
-# scenes, "all" being all of those below.
+# Compares hashes of scenes for 1, 2 and 4 threads, every instruction set that the machine runs, two processes, -O0 and
+# -O2, gcc and clang. If JOSTLE_MATRIX names scenes (`make matrix`; "all": those below), also for 1 to 8 threads, 20
+# processes, -O3, reloads without a change, checkpoints at any time, recorder, report, page and trace, and beside a busy
+# process.
 . tests/scenes/lib.sh
 export MAKEFLAGS=
 make -s -j2 MODE=debug B=build/debug CFLAGS=-Werror build/debug/jostle
@@ -21,19 +21,19 @@ if [ "$matrix" ]; then # NAME=PROGRAM of further builds
         others="$others $1"
     done
 fi
-by_isa() { # SCENE ARGS...: the hash by each instruction set, with two threads
+by_isa() { # SCENE ARGS...: prints the hash for each instruction set, with two threads
     local isa
     for isa in $isas; do hash_of "$JOSTLE" "$@" --isa $isa --threads 2; done
 }
 [ "${isas# scalar}" != "$isas" ]
 verdict "instruction sets compared:$isas" $?
-quietly() { # HASH-FILE PROGRAM ARGS...: runs it; its summary goes to the file
+quietly() { # SUMMARY-FILE PROGRAM ARGS...: runs a program that writes its summary to the file
     local out=$1; shift
     rm -f "$out"
     "$@" --summary "$out" >"$work/said" 2>&1 </dev/null
 }
-# The page of a run in real time, which somebody looks at.
-watched() { # SCENE ARGS...: the hash
+# watched: runs in real time with a page that a client (look.py) looks at
+watched() { # SCENE ARGS...: prints the hash
     local scene=$1 pid address; shift
     rm -f "$work/page.json"
     timeout --foreground 600 "$JOSTLE" run "$scene" --view "$@" --summary "$work/page.json" >"$work/said" 2>&1 </dev/null & pid=$!
@@ -46,7 +46,7 @@ watched() { # SCENE ARGS...: the hash
     kill -TERM $pid; wait
     figure hash <"$work/page.json"
 }
-reloaded() { # SCENE ARGS...: the hash; its behaviours are replaced at some steps by themselves and a comment
+reloaded() { # SCENE ARGS...: prints the hash of a run in which behaviours are reloaded at some steps with a new comment
     local scene=$1 file tick; shift
     "$JOSTLE" run "$scene" --quiet --log-input "$work/made" "$@" 2>/dev/null
     for tick in $(seq 3 12 51); do
@@ -61,7 +61,7 @@ reloaded() { # SCENE ARGS...: the hash; its behaviours are replaced at some step
     grep -c ' is live' "$work/said" >"$work/reloads"
     figure hash <"$work/reload.json"
 }
-checkpointed() { # SCENE ARGS...: of two runs from checkpoints somewhere
+checkpointed() { # SCENE ARGS...: prints the hashes of two runs that are resumed from checkpoints
     local scene=$1 every n; shift
     for n in 1 2; do
         every=$((RANDOM % 2)).$((10 + RANDOM % 90))
@@ -72,7 +72,7 @@ checkpointed() { # SCENE ARGS...: of two runs from checkpoints somewhere
         figure hash <"$work/rest.json"
     done
 }
-unmoved() { # SCENE HASH ARGS...: by all that watches a run, and all that runs beside it
+unmoved() { # SCENE HASH ARGS...: compares the hash of runs with everything that only observes or accompanies a run
     local scene=$1 one=$2 n hashes= pid; shift 2
     for n in 1 2 3 4 5 6 7 8; do hashes="$hashes $(hash_of "$JOSTLE" "$scene" "$@" --threads $n)"; done
     same_hash "$scene 1 to 8 threads" "$one" $hashes
@@ -84,7 +84,7 @@ unmoved() { # SCENE HASH ARGS...: by all that watches a run, and all that runs b
     same_hash "$scene report" "$one" "$(hash_of "$JOSTLE" "$scene" "$@" --no-half-step --report "$work/report")"
     same_hash "$scene trace and log" "$one" "$(hash_of "$JOSTLE" "$scene" "$@" --trace 1 --log-input "$work/log")"
     sh -c 'while :; do :; done' & pid=$!
-    same_hash "$scene busy neighbour" "$one" "$(hash_of "$JOSTLE" "$scene" "$@" --threads 2)" "$(hash_of "$JOSTLE" "$scene" "$@" --threads 4)"
+    same_hash "$scene beside a busy process" "$one" "$(hash_of "$JOSTLE" "$scene" "$@" --threads 2)" "$(hash_of "$JOSTLE" "$scene" "$@" --threads 4)"
     kill $pid; wait $pid 2>/dev/null
     hashes=$(watched "$scene" "$@")
     same_hash "$scene page, in $(cat "$work/seen") frames" "$one" "$hashes"
@@ -95,7 +95,7 @@ unmoved() { # SCENE HASH ARGS...: by all that watches a run, and all that runs b
     esac
     if ! grep -q '^bodies:' "$scene"; then same_hash "$scene checkpoints" "$one" $(checkpointed "$scene" "$@"); fi
 }
-compare() { # SCENE ARGS...
+compare() { # SCENE ARGS...: compares the hashes of one scene
     local scene=scenes/$1.yaml one
     case " ${matrix:-all} " in *" all "* | *" $1 "*) ;; *) return ;; esac
     shift
@@ -126,7 +126,7 @@ compare office --for 8
 compare dodgeball-500 --for 4
 compare office --set groups.people.count=300 --for 5 --input tests/data/session.input
 [ -z "$matrix" ] || exit 0
-# And every scene, for a short time.
+# Every shipped scene, for a short time.
 for file in scenes/*.yaml; do
     less=$(.ci/smaller "$file")
     same_hash "$file, short" "$(hash_of "$JOSTLE" "$file" --for 4 --set "$less")" \

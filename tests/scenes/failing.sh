@@ -1,2 +1,2 @@
-# Allocations, writes, names and threads that fail, a few of each for every command: `make faults` tries them all.
+# Fault injection: a few failing allocations, writes, renames and threads for every command; `make faults` tries all.
 FAULTS=2 bash tests/faults/run.sh

@@ -1,5 +1,5 @@
-# Sessions: what people do to a running scene, and files that they save, are written to an input log
-# that plays back to the same hash, on any number of threads.
+# Input logs: what people do to a running scene, and files that they save, are written to a log that plays back to the
+# same hash for any number of threads.
 . tests/scenes/lib.sh
 log=$work/session.input
 
@@ -9,28 +9,28 @@ office() { "$JOSTLE" run scenes/office.yaml --set groups.people.count=300 --for 
 one=$(office --input $script --log-input "$log")
 [ ! -s "$work/err" ]; verdict "every verb is done" $?
 cat "$work/err"
-same_hash "a session of every verb" "$one" "$(office --input "$log")" "$(office --input "$log" --threads 2)" "$(office --input "$log" --threads 4)"
+same_hash "a log of every verb plays back to the same hash" "$one" "$(office --input "$log")" "$(office --input "$log" --threads 2)" "$(office --input "$log" --threads 4)"
 [ "$(grep -Ev '^#|^0 (began|made)' "$log")" = "$(grep -v '^#' $script)" ]
-verdict "the log of a replay says the same" $?
+verdict "the log of a replay has the same entries" $?
 head -1 "$log" | grep -q '^# input log of jostle .*: scene scenes/office.yaml, seed [0-9]*, dt 0.05 s$'
-verdict "a log begins with what it was made of" $?
-[ "$one" != "$(office)" ]; verdict "what people do matters" $?
+verdict "a log begins with version, scene, seed and step" $?
+[ "$one" != "$(office)" ]; verdict "the entries change the hash" $?
 
 # ---- walls ----
 printf '20 open exit\n40 close exit\n' >"$work/gates.input"
 name=$(sed -n 's/.*name: \([a-z_]*\)[,}].*/\1/p' scenes/gates.yaml | head -1)
 sed -i "s/exit/$name/" "$work/gates.input"
 gates() { hash_of "$JOSTLE" scenes/gates.yaml --for 6 --input "$work/gates.input" "$@"; }
-same_hash "gates" "$(gates)" "$(gates --threads 2)"
-[ "$(gates)" != "$(hash_of "$JOSTLE" scenes/gates.yaml --for 6)" ]; verdict "gates of a log open and shut" $?
+same_hash "gates opened by a log have one hash for 1 and 2 threads" "$(gates)" "$(gates --threads 2)"
+[ "$(gates)" != "$(hash_of "$JOSTLE" scenes/gates.yaml --for 6)" ]; verdict "gates opened by a log change the hash" $?
 
 # ---- mistakes ----
 printf '7 push 0 1 1\n8 shove 0\n5 push 0 1 1\n' >"$work/bad.input"
 "$JOSTLE" run scenes/office.yaml --steps 1 --quiet --input "$work/bad.input" 2>"$work/err"
 [ $? = 3 ] && grep -qF "bad.input:2:3: there is no verb 'shove'" "$work/err" && grep -qF 'bad.input:3:1: ticks must not decrease' "$work/err"
-verdict "a wrong log is bad input, with its places" $?
+verdict "a wrong log is bad input, with line and column" $?
 "$JOSTLE" run scenes/office.yaml --steps 1 --quiet --log-input "$work/no/such/folder" 2>"$work/err"
-[ $? = 1 ] && grep -qF 'cannot write the input log' "$work/err"; verdict "a log that cannot be written is said" $?
+[ $? = 1 ] && grep -qF 'cannot write the input log' "$work/err"; verdict "an unwritable log is an error" $?
 
 # ---- saved files: 500 pilgrims, a behaviour, what it requires, and the scene ----
 tree=$work/tree
@@ -43,7 +43,7 @@ log=$work/saved.input
 "$JOSTLE" run "$scene" $few --steps 900000000 --watch --log-input "$log" --summary "$work/summary" >"$work/said" 2>&1 </dev/null &
 pid=$!
 trap '[ -z "$pid" ] || kill -KILL $pid; rm -rf "$work"' EXIT
-lives() { # NAME TEXT: waits until it is said
+lives() { # NAME TEXT: waits until the run has printed a text
     for i in $(seq 400); do
         grep -qF -- "$2" "$work/said" && break
         sleep 0.02
@@ -65,16 +65,16 @@ sed -i 's/^events:/events:\n  - {at: 1, every: 0.5, signal: hello}/' "$scene"
 grep -q '^events:' "$scene" || printf 'events:\n  - {at: 1, every: 0.5, signal: hello}\n' >>"$scene"
 lives "the scene" "events changed, live"
 kill -INT $pid
-wait $pid; [ $? = 130 ]; verdict "the session ends well, as one that was interrupted" $?
+wait $pid; [ $? = 130 ]; verdict "the live session ends with the status of an interruption" $?
 pid=
 steps=$(figure steps <"$work/summary") hash=$(figure hash <"$work/summary")
 again() { hash_of "$JOSTLE" "$scene" $few --steps "$steps" --input "$log" "$@"; }
-same_hash "a session of saved files" "$hash" "$(again)" "$(again --threads 2)" "$(again --threads 4)"
+same_hash "a log with saved files plays back to the same hash" "$hash" "$(again)" "$(again --threads 2)" "$(again --threads 4)"
 echo 'return machine {}' >"$sheet"
 rm "$tree/behaviours/extra.lua"
-same_hash "the files on the disk are not read" "$hash" "$(again --log-input "$work/again.input")"
-cmp "$log" "$work/again.input"; verdict "and its log is the same, byte by byte" $?
-grep -qa '^ *local extra = require "extra"' "$log"; verdict "sources stand in the log as they are" $?
+same_hash "a replay does not read the files on the disk" "$hash" "$(again --log-input "$work/again.input")"
+cmp "$log" "$work/again.input"; verdict "the log of this replay is the same, byte by byte" $?
+grep -qa '^ *local extra = require "extra"' "$log"; verdict "the log contains the texts of saved files unchanged" $?
 "$JOSTLE" run "$scene" $few --steps 1 --input "$log" --watch 2>&1 | grep -qF 'cannot be watched besides'
-verdict "a log with files and --watch exclude each other" $?
+verdict "a log with saved files is refused with --watch" $?
 exit 0

@@ -1,13 +1,13 @@
 #!/bin/bash
-# Instructions of a step per agent, counted by callgrind for scalar and AVX2 kernels (it knows no AVX-512), against
-# tests/bench/instructions.csv: they are the same on every run, where times are not. More than MARGIN per cent above
-# the table fails. `tests/scenes/instructions.sh --write` (make bench-instructions) counts anew and replaces the
-# table: what a deliberate change does. The making of distance fields is left out.
+# Compares the instructions per agent and step, counted by callgrind for scalar and AVX2 kernels (it does not support
+# AVX-512), with tests/bench/instructions.csv. Unlike times, they are the same in every run. More than MARGIN per cent
+# above the table fails. `tests/scenes/instructions.sh --write` (make bench-instructions) counts again and replaces the
+# table, for deliberate changes. The computation of distance fields is left out.
 cd "$(dirname "$0")/../.."
 . tests/scenes/lib.sh
 table=tests/bench/instructions.csv
 MARGIN=4
-# NAME, STEPS, sets of instructions, scene and what is set in it. All keep their number of people.
+# Prints NAME, STEPS, instruction sets, scene and settings of each case. In all, the number of people is constant.
 cases() {
     cat <<'CASES'
 dodgeball 100 avx2 scenes/dodgeball.yaml
@@ -18,7 +18,7 @@ evacuation 20 scalar,avx2 scenes/evacuation.yaml
 tawaf 10 avx2 scenes/tawaf.yaml --set groups.pilgrims.count=1000 --set sources.0.keep=1000
 CASES
 }
-# Compilers and their libraries emit other instructions: figures of one are no measure of another.
+# Counts of different compilers cannot be compared.
 compiler=$(readelf -p .comment "$JOSTLE" | sed -n 's/^ *\[[^]]*\] *//p' | tr -d ',\r' | sort -u | paste -s -d ';')
 
 count() { # ISA STEPS SCENE...: prints instructions per agent and step

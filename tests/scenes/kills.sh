@@ -1,6 +1,6 @@
-# Runs that are killed (SIGKILL) anywhere: at moments spread over their progress and at calls that change files, while
-# they record, log, write checkpoints and a report, and while behaviours are saved. What is left is whole, and goes on.
-# JOSTLE_KILLS says how many.
+# Kills runs (SIGKILL) at moments spread over their progress and at calls that change files, while they record, log, write
+# checkpoints and a report, and while behaviours are saved. All files must be whole, and the runs resumable. JOSTLE_KILLS
+# is the number of kills.
 . tests/scenes/lib.sh
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
 kills=${JOSTLE_KILLS:-4}
@@ -11,7 +11,7 @@ cp scenes/dodgeball.* "$work/tree/scenes/"
 cp behaviours/dodgeball.lua behaviours/dodgeball_player.lua "$work/tree/behaviours/"
 cd "$work" || exit 1
 
-# Everything of a recording, and what of one is not as in the other up to its last frame.
+# contents: prints everything of a recording. strangers: prints rows that another recording lacks up to the last frame.
 contents() { sqlite3 "$1" 'PRAGMA integrity_check; SELECT * FROM trajectory_data ORDER BY frame, id; SELECT * FROM frame_data ORDER BY frame; SELECT * FROM jostle_body ORDER BY frame, id; SELECT * FROM metadata ORDER BY key' | sha256sum; }
 strangers() {
     sqlite3 "$1" "ATTACH '$2' AS whole" 'PRAGMA main.integrity_check' \
@@ -19,7 +19,7 @@ strangers() {
         'SELECT count(*) FROM (SELECT * FROM whole.trajectory_data WHERE frame <= (SELECT max(frame) FROM main.trajectory_data)
             EXCEPT SELECT * FROM main.trajectory_data)' 2>&1 | tr '\n' ' '
 }
-# KIND: the arguments of a run, in a folder beside the tree of that run.
+# arguments KIND: prints the arguments of a run, in a folder beside its tree.
 arguments() {
     case $1 in
     reloads) echo tree/scenes/dodgeball.yaml --for 400 --record r.sqlite --record-every 0.5 --log-input log --checkpoint 12.8 --checkpoint-dir ck --data data --watch ;;
@@ -30,18 +30,18 @@ begin() { # FOLDER
     rm -rf "$1"; mkdir "$1"
     cp -r tree "$1/tree"
 }
-# The whole runs, with the processor time (of the run alone, without the children that read the scene) and the calls of each.
+# Complete runs for comparison, with their processor time (without the children that read the scene) and file calls.
 for kind in reloads report; do
     begin "whole-$kind"
     (cd "whole-$kind" && python3 "$kill_at" 1e6 "$program" run $(arguments $kind) --quiet) >"$kind.took" 2>/dev/null
     [ $kind = report ] && [ "$kills" -lt 8 ] && continue
     begin counted
     (cd counted && strace -qq -f --seccomp-bpf -o ../trace -e trace=$calls "$program" run $(arguments $kind) --quiet) 2>/dev/null
-    # those of the thread that calls most, as strace counts for each
+    # of the thread with most calls, as strace counts per thread
     awk '{n[$1]++} END {for (p in n) if (n[p] > most) most = n[p]; print most}' trace >"$kind.calls"
 done
 
-saved() { # FOLDER: saves a behaviour again and again, with another comment
+saved() { # FOLDER: saves a behaviour repeatedly, with another comment each time
     local k
     for k in $(seq 1000); do
         sleep "0.0$((RANDOM % 9 + 1))"
@@ -55,7 +55,7 @@ for k in $(seq 0 $((kills - 1))); do
     where=killed wrong=0 saver=
     begin $where
     [ $kind = report ] || { saved $where & saver=$!; }
-    # Half at a moment, half at a call; each spread evenly over the run with a random offset in its part.
+    # Half of the kills come at a moment, half at a call; both are spread evenly over the run with random offsets.
     part=$(awk -v k="$k" -v n="$kills" -v r=$RANDOM 'BEGIN {printf "%.5f", (k + r / 32768) / n}')
     if [ $((k % 2)) = 0 ] || [ $((k % 8)) = 3 ]; then
         at=$(awk -v p="$part" -v t="$(cat $kind.took)" 'BEGIN {print p * t}')
@@ -65,7 +65,7 @@ for k in $(seq 0 $((kills - 1))); do
         (cd $where && timeout -s KILL 120 strace -qq -f --seccomp-bpf -o ../trace -e trace=$calls -e inject=$calls:signal=KILL:when="$at" "$program" run $(arguments $kind) --quiet) >took 2>err
     fi
     [ -z "$saver" ] || { kill $saver; wait $saver; } 2>/dev/null
-    # ---- what is left ----
+    # ---- check the files that are left ----
     ls $where/ck/*.part >/dev/null 2>&1 && writing=$((writing + 1))
     [ -d $where/report ] && [ -n "$(ls $where/report)" ] && reporting=$((reporting + 1))
     grep -q '^[0-9]* files' $where/log 2>/dev/null && reloaded=$((reloaded + 1))

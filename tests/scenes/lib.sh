@@ -1,21 +1,22 @@
-# What the scene tests share. Prints "ok NAME" or "not ok NAME".
+# Functions that the suites in this folder share. Each case prints "ok NAME" or "not ok NAME"; a name that begins with
+# two spaces continues the case above it.
 B=${B:-build/release}
 JOSTLE=${JOSTLE:-$B/jostle}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export XDG_DATA_HOME=$work/data XDG_CONFIG_HOME=$work/config # no mods but those of the tree, and none on
+export XDG_DATA_HOME=$work/data XDG_CONFIG_HOME=$work/config # only mods of the source tree, none of them turned on
 
 verdict() { # NAME STATUS
     if [ "$2" = 0 ]; then echo "ok $1"; else echo "not ok $1"; fi
 }
-# figure NAME < summary: a top-level number or string of a summary
+# figure NAME < summary: prints a top-level number or string of a summary
 figure() { sed -n "s/^ \"$1\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p"; }
-# hash_of PROGRAM SCENE ARGS...: the state's hash at the end of a run
+# hash_of PROGRAM SCENE ARGS...: runs a scene and prints the hash of its final state
 hash_of() {
     local program=$1 scene=$2; shift 2
     "$program" run "$scene" --quiet --summary - "$@" 2>/dev/null | figure hash
 }
-# same_hash NAME HASH...: all equal and not empty. The one helper that compares runs.
+# same_hash NAME HASH...: checks that all hashes are equal and not empty
 same_hash() {
     local name=$1 first=$2 h; shift
     for h in "$@"; do
@@ -23,13 +24,13 @@ same_hash() {
     done
     echo "ok $name"
 }
-# between NAME VALUE LOW HIGH
+# between NAME VALUE LOW HIGH: checks that a number is from LOW to HIGH
 between() {
     awk -v v="$2" -v a="$3" -v b="$4" 'BEGIN {exit !(v != "" && v >= a && v <= b)}'
     if [ $? = 0 ]; then echo "ok $1 ($2)"; else echo "not ok $1: $2 is not within $3 to $4"; fi
 }
-# outlined NAME FOLDER FILE [--no-ranges]: what a report says of itself (outline.py) is what tests/data/outlines has; where
-# that is to change, look at the page and its pictures, and run the test with OUTLINES=write
+# outlined NAME FOLDER FILE [--no-ranges]: compares the outline of a report in FOLDER (sections, titles, axes; outline.py) with
+# tests/data/outlines/FILE.txt. To change it, look at the page and its pictures, then run the test with OUTLINES=write.
 outlined() {
     python3 tests/scenes/outline.py "$2" ${4-} >"$work/outline"
     [ "${OUTLINES-}" = write ] && cp "$work/outline" "tests/data/outlines/$3.txt"
@@ -38,7 +39,7 @@ outlined() {
     [ $differs = 0 ] || head -20 "$work/differences"
     verdict "$1" $differs
 }
-# NAME STATUS TEXT COMMAND...: the exit status, and a text in what it writes, which is left in $work/out.
+# expect NAME STATUS TEXT COMMAND...: checks a command's exit status, and that its output, kept in $work/out, has a text
 expect() {
     local name=$1 status=$2 text=$3; shift 3
     timeout 300 "$@" >"$work/out" 2>&1 </dev/null

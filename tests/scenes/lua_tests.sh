@@ -1,30 +1,30 @@
-# Tests of the shipped behaviours, and of the program that runs them.
+# Tests of the shipped behaviours, and tests of the test runner.
 . tests/scenes/lib.sh
 
 "$JOSTLE" test tests/lua >"$work/shipped" 2>&1
 status=$?
 grep -E '^(ok|not ok) ' "$work/shipped" | sed 's/ ([0-9.]* s simulated in [0-9.]* s)$//'
 [ "$status" = 0 ] || cat "$work/shipped"
-verdict "the tests of the shipped behaviours end well" "$status"
+verdict "the tests of the shipped behaviours pass" "$status"
 for behaviour in behaviours/*.lua; do
     grep -q "$(basename "$behaviour")" tests/lua/*_test.lua || echo "not ok $behaviour has no test"
 done
 
-# ---- the tester: what fails, and how it says so ----
+# ---- the test runner: failures and their messages ----
 self=tests/lua/self
 
 "$JOSTLE" test $self/passes_test.lua >"$work/passes" 2>&1
-verdict "all that should pass passes" $?
+verdict "all tests of passes_test.lua pass" $?
 [ "$(tail -1 "$work/passes")" = "$(grep -c '^test(' $self/passes_test.lua) passed, 0 failed" ]
-verdict "and is counted" $?
+verdict "they are counted" $?
 
-# Each arrow of a file: the message stands at its line, with its text.
+# For each arrow in a file: a failure is reported at its line, with its text.
 for file in $self/fails_test.lua $self/endless_test.lua; do
     name=$(basename "$file")
     "$JOSTLE" test "$file" >"$work/fails" 2>&1
     [ $? = 1 ]; verdict "$name: a failure is exit status 1" $?
     [ "$(tail -1 "$work/fails")" = "0 passed, $(grep -c '^test(' "$file") failed" ]
-    verdict "$name: all that should fail fails, and is counted" $?
+    verdict "$name: every test fails, and is counted" $?
     awk -v file="$file" -v name="$name" '
         FNR == NR { if (index($0, file ":") == 1) said[$0]; next }
         / --> / {
@@ -46,10 +46,10 @@ END
 "$JOSTLE" test "$work/deep_test.lua" >"$work/deep"
 grep -q "^$work/deep_test.lua:2: 1 is not 2" "$work/deep" && grep -q "deep_test.lua:5" "$work/deep" &&
     ! grep -q '\.c:\|b0:\|\[C\]' "$work/deep"
-verdict "a traceback leads to the test, without frames of the engine" $?
+verdict "a traceback ends at the test, without frames of the engine" $?
 
 # ---- files that cannot be run: exit status 3, with the place ----
-refuse() { # NAME TEXT: file $work/NAME_test.lua
+refuse() { # NAME TEXT: checks that $work/NAME_test.lua is refused with a text
     "$JOSTLE" test "$work/$1_test.lua" >"$work/log" 2>&1
     [ $? = 3 ] && grep -qF "$work/$1_test.lua$2" "$work/log"
     status=$?
@@ -76,32 +76,32 @@ ln -s deep_test.lua "$work/link_test.lua"
 refuse link ": cannot load"
 refuse absent "' cannot be read: there is no such file"
 rm "$work/link_test.lua"
-# One file that cannot be run does not hide the others.
+# A file that cannot be run does not stop the others.
 "$JOSTLE" test "$work/syntax_test.lua" $self/passes_test.lua "$work/deep_test.lua" >"$work/log" 2>&1
 [ $? = 3 ] && tail -1 "$work/log" | grep -q '^[1-9][0-9]* passed, 1 failed$'
-verdict "others are run beside a file that cannot be" $?
+verdict "a file that cannot be run does not stop the others" $?
 
 # ---- usage ----
 "$JOSTLE" test --olny x >"$work/log" 2>&1
 [ $? = 2 ] && grep -q 'olny' "$work/log"; verdict "an unknown option is exit status 2" $?
 "$JOSTLE" test --only >"$work/log" 2>&1
 [ $? = 2 ]; verdict "an option without its value is exit status 2" $?
-"$JOSTLE" test --help | grep -q 'usage: jostle test'; verdict "it has a help text" $?
+"$JOSTLE" test --help | grep -q 'usage: jostle test'; verdict "test --help prints a usage" $?
 
 # ---- --only, folders, --json ----
 "$JOSTLE" test $self/fails_test.lua --only "faster_than" >"$work/log"
-[ $? = 1 ] && [ "$(tail -1 "$work/log")" = "0 passed, 1 failed" ]; verdict "--only runs what it names" $?
+[ $? = 1 ] && [ "$(tail -1 "$work/log")" = "0 passed, 1 failed" ]; verdict "--only selects tests by name" $?
 mkdir -p "$work/folder/inner"
 for n in b a; do printf 'test("%s", function() equal(1, 1) end)\n' $n >"$work/folder/${n}_test.lua"; done
 cp "$work/syntax_test.lua" "$work/folder/.hidden_test.lua"
 cp "$work/syntax_test.lua" "$work/folder/helper.lua"
 "$JOSTLE" test "$work/folder" >"$work/log"
 [ $? = 0 ] && [ "$(sed 's/ (.*//' "$work/log" | tr '\n' ' ')" = "ok a ok b 2 passed, 0 failed " ]
-verdict "a folder's tests run in order, hidden files and others do not" $?
+verdict "a folder's tests run in order, without hidden and other files" $?
 (cd "$work/folder" && mkdir tests && mv a_test.lua tests && "$OLDPWD/$JOSTLE" test >"$work/log" 2>&1 ||
     "$JOSTLE" test >"$work/log" 2>&1)
 [ "$(sed 's/ (.*//' "$work/log" | tr '\n' ' ')" = "ok a 1 passed, 0 failed " ]
-verdict "without a path the folder tests is looked into" $?
+verdict "without a path the tests of the folder tests run" $?
 
 "$JOSTLE" test --json $self/fails_test.lua $self/passes_test.lua >"$work/json"
 [ $? = 1 ]; verdict "--json has the same exit status" $?
@@ -111,7 +111,7 @@ json() { sqlite3 :memory: "select count(*) from json_each(readfile('$work/json')
     [ "$(json "json_extract(value, '\$.message') like '%2 is not 3%' and json_extract(value, '\$.name') = 'equal' and
         json_extract(value, '\$.file') = '$self/fails_test.lua' and json_extract(value, '\$.line') = $(
             grep -n '> 2 is not 3' $self/fails_test.lua | cut -d: -f1)")" = 1 ]
-verdict "--json is one array of what passed and failed, with places" $?
+verdict "--json is one array of results with their positions" $?
 
 # ---- the same figures as a run ----
 cat >"$work/hash_test.lua" <<END

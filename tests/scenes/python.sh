@@ -1,4 +1,4 @@
-# The Python package: built offline, and its own tests.
+# Builds the Python package offline and runs its tests.
 set -u
 . tests/scenes/lib.sh
 python=/usr/bin/python3

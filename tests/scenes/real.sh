@@ -1,18 +1,18 @@
-# Probes over recordings of real crowds against what is known of these. The recordings are not part of the
-# project: JOSTLE_REAL_DATA names their folder.
+# Measures recordings of real crowds by probes, and compares the figures with published ones. The recordings are not part
+# of the project: JOSTLE_REAL_DATA names their folder.
 . tests/scenes/lib.sh
 data=${JOSTLE_REAL_DATA:-}
 if [ -z "$data" ]; then echo "ok real crowds: skipped, JOSTLE_REAL_DATA names no folder"; exit 0; fi
 if [ ! -d "$data" ]; then echo "not ok real crowds: there is no folder '$data' (JOSTLE_REAL_DATA)"; exit 1; fi
 
-# measure SCENE RECORDING [OPTION...]: the summary into $work/out, CSV files into $work/files
+# measure SCENE RECORDING [OPTION...]: writes the summary to $work/out, CSV files to $work/files
 measure() {
     local scene=$1 recording=$2; shift 2
     rm -rf "$work/files"
     "$JOSTLE" report "$data/$recording" --scene "tests/data/$scene" --summary "$work/out" --out "$work/files" "$@" >"$work/said" 2>&1 ||
         { echo "not ok report on $recording"; head -5 "$work/said"; }
 }
-# of PROBE FIGURE: from the summary
+# of PROBE FIGURE: prints a figure of the summary
 of() { sed -n "s/^  \"$1\": {.*\"$2\": \([^,}]*\).*/\1/p" "$work/out"; }
 
 measure bottleneck.yaml bottleneck/wuppertal_040_door050.txt
@@ -25,7 +25,7 @@ between "door: longest lapse, s" "$(of door lapse_max)" 2.4 2.6
 between "door: density in front, 1/m2" "$(of front density)" 6.0 6.4
 between "door: density in front, 90 %, 1/m2" "$(of front density_p90)" 8.3 8.8
 
-corridor() { # NAME, then low and high of flow per metre, density and speed
+corridor() { # NAME, then least and greatest flow per metre, density and speed
     measure "corridor-$1.yaml" "corridor/uo-$1.txt" --fps 16 --unit cm
     between "corridor $1: flow, 1/(m s)" "$(of line specific_flow)" "$2" "$3"
     between "corridor $1: density, 1/m2" "$(of middle density)" "$4" "$5"
@@ -49,7 +49,7 @@ for peak in 0.44 0.50 0.65 0.70 0.54; do
         "$(awk "BEGIN {print $peak - 0.015}")" "$(awk "BEGIN {print $peak + 0.015}")"
 done
 
-# The scenes of recorded crowds: their own probes over the recordings give what their claims compare with.
+# Scenes of recorded crowds: their probes, applied to the recordings, give the values of their claims.
 recorded() { # SCENE RECORDING [OPTION...], then PROBE FIGURE LOW HIGH on each line of the input
     local scene=$1 probe figure low high
     measure "../../scenes/$scene.yaml" "${@:2}"
@@ -84,7 +84,7 @@ corner speed 1.11 1.13
 after density 0.96 0.98
 after speed 1.12 1.14
 FIGURES
-widths() { # WIDTHS, then low and high of specific flow, density and speed
+widths() { # WIDTHS, then least and greatest specific flow, density and speed
     recorded "corridor-uo-$1" "corridor/uo-$1.txt" --fps 16 --unit cm <<<"line specific_flow $2 $3
 middle density $4 $5
 middle speed $6 $7"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Names that a behaviour's author has `renamed` are errors wherever others still write the old one, and the error
-# has the new name: in behaviours, scenes, patches of mods and input logs.
+# `renamed` names of a behaviour: an old name in another behaviour, a scene, a patch of a mod or an input log is an error
+# that gives the new name.
 . tests/scenes/lib.sh
 JOSTLE=$(realpath "$JOSTLE")
 
-# A behaviour whose author renamed a state, an own value and a memory; one that looks at its people; scenes; a mod.
+# A behaviour that renamed a state, an own value and a memory; a behaviour that refers to its people; scenes; a mod.
 mkdir -p "$work/was/behaviours" "$work/was/scenes/mods/bold/patches"
 cat >"$work/was/behaviours/lib.lua" <<'LUA'
 local mine = memory { laps_done = 0 }
@@ -49,28 +49,28 @@ cd "$work/was" || exit 1
 
 told() { grep -qF "$2" "$work/out"; verdict "  $1" $?; } # NAME TEXT
 expect "old names are errors" 3 "6 errors" "$JOSTLE" check scenes/yard.yaml
-told "a value of a set" "scenes/yard.yaml:5:44: 'courage' is called 'bravery' now. Write the new name"
-told "memory of a group" "scenes/yard.yaml:5:98: 'laps' is called 'laps_done' now"
-told "a state of others, of a condition" "behaviours/other.lua:1:41: 'Amble' is called 'Stroll' now"
-told "memory of others, of a condition" "behaviours/other.lua:1:56: 'laps' is called 'laps_done' now"
-told "memory of a tally" "scenes/yard.yaml:8:18: 'laps' is called 'laps_done' now"
-told "the state of a tally" "scenes/yard.yaml:9:20: 'Amble' is called 'Stroll' now"
+told "an old name of a value in `set` is an error" "scenes/yard.yaml:5:44: 'courage' is called 'bravery' now. Write the new name"
+told "an old name of a group's memory" "scenes/yard.yaml:5:98: 'laps' is called 'laps_done' now"
+told "an old name of a state in a condition of another behaviour" "behaviours/other.lua:1:41: 'Amble' is called 'Stroll' now"
+told "an old name of memory in a condition of another behaviour" "behaviours/other.lua:1:56: 'laps' is called 'laps_done' now"
+told "an old name of memory in a tally" "scenes/yard.yaml:8:18: 'laps' is called 'laps_done' now"
+told "an old name of a state in a tally" "scenes/yard.yaml:9:20: 'Amble' is called 'Stroll' now"
 sed -i 's/courage:/bravery:/; s/laps:/laps_done:/; s/memory: laps,/memory: laps_done,/; s/Amble/Stroll/' scenes/yard.yaml
 sed -i 's/"Amble"/"Stroll"/; s/.laps.)/"laps_done")/; s/.laps., 2/"laps_done", 2/' behaviours/other.lua
 patched() { "$JOSTLE" run scenes/yard.yaml --mod bold --steps 2 --quiet >"$work/out" 2>&1; }
-patched; told "a state that a mod changes" "patches/lib.lua:4:5: 'Amble' is called 'Stroll' now"
+patched; told "an old name of a state in a patch" "patches/lib.lua:4:5: 'Amble' is called 'Stroll' now"
 sed -i 's/Amble = {/Stroll = {/; s/"Amble"/"Stroll"/' scenes/mods/bold/patches/lib.lua
-patched; told "an own value that a mod uses" "patches/lib.lua:4:75: 'courage' is called 'bravery' now"
+patched; told "an old name of an own value in a patch" "patches/lib.lua:4:75: 'courage' is called 'bravery' now"
 sed -i 's/own.courage/own.bravery/' scenes/mods/bold/patches/lib.lua
-patched; told "  and sets" "patches/lib.lua:2:11: 'courage' is called 'bravery' now"
+patched; told "  also where the patch sets it" "patches/lib.lua:2:11: 'courage' is called 'bravery' now"
 sed -i 's/courage/bravery/' scenes/mods/bold/patches/lib.lua
-patched; verdict "  with the new names the mod is taken" $?
-expect "with the new names all of it loads" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
+patched; verdict "  with the new names the mod is loaded" $?
+expect "with the new names everything loads" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
 
 # While a scene runs.
 printf 'jostle: 1\ngroups: {g: {behaviour: behaviours/lib.lua, at: [[0, 0]]}}\n' >one.yaml
 log() { printf '%s\n' "$1" >one.input; }
 log '5 state 0 Amble'
-expect "a line of an input log is told, too: a state" 0 "'Amble' of lib is called 'Stroll' now" "$JOSTLE" run one.yaml --steps 20 --input one.input
+expect "an old name of a state in an input log is an error" 0 "'Amble' of lib is called 'Stroll' now" "$JOSTLE" run one.yaml --steps 20 --input one.input
 log '5 memory 0 laps 2'
-expect "  and memory" 0 "'laps' of lib is called 'laps_done' now" "$JOSTLE" run one.yaml --steps 20 --input one.input
+expect "  also of memory" 0 "'laps' of lib is called 'laps_done' now" "$JOSTLE" run one.yaml --steps 20 --input one.input

@@ -1,6 +1,6 @@
-# `jostle report`, and probes of a run: the same figures, files where they are asked for, errors with a way out.
+# jostle report, and probes of a run: equal figures, files, errors and their remedies.
 . tests/scenes/lib.sh
-# of FILE PROBE FIGURE
+# of FILE PROBE FIGURE: prints a figure of a probe
 of() { sed -n "s/^  \"$2\": {.*\"$3\": \([^,}]*\).*/\1/p" "$1"; }
 
 cat >"$work/walk.yaml" <<'SCENE'
@@ -22,12 +22,12 @@ probes:
   turned: {winding: [0, 20]}
   order:  {lanes: {area: [[0, 0], [20, 4]]}}
 SCENE
-# A world of no mods beside it: behaviours are the installed ones.
+# Behaviours are the installed ones.
 "$JOSTLE" run "$work/walk.yaml" --quiet --record "$work/walk.sqlite" --report "$work/run" --summary "$work/run.json" >/dev/null 2>&1
 verdict "a run with probes" $?
 "$JOSTLE" report "$work/walk.sqlite" --scene "$work/walk.yaml" --out "$work/again" --summary "$work/again.json" >"$work/out" 2>&1
 verdict "a report on its recording" $?
-same() { # PROBE FIGURE WITHIN: in the run and in its recording
+same() { # PROBE FIGURE WITHIN: compares a figure of the run with that of its recording
     local a b; a=$(of "$work/run.json" "$1" "$2"); b=$(of "$work/again.json" "$1" "$2")
     awk -v a="$a" -v b="$b" -v d="$3" 'BEGIN {exit !(a != "" && a != "null" && a - b <= d && b - a <= d)}'
     if [ $? = 0 ]; then echo "ok $1: $2 of the recording is that of the run ($a, $b)"; else echo "not ok $1: $2 is $a in the run, $b in its recording"; fi
@@ -45,36 +45,36 @@ for name in line square way moved fields turned order; do
 done
 [ "$(head -1 "$work/run/line.csv")" = "time [s],person,direction,passages,lapse [s]" ]; verdict "a CSV file names its columns and units" $?
 
-# Probes see, and change nothing.
+# Probes do not change a run.
 sed '/^probes:/,$d' "$work/walk.yaml" >"$work/blind.yaml"
 same_hash "probes change nothing" "$(hash_of "$JOSTLE" "$work/walk.yaml" --for 10)" "$(hash_of "$JOSTLE" "$work/blind.yaml" --for 10)"
 for threads in 1 2 3; do "$JOSTLE" run "$work/walk.yaml" --for 15 --quiet --threads $threads --summary - 2>/dev/null | sed -n '/"probes"/,/^ }/p' >"$work/probes.$threads"; done
 cmp -s "$work/probes.1" "$work/probes.2" && cmp -s "$work/probes.1" "$work/probes.3" && [ -s "$work/probes.1" ]; verdict "figures do not depend on threads" $?
 
 expect "report without a scene" 0 '"all": {"intervals": ' "$JOSTLE" report "$work/walk.sqlite" --summary - --out "$work/plain"
-[ -s "$work/plain/map.png" ] && [ -s "$work/plain/all.svg" ]; verdict "its pictures" $?
+[ -s "$work/plain/map.png" ] && [ -s "$work/plain/all.svg" ]; verdict "the report has pictures" $?
 printf '1 0 0 0\n1 1 10 0\n1 2 20 0\n' >"$work/bare.txt"
-expect "no frame rate" 3 "--fps 25" "$JOSTLE" report "$work/bare.txt" --summary -
-expect "no unit" 3 "--unit m, or --unit cm" "$JOSTLE" report "$work/bare.txt" --fps 10 --summary -
-expect "both given" 0 '"until_s": 0.2' "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --summary -
+expect "a recording without a frame rate is refused" 3 "--fps 25" "$JOSTLE" report "$work/bare.txt" --summary -
+expect "a recording without a unit is refused" 3 "--unit m, or --unit cm" "$JOSTLE" report "$work/bare.txt" --fps 10 --summary -
+expect "--fps and --unit give both" 0 '"until_s": 0.2' "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --summary -
 expect "groups that a recording lacks" 3 "which this recording does not name" "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene "$work/walk.yaml" --summary -
 printf 'jostle: 1\nprobes: {a: {failures: 1}}\n' >"$work/fails.yaml"
-expect "failures need a run" 3 "Measure it during a run" "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene "$work/fails.yaml" --summary -
+expect "a probe that needs a run is refused for a recording" 3 "Measure it during a run" "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene "$work/fails.yaml" --summary -
 expect "a scene without probes" 0 '"all": {"intervals": ' "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene scenes/circle.yaml --summary -
 
-# Danger: of our recordings as in the run, of those by others without forces; who left; the page.
+# Danger in recordings: by Jostle as in the run, by others without forces; who left; the page.
 "$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --record "$work/evac.sqlite" --data "$work/evac" --summary "$work/evac.json" 2>/dev/null
 "$JOSTLE" report "$work/evac.sqlite" --scene scenes/evacuation.yaml --out "$work/evac-page" --summary "$work/evac-again.json" >/dev/null 2>&1
 verdict "a report on an evacuation" $?
 number() { sed -n "/\"danger\": /,\$s/.*\"$1\": \([-0-9.e]*\|null\)[,} ].*/\1/p" "$2" | head -1; } # KEY FILE
-near() { # KEY WITHIN: in the run and in its recording
+near() { # KEY WITHIN: compares a figure of danger of the run with that of its recording
     local a b; a=$(number "$1" "$work/evac.json"); b=$(number "$1" "$work/evac-again.json")
     awk -v a="$a" -v b="$b" -v d="$2" 'BEGIN {exit !(a != "" && a + 0 > 0 && a - b <= d && b - a <= d)}'
     verdict "danger: $1 is that of the run ($a, $b)" $?
 }
-# A crowd is about as dense for a while: when it was densest is no sharp moment.
+# The time of the greatest density is not sharp, so it is not compared.
 near left 0; near clearance_s 0.11; near density_max 0.15; near density_max_s 2; near compression_max 2; near compression_max_s 0.11
-for key in load_max dose_max; do # of the mean since the frame before, held over a second: as of every step
+for key in load_max dose_max; do # from means between frames, held for a second, as from every step
     a=$(number $key "$work/evac.json") b=$(number $key "$work/evac-again.json")
     awk -v a="$a" -v b="$b" 'BEGIN {exit !(a != "" && b != "" && a - b <= 0.04 * a && b - a <= 0.04 * a)}'
     verdict "danger: $key is that of the run ($a, $b)" $?
@@ -91,26 +91,26 @@ verdict "a report on positions alone" $?
 between "danger: the density of a grid 0.37 m wide" "$(number density_max "$work/dense.json")" 7.0 7.7
 between "danger: somebody is over 5 per m2 from the start" "$(grep -o '"density_5": {[^}]*}' "$work/dense.json" | sed 's/.*"first_s": \([^,]*\),.*/\1/')" 0 0
 grep -q '"load_623": {"people": null' "$work/dense.json" && grep -q '"pressure_002": {"people": [0-9]' "$work/dense.json"; verdict "compression is not known, crowd pressure is" $?
-[ "$(number left "$work/dense.json")" = 1 ]; verdict "one has left" $?
-between "and when" "$(number last_left_s "$work/dense.json")" 20 20
-grep -q '"inside": 168,$' "$work/dense.json" && grep -q '"clearance_s": null,$' "$work/dense.json" && grep -q "<td class=n>not cleared" "$work/dense/index.html"; verdict "168 are still there: not cleared" $?
-grep -q "Compression was not measured" "$work/dense/index.html" && ! grep -q "Compression was not measured" "$work/evac-page/index.html"; verdict "the page says so" $?
+[ "$(number left "$work/dense.json")" = 1 ]; verdict "one person has left" $?
+between "time at which it left, s" "$(number last_left_s "$work/dense.json")" 20 20
+grep -q '"inside": 168,$' "$work/dense.json" && grep -q '"clearance_s": null,$' "$work/dense.json" && grep -q "<td class=n>not cleared" "$work/dense/index.html"; verdict "168 are still inside: not cleared" $?
+grep -q "Compression was not measured" "$work/dense/index.html" && ! grep -q "Compression was not measured" "$work/evac-page/index.html"; verdict "the page says that compression was not measured" $?
 printf '1 0 0 0\n1 1 zero 0\n' >"$work/bad.txt"
 expect "an error in a recording" 3 "bad.txt:2:5" "$JOSTLE" report "$work/bad.txt" --fps 10 --unit m --summary -
 expect "no such recording" 3 "cannot be read" "$JOSTLE" report "$work/none.txt" --summary -
 expect "unwritable folder" 1 "cannot make" "$JOSTLE" report "$work/walk.sqlite" --out /proc/x/y
-expect "nothing asked for" 2 "give --out DIR" "$JOSTLE" report "$work/walk.sqlite"
-expect "a unit that is none" 2 "--unit is m or cm" "$JOSTLE" report "$work/bare.txt" --unit inch --summary -
+expect "a call without --out and --summary is refused" 2 "give --out DIR" "$JOSTLE" report "$work/walk.sqlite"
+expect "an unknown unit is refused" 2 "--unit is m or cm" "$JOSTLE" report "$work/bare.txt" --unit inch --summary -
 expect "report --help" 0 "PeTrack" "$JOSTLE" report --help
-# Names are letters and digits; titles are any text. Neither is ever obeyed.
+# Names have letters and digits, titles any text. Neither is carried out as a command.
 sed 's/^  walkers: {/  "`id > x`": {/' "$work/walk.yaml" >"$work/named.yaml"
 expect "a group that is named like a command" 3 "named.yaml:8:3: '\`id > x\`' is no name for a group" "$JOSTLE" run "$work/named.yaml" --quiet --report "$work/named"
-expect "and check says so" 3 "Letters, digits, spaces, _ - and . are allowed" "$JOSTLE" check "$work/named.yaml"
+expect "check refuses it too" 3 "Letters, digits, spaces, _ - and . are allowed" "$JOSTLE" check "$work/named.yaml"
 sed "s/^step:/title: '\`touch pwned\` \$(touch pwned) \"; system(\"touch pwned\") <\/script><script>'\nstep:/; s/^duration: 20/duration: 1/" "$work/walk.yaml" >"$work/titled.yaml"
-expect "a title that is one" 0 "report:" "$JOSTLE" run "$work/titled.yaml" --report "$work/titled"
-[ -z "$(find "$work" . -maxdepth 2 \( -name pwned -o -name x \) -newer "$work/named.yaml" 2>/dev/null)" ] && [ ! -e "$work/titled/pwned" ]; verdict "nothing of it is done" $?
-[ -s "$work/titled/paths.png" ] && ! grep -q "<script" "$work/titled/index.html"; verdict "and the pictures are drawn" $?
-# A recording that is made here, so that its page has the same ranges for ever: a queue of 40 goes through a door, one a second.
+expect "a title that looks like a command is text" 0 "report:" "$JOSTLE" run "$work/titled.yaml" --report "$work/titled"
+[ -z "$(find "$work" . -maxdepth 2 \( -name pwned -o -name x \) -newer "$work/named.yaml" 2>/dev/null)" ] && [ ! -e "$work/titled/pwned" ]; verdict "neither is carried out" $?
+[ -s "$work/titled/paths.png" ] && ! grep -q "<script" "$work/titled/index.html"; verdict "the pictures are drawn" $?
+# A recording made here, so that its page always has the same ranges: a queue of 40 passes a door, one a second.
 cat >"$work/made.yaml" <<'SCENE'
 jostle: 1
 title: A queue at a door
@@ -124,6 +124,6 @@ probes:
 SCENE
 awk 'BEGIN {print "# framerate: 5 fps"; for (f = 0; f < 250; f++) for (i = 0; i < 40; i++) {x = 7.8 - 0.4 * int(i / 2) + (f / 5 - i) * (f / 5 > i) * 1.2; if (x < 10) print i, f, x, 1.8 + 0.4 * (i % 2), 0}}' >"$work/made.txt"
 "$JOSTLE" report "$work/made.txt" --unit m --scene "$work/made.yaml" --out "$work/made" >/dev/null 2>&1
-verdict "a report on a recording that is made" $?
+verdict "a report on a made-up recording" $?
 outlined "its page, its plots and their ranges are as they were looked at" "$work/made" recording
 grep -q "39 of 40 people left: the first at [0-9.]* s, half of them by 2[0-9.]* s" "$work/made/index.html" && grep -q "Not cleared\|No. 1 person was still inside" "$work/made/index.html" && grep -q "at 0.0 s at (0.2, 2.0) m, in hall" "$work/made/index.html"; verdict "its summary says who left, and where it was dense" $?

@@ -1,4 +1,4 @@
-# `jostle reproduce`: what is in a band and what is not, what is wrong with a claim, what is run and what is reused.
+# jostle reproduce: claims in and out of band, errors of claims, runs that are made and reused.
 . tests/scenes/lib.sh
 says() { if grep -qF -- "$2" "$work/out"; then echo "ok $1"; else echo "not ok $1: nothing says '$2'"; head -8 "$work/out"; fi; }
 mkdir -p "$work/claims"
@@ -45,15 +45,15 @@ run=("$JOSTLE" reproduce --claims "$work/claims" --out "$work/rep" --quiet)
 
 # ---- in band ----
 expect "a claim in band is exit status 0" 0 "1 of 1 claims in band" "${run[@]}"
-says "it says so" "nobody): in band"
+says "the output says so" "nobody): in band"
 value() { grep -o "\"$1\": {\"mean\": [^,]*" "$work/rep/results.json" | sed 's/.* //'; }
 between "the mean over two seeds, from 101 on" "$(value seed)" 101.5 101.5
-says "with its bound, 12.7 times the error of the mean, and how many they are" "measured 101.5 +- 6.4 (101 to 102, 2 seeds)"
-grep -q '101.5  | +- 6.4 | 2 |' "$work/rep/table.md" && grep -q '"bound": 6.35' "$work/rep/results.json"; verdict "so do the table and the figures" $?
-between "speeds are set by the claim" "$(value slow)" 19.5 20.5
+says "with its 95 % bound (12.7 standard errors) and the number of seeds" "measured 101.5 +- 6.4 (101 to 102, 2 seeds)"
+grep -q '101.5  | +- 6.4 | 2 |' "$work/rep/table.md" && grep -q '"bound": 6.35' "$work/rep/results.json"; verdict "table.md and results.json have the bound too" $?
+between "settings of the claim hold" "$(value slow)" 19.5 20.5
 "$JOSTLE" reproduce G --claims "$work/claims" --out "$work/set" --quiet --set groups.walker.set.speed=1.6 >"$work/set.out"
 grep -q "slow .*measured 6\.25" "$work/set.out" && grep -q "with groups.walker.set.speed=1.6" "$work/set/index.html"
-verdict "and by who runs it, over the claim, and the page says so" $?
+verdict "--set overrides them, and the page says so" $?
 for file in index.html table.md results.json; do [ -s "$work/rep/$file" ]; verdict "it writes $file" $?; done
 grep -q 'src="runs/walk-[^"]*/paths.png"' "$work/rep/index.html"; verdict "the page shows the picture" $?
 [ "$(grep -c '^| ' "$work/rep/table.md")" = 7 ]; verdict "the table has a row for each figure" $?
@@ -63,52 +63,52 @@ grep -q 'src="runs/walk-[^"]*/paths.png"' "$work/rep/index.html"; verdict "the p
 for plot in speed map; do
     [ -s "$work/rep/plots/good-$plot.png" ] && grep -q "src=\"plots/good-$plot.png\"" "$work/rep/index.html"; verdict "the page shows the plot $plot" $?
 done
-# x, mean, least, most and band of a figure; a source's points; a law's; cells of a map, one of them empty
+# x, mean, least, most and band of a figure; points of a source; a line of a law; cells of a map, one of them empty
 awk '$1 == 1.25 && NF == 6 && $2 > 7.9 && $3 <= $2 && $4 >= $2 && $5 == 7.9 && $6 == 8.1 {f = 1} $1 == 1.25 && NF == 2 && $2 == 8 {s++} END {exit !(f && s == 2)}' "$work/rep/plots/good-speed.dat"; verdict "a plot has figures with their bands, points and lines" $?
 [ "$(awk 'NF == 3 {print $1, $2, ($3 == "NaN" ? "none" : int($3 + 0.5))}' "$work/rep/plots/good-map.dat" | tr '\n' ';')" = "0 0 20;1 0 8;0 1 none;1 1 20;" ]; verdict "a map has a cell for each pair of values" $?
-! grep -q "What was tried" "$work/rep/index.html" "$work/rep/table.md"; verdict "nothing was tried where nothing misses" $?
+! grep -q "What was tried" "$work/rep/index.html" "$work/rep/table.md"; verdict "`tried` is not shown if nothing misses" $?
 deviation() { grep -o "<td>$1<td class=n>$2<td><code>$3</code><td>[^<]*$4<td><a href=\"#c0\">G</a>" "$work/rep/index.html" | grep -q .; }
-deviation speed "1.3&nbsp;m/s" 0.5 "walk.yaml, group walker" && deviation time_gap "0&nbsp;s" crowd.time_gap "behaviours/walker.lua" && ! deviation mass ".*" ".*" ".*"; verdict "what scenes and behaviours set is in a table, and nothing else" $?
+deviation speed "1.3&nbsp;m/s" 0.5 "walk.yaml, group walker" && deviation time_gap "0&nbsp;s" crowd.time_gap "behaviours/walker.lua" && ! deviation mass ".*" ".*" ".*"; verdict "the page lists exactly the settings of scenes and behaviours" $?
 
 # ---- what is done is not done again ----
 stamps() { stat -c '%Y.%y %n' "$work"/rep/runs/*/summary.json | sort; }
 runs() { "$JOSTLE" reproduce --claims "$work/claims" --out "$work/rep" "$@" 2>&1 >/dev/null | tail -1; }
 stamps >"$work/before"
-runs >"$work/out"; says "three runs are reused" "3 of 3 runs done (3 from before"
-stamps | cmp -s - "$work/before"; verdict "and not touched" $?
-runs --fresh >"$work/out"; says "--fresh does them again" "(0 from before"
+runs >"$work/out"; says "existing runs are reused" "3 of 3 runs done (3 from before"
+stamps | cmp -s - "$work/before"; verdict "and left unchanged" $?
+runs --fresh >"$work/out"; says "--fresh repeats them" "(0 from before"
 sed -i 's/duration: 20/duration: 21/' "$work/walk.yaml"
-runs >"$work/out"; says "an edited scene is run again" "(0 from before"
+runs >"$work/out"; says "runs of an edited scene are repeated" "(0 from before"
 # A probe that is taken away leaves nothing behind to be measured.
 sed -i '/^  line:/d' "$work/walk.yaml"
-expect "a probe that is gone is a miss, not yesterday's file" 1 "the run left no line.csv" "${run[@]}"
+expect "a probe that was removed is a miss, not its former file" 1 "the run left no line.csv" "${run[@]}"
 echo '  line: {flow: [[2, -3], [2, 3]]}' >>"$work/walk.yaml"
 
 # ---- fewer and smaller ----
 expect "--quick" 1 "these miss: G" "${run[@]}" --quick
-between "--quick takes what quick says" "$(value length)" 15 15
-between "and its values, of runs that others share" "$(value slow)" 9.9 10.1
+between "--quick uses the settings of `quick`" "$(value length)" 15 15
+between "and does not affect claims that share the runs" "$(value slow)" 9.9 10.1
 expect "--seeds A-B" 0 "in band" "${run[@]}" --seeds 7-10
-between "these seeds, where the claim has several" "$(value seed)" 8.5 8.5
+between "--seeds A-B replaces the claim's seeds" "$(value seed)" 8.5 8.5
 expect "--seeds A" 0 "1 seed)" "${run[@]}" --seeds 12
-between "that seed alone" "$(value seed)" 12 12
-expect "--seeds of nothing" 3 "is no seed, and no range" "${run[@]}" --seeds 9-3
+between "--seeds A uses that seed alone" "$(value seed)" 12 12
+expect "--seeds of an empty range is refused" 3 "is no seed, and no range" "${run[@]}" --seeds 9-3
 sed 's/seeds = 2/seeds = "55-57"/; s/source = "nobody"/source = "nobody", level = "keen", held_out = "on <others>"/' "$work/claims/good.lua" >"$work/claims/named.lua"
 sed -i 's/id = "G"/id = "R77"/' "$work/claims/named.lua"
 expect "a claim names its seeds, and a group its claims" 0 "1 of 1 claims in band" "${run[@]}" rimea
-between "the mean over them" "$(value seed)" 56 56
-grep -q 'Haste: keen' "$work/rep/index.html" && grep -q 'Held out: on &lt;others&gt;' "$work/rep/index.html" && grep -q '| R77 It walks | keen | held out |' "$work/rep/table.md"; verdict "the page says how hurried they are and what was held out" $?
+between "the mean is over these seeds" "$(value seed)" 56 56
+grep -q 'Haste: keen' "$work/rep/index.html" && grep -q 'Held out: on &lt;others&gt;' "$work/rep/index.html" && grep -q '| R77 It walks | keen | held out |' "$work/rep/table.md"; verdict "the page gives the level of haste and what was held out" $?
 rm "$work/claims/named.lua"
 expect "--list names claims and runs nothing" 0 "G  It walks (nobody)" "${run[@]}" --list --out "$work/nothing"
-[ ! -e "$work/nothing" ]; verdict "and writes nothing" $?
+[ ! -e "$work/nothing" ]; verdict "--list writes nothing" $?
 
 # ---- misses ----
 sed 's/id = "G"/id = "BAD"/; s/7.9, 8.1/1, 2/; s/-- .*//' "$work/claims/good.lua" >"$work/claims/bad.lua"
 expect "a claim out of band is exit status 1" 1 "1 of 2 claims in band; these miss: BAD" "${run[@]}"
-says "its figure says OUT" "band 1 to 2: OUT"
+says "its figure is marked OUT" "band 1 to 2: OUT"
 grep -q 'class=out>misses' "$work/rep/index.html"; verdict "the page says so" $?
-grep -qF '<li>Walking &lt;faster&gt;: 3 m/s, no better</li>' "$work/rep/index.html" && grep -qF -- '- Waiting' "$work/rep/table.md" && grep -qF 'BAD misses. What was tried:' "$work/rep/table.md" && ! grep -qF 'G misses' "$work/rep/table.md"; verdict "and what was tried" $?
-grep -qF "Walking &lt;faster>" "$work/rep/table.md" && ! grep -qF "<faster>" "$work/rep/table.md"; verdict "quoted in the table, too" $?
+grep -qF '<li>Walking &lt;faster&gt;: 3 m/s, no better</li>' "$work/rep/index.html" && grep -qF -- '- Waiting' "$work/rep/table.md" && grep -qF 'BAD misses. What was tried:' "$work/rep/table.md" && ! grep -qF 'G misses' "$work/rep/table.md"; verdict "the page shows what was tried" $?
+grep -qF "Walking &lt;faster>" "$work/rep/table.md" && ! grep -qF "<faster>" "$work/rep/table.md"; verdict "the table quotes it" $?
 expect "one claim by its id" 0 "1 of 1 claims in band" "${run[@]}" G
 expect "one claim by its file" 1 "0 of 1 claims in band; these miss: BAD" "${run[@]}" bad
 expect "no such claim" 3 "there is no claim 'X'" "${run[@]}" X
@@ -145,24 +145,24 @@ refuse "a band upside down" "'time' needs band" -e 's/7.9, 8.1/8.1, 7.9/'
 refuse "a figure without a band" "'rows' needs band" -e 's/"rows", band = { 1, 1 }/"rows"/'
 refuse "a figure twice" "'time' is expected twice" -e 's/"slow", unit/"time", unit/'
 refuse "no seeds" "or 1 to 1000" -e 's/seeds = 2/seeds = 0/'
-refuse "seeds that are none" "seeds = \"101-110\"" -e 's/seeds = 2/seeds = "3-1"/'
-refuse "a level that is none" "level is calm, normal or keen" -e 's/source = "nobody"/source = "nobody", level = "mad"/'
+refuse "seeds that are no range" "seeds = \"101-110\"" -e 's/seeds = 2/seeds = "3-1"/'
+refuse "an unknown level" "level is calm, normal or keen" -e 's/source = "nobody"/source = "nobody", level = "mad"/'
 refuse "calibrated and held out" "not both" -e 's/source = "nobody"/source = "nobody", calibrated = "a", held_out = "b"/'
 refuse "a duration that is a text" "duration is a number" -e 's/duration = 30/duration = "long"/'
 refuse "a value that is a table" "is set to a table" -e 's/speed"\] = 0.5/speed"] = {}/'
-refuse "quick of a run that is none" "quick: there is no run 'slwo'" -e 's/quick = { slow/quick = { slwo/'
-refuse "pictures of a run that is none" "pictures: there is no run 'wlak'" -e 's/pictures = { walk/pictures = { wlak/'
-refuse "a picture elsewhere" "names of files in its report" -e 's/"paths.png"/"..\/paths.png"/'
-refuse "a plot of a figure that is none" "plot 'speed': there is no figure 'slwo'" -e 's/{ 0.5, "slow" }, { 1.25, "time" } } }/{ 0.5, "slwo" } } }/'
+refuse "`quick` of an unknown run" "quick: there is no run 'slwo'" -e 's/quick = { slow/quick = { slwo/'
+refuse "pictures of an unknown run" "pictures: there is no run 'wlak'" -e 's/pictures = { walk/pictures = { wlak/'
+refuse "a picture outside the run's folder" "names of files in its report" -e 's/"paths.png"/"..\/paths.png"/'
+refuse "a plot of an unknown figure" "plot 'speed': there is no figure 'slwo'" -e 's/{ 0.5, "slow" }, { 1.25, "time" } } }/{ 0.5, "slwo" } } }/'
 refuse "a plot's point without numbers" "plot 'speed': a point begins with numbers" -e 's/points = { { 1.25, 8 } }/points = { { 1.25, "eight" } }/'
 refuse "a curve of two kinds" "one of figures, points and line" -e 's/{ "source", points/{ "source", line = { { 1, 2 } }, points/'
-refuse "a curve of no kind that is known" "did you mean 'points'?" -e 's/{ "source", points/{ "source", pionts/'
+refuse "a curve of an unknown kind" "did you mean 'points'?" -e 's/{ "source", points/{ "source", pionts/'
 refuse "a plot without a title" 'a plot needs title = "..."' -e 's/title = "Time over speed", //'
-refuse "a plot elsewhere" "a name has letters" -e 's/name = "map"/name = "..\/map"/'
+refuse "a plot outside the folder" "a name has letters" -e 's/name = "map"/name = "..\/map"/'
 refuse "a map without its unit" 'a plot needs z = "..."' -e 's/, z = "time (s)"//'
-refuse "two plots of a name" "there are two plots 'speed'" -e 's/name = "map"/name = "speed"/'
-refuse "a plot of nothing" "needs a map, or from 1 to 12 curves" -e 's/^      map = .*/    },/'
-refuse "tried is a list of texts" "each of tried is a text" -e 's/, "Waiting" }/, 7 }/'
+refuse "two plots of one name" "there are two plots 'speed'" -e 's/name = "map"/name = "speed"/'
+refuse "an empty plot" "needs a map, or from 1 to 12 curves" -e 's/^      map = .*/    },/'
+refuse "`tried` that is no list of texts" "each of tried is a text" -e 's/, "Waiting" }/, 7 }/'
 refuse "a syntax error" "odd.lua:7:" -e '7s/.*/    return { = 1 }/'
 refuse "an unknown word" "clam" -e 's/return claim/return clam/'
 printf 'return 5\n' >"$work/odd/odd.lua"
@@ -172,14 +172,14 @@ expect "a folder without claims" 3 "there are no claims in this folder" "$JOSTLE
 expect "an unknown option" 2 "unknown option --qiuck" "$JOSTLE" reproduce --qiuck
 expect "a help text" 0 "usage: jostle reproduce" "$JOSTLE" reproduce --help
 : >"$work/file"
-expect "a folder that cannot be made" 1 "$work/file" "$JOSTLE" reproduce --claims "$work/claims" --out "$work/file/rep" --quiet
+expect "an unwritable folder is an error" 1 "$work/file" "$JOSTLE" reproduce --claims "$work/claims" --out "$work/file/rep" --quiet
 
 # ---- jostle check knows claims ----
-expect "check: a claim that is right" 0 "nothing wrong" "$JOSTLE" check "$work/claims"
+expect "check accepts a claim" 0 "nothing wrong" "$JOSTLE" check "$work/claims"
 sed 's/source = "nobody"/suorce = "nobody"/' "$work/claims/good.lua" >"$work/odd/odd.lua"
-expect "check: one that is wrong, with its line" 3 "odd.lua:1:" "$JOSTLE" check "$work/odd"
+expect "check reports an error of a claim with its line" 3 "odd.lua:1:" "$JOSTLE" check "$work/odd"
 sed 's/walk.yaml/absent.yaml/' "$work/claims/good.lua" >"$work/odd/odd.lua"
-expect "check: a scene that is missing" 3 "there is no scene" "$JOSTLE" check "$work/odd"
+expect "check reports a missing scene of a claim" 3 "there is no scene" "$JOSTLE" check "$work/odd"
 
 # ---- Ctrl-C ----
 cat >"$work/long.yaml" <<'SCENE'
@@ -194,13 +194,13 @@ parent=$!
 children() { ps -o pid= --ppid "$1" | wc -l; }
 for _ in $(seq 50); do [ "$(children $parent)" = 2 ] && break; sleep 0.1; done
 left=$(ps -o pid= --ppid $parent)
-[ "$(echo $left | wc -w)" = 2 ]; verdict "two runs at once" $?
+[ "$(echo $left | wc -w)" = 2 ]; verdict "--jobs 2 makes two runs at the same time" $?
 kill -TERM $parent # bash lets what runs in the background ignore SIGINT
 wait $parent
 [ $? = 143 ]; verdict "an interruption is exit status 143, as of a run" $?
-says "and says what is kept" "interrupted; what was done is kept in"
+says "and the message says what is kept" "interrupted; what was done is kept in"
 alive=0; for pid in $left; do kill -0 "$pid" 2>/dev/null && alive=1; done
-verdict "no run is left behind" $alive
+verdict "no process is left after it" $alive
 # Killed outright, it takes its runs along.
 "$JOSTLE" reproduce --claims "$work/odd" --out "$work/rep" --jobs 2 --quiet >"$work/out" 2>&1 </dev/null &
 parent=$!
@@ -208,13 +208,13 @@ for _ in $(seq 50); do [ "$(children $parent)" = 2 ] && break; sleep 0.1; done
 left=$(ps -o pid= --ppid $parent)
 kill -KILL $parent; wait $parent 2>/dev/null
 for _ in $(seq 30); do alive=0; for pid in $left; do kill -0 "$pid" 2>/dev/null && alive=1; done; [ $alive = 0 ] && break; sleep 0.1; done
-verdict "nor when it is killed itself" $alive
+verdict "no process is left after SIGKILL" $alive
 
 # ---- the shipped claims ----
 "$JOSTLE" reproduce --list >"$work/out" 2>&1; verdict "the shipped claims can be read" $?
-[ "$(grep -c '^[^ ]' "$work/out")" = "$(ls scenes/claims/*.lua | wc -l)" ]; verdict "and each is listed" $?
-[ -z "$(cut -d' ' -f1 "$work/out" | sort | uniq -d)" ]; verdict "under an id of its own" $?
-expect "claims that take a moment" 0 "4 of 4 claims in band" "$JOSTLE" reproduce R1 14 15 R7 --quick --out "$work/shipped" --quiet
+[ "$(grep -c '^[^ ]' "$work/out")" = "$(ls scenes/claims/*.lua | wc -l)" ]; verdict "each shipped claim is listed" $?
+[ -z "$(cut -d' ' -f1 "$work/out" | sort | uniq -d)" ]; verdict "with an id of its own" $?
+expect "short claims hold" 0 "4 of 4 claims in band" "$JOSTLE" reproduce R1 14 15 R7 --quick --out "$work/shipped" --quiet
 
 # ---- claim 5 judges the game, not the machine: who attacks balls of the other court, or is not hit by what hits it ----
 mkdir -p "$work/game/scenes/claims"

@@ -1,12 +1,12 @@
-# A run that goes on from a checkpoint is the run itself: in another process, with other threads and instructions, in the
-# same files, from the texts that the checkpoint holds.
+# Resuming from checkpoints: the run continues to the same hash in another process, with other numbers of threads and
+# instruction sets, in the same files, from the texts that the checkpoint holds.
 . tests/scenes/lib.sh
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
 export MALLOC_PERTURB_=165 # memory that is read before it is written differs from run to run
 hash() { figure hash <"$1"; }
 
-# ---- the same hash at every end ----
-# goes_on NAME SCENE EVERY "END..." ARGS...: from one checkpoint, to several ends
+# ---- the same hash at several ends ----
+# goes_on NAME SCENE EVERY "END..." ARGS...: resumes from one checkpoint to several ends, and compares hashes
 goes_on() {
     local name=$1 scene=$2 every=$3 ends=$4 end way=0; shift 4
     for end in $ends; do
@@ -35,7 +35,7 @@ rm -f "$work/whole.json" "$work/rest.json"
 (cd "$tree" && "$program" run scene.yaml --quiet --for 6 --checkpoint 3 --checkpoint-dir "$work/texts" --summary "$work/whole.json")
 echo 'nonsense: [' >"$tree/scene.yaml"; rm -f "$tree"/*.lua
 "$program" resume "$work/texts" --quiet --summary "$work/rest.json"
-same_hash "what was edited since does not matter, nor where it is resumed" "$(hash "$work/whole.json")" "$(hash "$work/rest.json")"
+same_hash "resuming does not depend on later edits, nor on the working folder" "$(hash "$work/whole.json")" "$(hash "$work/rest.json")"
 
 # ---- behaviours that were reloaded, and input that was played, before and after ----
 mkdir -p "$work/live"
@@ -49,8 +49,8 @@ cat >"$work/live/played" <<'END'
 END
 (cd "$work/live" && "$program" run scene.yaml --quiet --steps 200 --input played --log-input log --checkpoint 5 --checkpoint-dir ck --summary whole.json && cp log whole.log &&
     "$program" resume ck/before.checkpoint --quiet --summary rest.json) 2>"$work/err" || cat "$work/err"
-same_hash "input that is played goes on" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
-cmp -s "$work/live/log" "$work/live/whole.log"; verdict "  and the log that is written is the same, byte by byte" $?
+same_hash "a played input log continues after resuming" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
+cmp -s "$work/live/log" "$work/live/whole.log"; verdict "  and the written log is the same, byte by byte" $?
 (cd "$work/live" && exec "$program" run scene.yaml --quiet --steps 900000000 --watch --log-input log --checkpoint 5 --checkpoint-dir reloaded) 2>"$work/live/said" & pid=$!
 for _ in $(seq 100); do [ -s "$work/live/reloaded/before.checkpoint" ] && break; sleep 0.1; done
 sed -i 's/perception = 1.5/perception = 2.5/' "$work/live/live.lua"
@@ -61,7 +61,7 @@ cp "$work/live/log" "$work/live/until"; rm -f "$work/live/whole.json" "$work/liv
 (cd "$work/live" && tick=$("$program" resume reloaded --for 0 2>&1 | sed -n 's/^resumed at \([0-9.]*\) s$/\1/p') &&
     end=$(awk -v t="$tick" 'BEGIN {print t + 5}') && cp until log && "$program" resume reloaded --quiet --for "$end" --summary rest.json &&
     "$program" run scene.yaml --quiet --for "$end" --input until --checkpoint 1e6 --checkpoint-dir none --summary whole.json) 2>"$work/err"
-same_hash "a behaviour that was reloaded goes on as it was then" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
+same_hash "a reloaded behaviour continues in its version of that time" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
 
 # ---- reports and data, with all that probes, maps and figures have collected ----
 # same_files NAME OPTION SCENE UNTIL END ARGS...: a run to END, and one to UNTIL that goes on to END from its last checkpoint
@@ -104,4 +104,4 @@ cp "$file" "$work/bad"; printf 'X' | dd of="$work/bad" bs=1 seek=$((size - 5000)
 refused "a byte that is another" "is damaged: its checksum does not match" "$work/bad"
 cp "$work/bad" "$work/texts/latest.checkpoint"
 "$program" resume "$work/texts" --quiet >"$work/out" 2>&1 && grep -q 'the one before it is taken' "$work/out"
-verdict "where the newest is damaged, the one before it is taken, which is said" $?
+verdict "if the newest checkpoint is damaged, the previous one is used, with a message" $?

@@ -1,9 +1,9 @@
-# The page of many seeds: its sections, its sentences and tables against the runs that it is of, runs that failed, and files
-# that are gone on with.
+# The report of several seeds: its sections, its sentences and tables compared with the runs, failed runs, and files that are
+# continued.
 . tests/scenes/lib.sh
 page=$work/page
 what=(scenes/evacuation.yaml --set groups.hall.count=30 --set groups.office.count=10 --set groups.archive.count=2 --dt 0.1 --report "$page")
-expect "seeds with a report" 0 "report: $page/index.html" "$JOSTLE" run "${what[@]}" --seeds 3 --for 45
+expect "a run of several seeds with a report" 0 "report: $page/index.html" "$JOSTLE" run "${what[@]}" --seeds 3 --for 45
 outlined "the page and its plots have their sections, titles and axes" "$page" seeds --no-ranges
 for file in plan spread density density-greatest density-worst; do [ -s "$page/$file.png" ] && [ -s "$page/$file.svg" ]; verdict "  $file" $?; done
 same_hash "the page has the hash of each run" "$(hash_of "$JOSTLE" scenes/evacuation.yaml --set groups.hall.count=30 --set groups.office.count=10 --set groups.archive.count=2 --dt 0.1 --for 45 --seed 2)" \
@@ -36,17 +36,17 @@ for line in block:
 END
 [ ! -s "$work/check" ]; verdict "medians, worst cases and bands are those of the runs" $?
 head -5 "$work/check"
-expect "one seed more: the others are kept" 0 "4 of 4 runs done (3 from before)" "$JOSTLE" run "${what[@]}" --seeds 4 --for 45
-expect "fewer seeds: a page of these" 0 "2 of 2 runs done (2 from before)" "$JOSTLE" run "${what[@]}" --seeds 2 --for 45
-grep -q "Evacuation: 2 runs with different seeds" "$page/index.html" && [ "$(grep -c '^<tr><td class=n>3<td' "$page/index.html")" = 0 ]; verdict "  and no more" $?
-expect "other inputs: begun anew" 0 "2 of 2 runs done, 0 running" "$JOSTLE" run "${what[@]}" --seeds 2 --for 5
-grep -q "In no run did anybody leave within 5 s" "$page/index.html"; verdict "  nobody left: it is said" $?
+expect "one more seed: finished runs are kept" 0 "4 of 4 runs done (3 from before)" "$JOSTLE" run "${what[@]}" --seeds 4 --for 45
+expect "fewer seeds: a page of these alone" 0 "2 of 2 runs done (2 from before)" "$JOSTLE" run "${what[@]}" --seeds 2 --for 45
+grep -q "Evacuation: 2 runs with different seeds" "$page/index.html" && [ "$(grep -c '^<tr><td class=n>3<td' "$page/index.html")" = 0 ]; verdict "  without the others" $?
+expect "with other inputs all runs are repeated" 0 "2 of 2 runs done, 0 running" "$JOSTLE" run "${what[@]}" --seeds 2 --for 5
+grep -q "In no run did anybody leave within 5 s" "$page/index.html"; verdict "  the page says that nobody left" $?
 cp "$page/runs.sqlite" "$work/runs.sqlite"
-expect "of a sweep's file, the same page" 0 "report: $work/again/index.html" "$JOSTLE" report "$work/runs.sqlite" --out "$work/again"
+expect "report of a sweep's file makes the same page" 0 "report: $work/again/index.html" "$JOSTLE" report "$work/runs.sqlite" --out "$work/again"
 sed "s|$work/runs.sqlite|$page/runs.sqlite|" "$work/again/index.html" | cmp -s - "$page/index.html"; verdict "  byte for byte" $?
-expect "  which has no summary" 2 "the runs of a sweep go with --out DIR alone" "$JOSTLE" report "$work/runs.sqlite" --summary -
+expect "  and refuses --summary" 2 "the runs of a sweep go with --out DIR alone" "$JOSTLE" report "$work/runs.sqlite" --summary -
 printf 'return machine { name = "odd", start = "A", states = { A = { steer = drift(1, 0) } } }\n' >"$work/odd.lua"
 printf 'jostle: 1\ngroups: {walkers: {behaviour: odd.lua, at: [[9999.5, 0], [9, 9]]}}\n' >"$work/fails.yaml"
-expect "runs that all fail have a page of reasons" 1 "report:" "$JOSTLE" run "$work/fails.yaml" --set guard.people=end --seeds 2 --for 2 --report "$work/failed"
+expect "if all runs fail the page gives the reasons" 1 "report:" "$JOSTLE" run "$work/fails.yaml" --set guard.people=end --seeds 2 --for 2 --report "$work/failed"
 [ "$(grep -c 'left out: step 8, t = 0.40 s: the position of agent 0 is more than 10 km' "$work/failed/index.html")" = 2 ]; verdict "  for each run" $?
-expect "a folder that cannot be made" 1 "cannot make the folder '/proc/x'" "$JOSTLE" run "${what[@]}" --seeds 2 --report /proc/x
+expect "an unwritable folder is an error" 1 "cannot make the folder '/proc/x'" "$JOSTLE" run "${what[@]}" --seeds 2 --report /proc/x

@@ -1,4 +1,4 @@
-# The quick ones of the tests of standards hold, and their page says what it should; what behaviours see of gates.
+# Quick tests of standards (reproduce --standards), and their page; which gates behaviours see.
 . tests/scenes/lib.sh
 says() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
     local name=$1 status=$2 text=$3; shift 3
@@ -9,13 +9,13 @@ says() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the outpu
 
 quick="R5 R12b R12c I1 I5 I6 I10 N1.1 N2.4 N2.9 N2.10 N3.3 N4.1"
 says "the quick tests of standards pass" 0 "13 of 13 claims in band" "$JOSTLE" reproduce $quick --standards --quick --quiet --out "$work/rep"
-[ "$(grep -c '^N4.1 ' "$work/out")" = 1 ]; verdict "each is told once" $?
+[ "$(grep -c '^N4.1 ' "$work/out")" = 1 ]; verdict "each test is listed once" $?
 page="$work/rep/standards.html"
 grep -q 'plan-N4.1.png' "$page" && [ -s "$work/rep/plan-N4.1.png" ]; verdict "each test has its plan" $?
 grep -q '<td>IMO MSC.1/Circ.1533<td class=n>4<td class=n>4<td class=n>0' "$page"; verdict "the tests of a standard are counted" $?
-grep -q '2.2 (stairs)' "$page"; verdict "what is not covered is named" $?
-says "a group's claims" 0 "N2.10  NIST 2.10" "$JOSTLE" reproduce nist --list
-says "those of all standards alone" 0 "R16  RiMEA 16" "$JOSTLE" reproduce --standards --list
+grep -q '2.2 (stairs)' "$page"; verdict "tests that are not covered are named" $?
+says "a group runs its claims" 0 "N2.10  NIST 2.10" "$JOSTLE" reproduce nist --list
+says "`standards` runs the tests of all standards" 0 "R16  RiMEA 16" "$JOSTLE" reproduce --standards --list
 "$JOSTLE" reproduce --standards --list 2>/dev/null | grep -q '^B1 '; verdict "and no others" $((1 - $?))
 
 # Who cannot see that a door is shut does not know it: a screen stands between the two in the west and their door.
@@ -40,6 +40,6 @@ places:
   middle: {polygon: [[8, 4], [12, 4], [12, 8], [8, 8]]}
 END
 seen() { "$JOSTLE" run "$1" --for "$2" --quiet --summary - 2>/dev/null | tr '\n' ' ' | sed -n 's/.*"leaver": {[^}]*"ToSecond": \([0-9]*\).*/\1/p'; }
-between "behind a screen nobody turns to the other exit" "$(seen "$work/scenes/screen.yaml" 3)" 0 0
+between "people behind a screen do not see the shut door, and keep to it" "$(seen "$work/scenes/screen.yaml" 3)" 0 0
 sed -i '/\[\[2, 3\], \[2, 9\]\]/d' "$work/scenes/screen.yaml"
-between "who sees the door does" "$(seen "$work/scenes/screen.yaml" 3)" 6 7
+between "people who see the shut door turn to the other exit" "$(seen "$work/scenes/screen.yaml" 3)" 6 7

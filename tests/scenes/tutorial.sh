@@ -1,5 +1,5 @@
-# The tutorial of behaviours/README.md, as a reader follows it: every block that names a file is written,
-# every command is run, in order. With PICTURES=DIR the pictures are kept there.
+# Follows the tutorial of behaviours/README.md: writes every block that names a file and runs every command, in order.
+# With PICTURES=DIR the pictures are kept there.
 . tests/scenes/lib.sh
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
 awk -v dir="$work" '
@@ -9,8 +9,8 @@ awk -v dir="$work" '
     file {print > file; text[file] = text[file] $0 "\n"}
     commands {print "run " $0}
 ' behaviours/README.md >"$work/steps"
-[ "$(grep -c '^run ' "$work/steps")" -ge 4 ]; verdict "the tutorial has commands" $?
-# awk has written the last version of each file: once more, step by step.
+[ "$(grep -c '^run ' "$work/steps")" -ge 4 ]; verdict "the tutorial has at least four runs" $?
+# awk has written the last version of each file; now do it step by step.
 n=0
 while read -r what rest; do
     if [ "$what" = write ]; then

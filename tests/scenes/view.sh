@@ -1,6 +1,6 @@
 #!/bin/bash
-# The command line of the live page: its address, its end, what it refuses. Prints "ok NAME" or
-# "not ok NAME". What the page and its server do is tested in tests/unit/view_*.c and live_view.c.
+# The command line of the live page: its address, its end, and refusals. The page and its server are tested in
+# tests/unit/view_*.c and live_view.c.
 set -u
 cd "$(dirname "$0")/../.."
 . tests/scenes/lib.sh
@@ -9,7 +9,7 @@ echo "the page" >"$work/page/index.html"
 echo "three" >"$work/page/build/three.module.js"
 page="--page $work/page --three $work/page"
 
-request() { # PORT PATH: the answer of a plain request
+request() { # PORT PATH: prints the answer to a plain request
     exec 3<>"/dev/tcp/127.0.0.1/$1" || return 1
     printf 'GET %s HTTP/1.1\r\nHost: localhost:%s\r\nConnection: close\r\n\r\n' "$2" "$1" >&3
     timeout 20 cat <&3
@@ -25,34 +25,34 @@ address=$(cat "$work/said")
 verdict "the address is printed, alone" $?
 port=${BASH_REMATCH[1]:-0} path=${BASH_REMATCH[2]:-/}
 request "$port" "$path" | grep -q "the page"
-verdict "the page is there" $?
+verdict "the address opens the page" $?
 request "$port" "/" | grep -q "403 Forbidden"
-verdict "not without the token" $?
+verdict "requests without the token are refused" $?
 "$JOSTLE" run scenes/circle.yaml --view="$port" $page >/dev/null 2>"$work/second"
 [ $? = 1 ] && grep -q "port $port: Address already in use" "$work/second"
-verdict "a port that is taken is said" $?
+verdict "a used port is an error" $?
 "$JOSTLE" run scenes/circle.yaml --view $page --view-wait 3600 --summary "$work/waited" >/dev/null 2>&1 </dev/null &
 waiting=$!
 sleep 0.5
 kill -INT $pid
 wait $pid
-[ $? = 130 ]; verdict "Ctrl-C ends it, with the status of a run" $?
+[ $? = 130 ]; verdict "Ctrl-C ends it with the status of a run" $?
 [ -n "$(figure hash <"$work/summary")" ]
-verdict "with its figures" $?
+verdict "with a summary" $?
 hash=$(figure hash <"$work/summary")
-same_hash "a run without a page gives the same state" "$hash" \
+same_hash "a run without a page has the same hash" "$hash" \
     "$(hash_of "$JOSTLE" scenes/circle.yaml --steps "$(figure steps <"$work/summary")" --input "$work/log")"
 
 "$JOSTLE" resume "$work/ck" --quiet --for "$(awk -v n="$(figure steps <"$work/summary")" 'BEGIN {print n * 0.05}')" --summary "$work/rest" 2>"$work/errors"
-same_hash "and it goes on from its checkpoint" "$hash" "$(figure hash <"$work/rest")"
+same_hash "its checkpoint can be resumed to the same hash" "$hash" "$(figure hash <"$work/rest")"
 
 kill -TERM $waiting
 wait $waiting
 [ $? = 143 ]; verdict "SIGTERM: status 143" $?
 [ "$(figure steps <"$work/waited")" = 0 ]
-verdict "a run waits for its first page" $?
+verdict "a run waits until its page is open" $?
 
-refuses() { # NAME STATUS TEXT ARGS...
+refuses() { # NAME STATUS TEXT ARGS...: checks that the call is refused
     local name=$1 status=$2 text=$3; shift 3
     timeout 60 "$JOSTLE" run "$@" >"$work/out" 2>&1 </dev/null
     local got=$?
@@ -67,7 +67,7 @@ for command in "run scenes/circle.yaml --view" "view $work/r.sqlite"; do
 done
 for command in "run scenes/circle.yaml --view" "view $work/r.sqlite"; do
     (sleep 0.3; timeout -s KILL 60 "$JOSTLE" $command $page; echo $? >"$work/status") 2>/dev/null </dev/null | true
-    [ "$(cat "$work/status")" = 1 ]; verdict "  and where nobody reads it" $?
+    [ "$(cat "$work/status")" = 1 ]; verdict "  also if nobody reads it" $?
     env --default-signal=HUP "$JOSTLE" $command $page >"$work/said" 2>/dev/null </dev/null &
     pid=$!
     for _ in $(seq 100); do grep -q token "$work/said" && break; sleep 0.1; done

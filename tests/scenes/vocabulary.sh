@@ -1,7 +1,7 @@
-# The tests of tests/lua: every agent of each must end in the state Pass.
+# Runs the machines of tests/lua: every agent must end in the state Pass.
 . tests/scenes/lib.sh
 for file in tests/lua/*.lua; do
-    case $file in *_test.lua) continue ;; esac # those are run by jostle test
+    case $file in *_test.lua) continue ;; esac # run by jostle test (lua_tests.sh)
     name=$(basename "$file" .lua)
     cp -R "$file" tests/lua/parts "$work/"
     cat >"$work/scene.yaml" <<END
@@ -22,7 +22,7 @@ END
     if grep -q '"Pass": 3' "$work/$name.json" 2>/dev/null; then echo "ok $name"; else
         echo "not ok $name"; cat "$work/log"; grep states "$work/$name.json"; fi
 done
-# Editors check scenes by the schema: what is shipped fits it.
+# Shipped scenes fit the JSON Schema that editors use.
 /usr/bin/python3 - >"$work/schema" 2>&1 <<'E'
 import glob, json, jsonschema, yaml
 check = jsonschema.Draft7Validator(json.load(open("scripts/scene.schema.json")))
@@ -32,5 +32,5 @@ for file in sorted(files):
     for error in check.iter_errors(yaml.safe_load(open(file))):
         print(file, list(error.path), error.message[:200])
 E
-[ ! -s "$work/schema" ]; verdict "every scene fits the schema" $?
+[ ! -s "$work/schema" ]; verdict "every shipped scene fits the JSON Schema" $?
 cat "$work/schema"
