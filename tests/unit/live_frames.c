@@ -14,7 +14,8 @@
     "groups: {people: {behaviour: own.lua, count: 60, fill: random, in: west}}\n"                  \
     "sources: [{at: west, like: people, rate: 9}]\n"                                               \
     "sinks: [{at: gone}]\n"
-#define EASTWARD HEAD "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3) } } }\n"
+#define EASTWARD                                                                                   \
+    MACHINE_START "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3) } } }\n"
 
 /* While people come and leave, those who stay keep their slots, and the parity of a slot flips when
    its person changes. */
@@ -92,9 +93,9 @@ static void parity_flips_at_periodic_edges(void **state) {
 /* Positions in frames are right for agents that walk far beyond all that the scene names. */
 static void area_grows_with_the_crowd(void **state) {
     (void)state;
-    JoScene *scene =
-        load_scene_text(PEOPLE(20), HEAD "\"A\", defaults = { speed = 9, max_speed = 9 }, "
-                                         "states = { A = { steer = drift(-1, -0.3) } } }\n");
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(20), MACHINE_START
+                                     "\"A\", defaults = { speed = 9, max_speed = 9 }, "
+                                     "states = { A = { steer = drift(-1, -0.3) } } }\n");
     JoxBytes frame = {0};
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
     Seen before = decode_frame(&frame, scene->world);
@@ -114,9 +115,9 @@ static void area_grows_with_the_crowd(void **state) {
 static void lying_state_sets_the_lying_flag(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
-        PEOPLE(4),
-        HEAD "\"A\", states = { A = { steer = hold, { to = \"B\", when = after(0.2) } }, "
-             "B = { steer = hold, lies = true } } }\n");
+        YARD_WITH_PEOPLE(4),
+        MACHINE_START "\"A\", states = { A = { steer = hold, { to = \"B\", when = after(0.2) } }, "
+                      "B = { steer = hold, lies = true } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
     for (int t = 0; t < 2; t++) {
@@ -135,8 +136,8 @@ static void lying_state_sets_the_lying_flag(void **state) {
    push. */
 static void averaged_pushes_set_the_lean(void **state) {
     (void)state;
-    JoScene *scene =
-        load_scene_text(PEOPLE(32), HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(32),
+                                     MACHINE_START "\"A\", states = { A = { steer = hold } } }\n");
     JoxAgents *a = &scene->world->state.agents;
     static const float FORCE[] = {50, 100, 200, 400};
     JoxBytes frame = {0};
@@ -297,12 +298,12 @@ static void density_field_sums_to_the_number_of_people(void **state) {
 static void status_counts_transitions_of_the_last_second(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
-        PEOPLE(200),
-        HEAD "\"A\", states = {"
-             "A = { steer = hold, lasts = uniform(0.1, 3),"
-             " { to = \"B\", when = lasted, chance = 0.5 }, { to = \"C\", when = lasted } },"
-             "B = { steer = hold, { to = \"A\", when = after(0.4) } },"
-             "C = { steer = hold, { to = \"A\", when = after(0.7) } } } }\n");
+        YARD_WITH_PEOPLE(200), MACHINE_START
+        "\"A\", states = {"
+        "A = { steer = hold, lasts = uniform(0.1, 3),"
+        " { to = \"B\", when = lasted, chance = 0.5 }, { to = \"C\", when = lasted } },"
+        "B = { steer = hold, { to = \"A\", when = after(0.4) } },"
+        "C = { steer = hold, { to = \"A\", when = after(0.7) } } } }\n");
     const JoxStatistics *s = &scene->world->state.statistics;
     uint64_t at[400];
     JoxText text = {0};
@@ -326,7 +327,7 @@ static void status_counts_transitions_of_the_last_second(void **state) {
     /* A reload numbers the transitions again, and counts start from 0. */
     const uint64_t version = jox_live_version(scene);
     assert_true(reload_behaviour(scene, 0,
-                                 HEAD
+                                 MACHINE_START
                                  "\"A\", states = { A = { steer = hold }, B = { steer = hold }, C "
                                  "= { steer = hold } } }\n"));
     assert_true(jox_live_version(scene) != version);
@@ -341,7 +342,7 @@ static void status_counts_transitions_of_the_last_second(void **state) {
 /* The status has a hint once people have gone back and forth between two states in every step. */
 static void status_has_hints(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(PEOPLE(20), HEAD
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(20), MACHINE_START
                                      "\"A\", states = {"
                                      "A = { steer = hold, { to = \"B\", when = after(0) } },"
                                      "B = { steer = hold, { to = \"A\", when = after(0) } } } }\n");

@@ -20,11 +20,11 @@ static double read_number_after(const char *json, const char *key) {
 static void inspected_forces_and_planes_match_the_step(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
-        TIGHT,
-        HEAD "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
+        TIGHT, MACHINE_START
+        "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
     JoScene *plain = load_scene_text(
-        TIGHT,
-        HEAD "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
+        TIGHT, MACHINE_START
+        "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     double most = 0.0;
     for (int n = 0; n < 60; n++) {
@@ -100,7 +100,7 @@ static void check_same_plane(const JoxConstraint *now, const JoxConstraint *in_s
    that the next step uses, also when people left in the last step. */
 static void inspection_between_steps_predicts_the_next_step(void **state) {
     (void)state;
-    const char *behaviour = HEAD "\"A\", states = { A = { steer = seek \"out\" } } }\n";
+    const char *behaviour = MACHINE_START "\"A\", states = { A = { steer = seek \"out\" } } }\n";
     JoScene *scene = load_scene_text(LEAVING, behaviour),
             *plain = load_scene_text(LEAVING, behaviour);
     JoxAgents *a = &scene->world->state.agents;
@@ -160,7 +160,7 @@ static void inspection_between_steps_predicts_the_next_step(void **state) {
 /* A restored world has no figures of its last step; the next step gives them. */
 static void inspection_of_a_restored_world_waits_for_a_step(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(PLAIN PEOPLE_OF, WALKER);
+    JoScene *scene = load_scene_text(GATE_ALONE FOUR_WALKERS, WALKER);
     JoError error = {0};
     size_t size;
     step_scene(scene, 3);

@@ -44,9 +44,10 @@ static char path[300];
     "sources: [{at: west, like: people, rate: 6}]\n"                                               \
     "sinks: [{at: gone}]\n"
 #define WALKERS                                                                                    \
-    HEAD "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3), lasts = uniform(1, " \
-         "3), { to = \"B\", when = lasted } }, B = { steer = hold, lasts = 1, { to = \"A\", when " \
-         "= lasted } } } }\n"
+    MACHINE_START                                                                                  \
+        "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3), lasts = uniform(1, "  \
+        "3), { to = \"B\", when = lasted } }, B = { steer = hold, lasts = 1, { to = \"A\", when "  \
+        "= lasted } } } }\n"
 
 static inline void note_frame(const JoScene *scene) {
     const JoWorld *world = scene->world;

@@ -199,15 +199,15 @@ static void scene_message_of_a_recording(void **state) {
    run. */
 static void density_wraps_at_periodic_edges(void **state) {
     (void)state;
-    JoScene *scene =
-        load_scene_text("jostle: 1\n"
-                        "bounds: [[0, 0], [20, 6]]\n"
-                        "periodic: x\n"
-                        "groups: {people: {behaviour: own.lua, at: [[0.3, 3], [19.7, "
-                        "3]]}}\n",
-                        HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to = \"B\", "
-                             "when = after(0.5) } }, B = { steer = hold, radius = 0.6 } } "
-                             "}\n");
+    JoScene *scene = load_scene_text(
+        "jostle: 1\n"
+        "bounds: [[0, 0], [20, 6]]\n"
+        "periodic: x\n"
+        "groups: {people: {behaviour: own.lua, at: [[0.3, 3], [19.7, "
+        "3]]}}\n",
+        MACHINE_START "\"A\", states = { A = { steer = hold, radius = 0.3, { to = \"B\", "
+                      "when = after(0.5) } }, B = { steer = hold, radius = 0.6 } } "
+                      "}\n");
     JoError error = {0};
     JoxText text = {0}, told = {0};
     const char *file = test_path("other.sqlite"), *plan = test_path("scene.yaml");
@@ -236,9 +236,9 @@ static void gates_and_radii_follow_the_shown_frame(void **state) {
         load_scene_text("jostle: 1\n"
                         "walls: [{line: [[8, 0], [8, 6]], name: gate}]\n"
                         "groups: {people: {behaviour: own.lua, at: [[1, 3]]}}\n",
-                        HEAD "\"A\", states = { A = { steer = hold, radius = 0.3, { to "
-                             "= \"B\", when = after(0.5) } }, B = { steer = hold, "
-                             "radius = 0.6 } } }\n");
+                        MACHINE_START "\"A\", states = { A = { steer = hold, radius = 0.3, { to "
+                                      "= \"B\", when = after(0.5) } }, B = { steer = hold, "
+                                      "radius = 0.6 } } }\n");
     JoError error = {0};
     JoxText text = {0}, told = {0};
     JoxBytes people = {0};

@@ -103,7 +103,7 @@ static void scene_message_escapes_names(void **state) {
         "probes: {out: {flow: [[0, 0], [0, 4]]}}\n"
         "groups: {\"p\xC3\xA9 ople\": {behaviour: own.lua, count: 4, fill: grid, in: "
         "\"y\xC3\xA4rd 1.b\"}}\n",
-        FAST("1", ""));
+        STANDING_AT_SPEED("1", ""));
     JoxText text = {0};
     jox_live_scene(scene, &text);
     parse_numbers(&text);

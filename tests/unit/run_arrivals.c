@@ -19,10 +19,11 @@
 #define AT_WALL "line: [[20, 2], [20, 6]]"
 #define POINT "point: [20.4, 4], radius: 2"
 #define QUEUE "queue: [[20.3, 4], [17, 4]]"
-#define EAST HEAD "\"Go\", states = { Go = { steer = drift(1, 0) } } }\n"
+#define EAST MACHINE_START "\"Go\", states = { Go = { steer = drift(1, 0) } } }\n"
 #define EAST_UNTIL(when)                                                                           \
-    HEAD "\"Go\", states = { Go = { steer = drift(1, 0), { to = \"Gone\", when = " when " } },\n"  \
-         "  Gone = { removes = true } } }\n"
+    MACHINE_START "\"Go\", states = { Go = { steer = drift(1, 0), { to = \"Gone\", when = " when   \
+                  " } },\n"                                                                        \
+                  "  Gone = { removes = true } } }\n"
 
 /* Counts how many of three people leave within 20 s, and how many have left 20 s after `gate` was
  * opened. */

@@ -23,7 +23,7 @@ static bool is_held(const JoScene *scene, const char *name) {
 /* Behaviour that fetches the tagged body, walks towards the place `out`, and throws the body at it
  * after a time. */
 #define CARRIER(take, walk)                                                                        \
-    "local thing = nearest \"thing\"\n" HEAD "\"Fetch\", defaults = { speed = 1.3, "               \
+    "local thing = nearest \"thing\"\n" MACHINE_START "\"Fetch\", defaults = { speed = 1.3, "      \
     "perception = 10 },\n"                                                                         \
     "  states = {\n"                                                                               \
     "    Fetch = { " take ", { to = \"Walk\", when = has(thing) } },\n"                            \
@@ -123,9 +123,9 @@ static void kick_stops_at_any_wall(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    static const char KICK[] =
-        HEAD "\"A\", states = { A = { steer = hold, kick = { nearest \"thing\", at = \"out\", "
-             "impulse = 5 } } } }\n";
+    static const char KICK[] = MACHINE_START
+        "\"A\", states = { A = { steer = hold, kick = { nearest \"thing\", at = \"out\", "
+        "impulse = 5 } } } }\n";
     JoScene *scene = load_scene_text(ROOM("3", ", {line: [[-0.79, -5], [-0.79, 5]], height: 0.3}")
                                          BALL("[-0.66, 0, 0.11]"),
                                      KICK);
@@ -195,8 +195,8 @@ static void carried_body_crosses_no_wall_when_its_carrier_turns(void **state) {
         "groups: {people: {behaviour: own.lua, count: 6, fill: grid, in: room}}\n"
         "bodies: [{shape: {box: {size: [0.8, 0.15, 0.3]}}, mass: 2, at: [-2.5, -2.5, 0.2], "
         "tags: [thing], repeat: {count: [4, 3, 1], step: [1.6, 1.5, 1]}}]\n",
-        HEAD "\"A\", defaults = { speed = 1.3, perception = 10 }, states = {\n"
-             "  A = { steer = wander(), take = nearest \"thing\" } } }\n");
+        MACHINE_START "\"A\", defaults = { speed = 1.3, perception = 10 }, states = {\n"
+                      "  A = { steer = wander(), take = nearest \"thing\" } } }\n");
     uint32_t held = 0;
     for (int n = 0; n < 400; n++) {
         step_scene(scene, 1);

@@ -15,9 +15,9 @@
     "  - {line: [[6, 10], [6, 11]]}\n"                                                             \
     "groups: {people: {behaviour: own.lua, count: 60, fill: random, in: front}}\n"
 #define GOES(gap)                                                                                  \
-    HEAD "\"Go\", defaults = { time_gap = " gap ", speed = 1.3 }, states = {\n"                    \
-         "Go = { steer = field \"goal\", { to = \"Gone\", when = inside \"goal\" } },\n"           \
-         "Gone = { removes = true } } }\n"
+    MACHINE_START "\"Go\", defaults = { time_gap = " gap ", speed = 1.3 }, states = {\n"           \
+                  "Go = { steer = field \"goal\", { to = \"Gone\", when = inside \"goal\" } },\n"  \
+                  "Gone = { removes = true } } }\n"
 
 static const JoxField *find_crowd_field(const JoScene *scene) {
     uint32_t goal = 1; /* in the order of the scene */

@@ -4,7 +4,7 @@
 
 #include "unit/scene_loader.h"
 
-#define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define STAY MACHINE_START "\"A\", states = { A = { steer = hold } } }\n"
 #define EVENTS(list)                                                                               \
     "jostle: 1\nwalls: [{line: [[5, -5], [5, 5]], name: gate}]\n"                                  \
     "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"                             \
@@ -76,10 +76,10 @@ static void events_are_ordered_by_time_then_by_list(void **state) {
 static void signal_reaches_everybody(void **state) {
     (void)state;
     JoScene *scene =
-        load_scene_text(EVENTS("  - {at: 0.2, signal: alarm}\n"),
-                        HEAD "\"Z\", defaults = { perception = 1 }, states = { Z = { steer = hold, "
-                             "{ to = \"B\", when = heard(\"alarm\", 0.5) } }, B = { steer = hold, "
-                             "{ to = \"Z\", when = heard \"alarm\" } } } }\n");
+        load_scene_text(EVENTS("  - {at: 0.2, signal: alarm}\n"), MACHINE_START
+                        "\"Z\", defaults = { perception = 1 }, states = { Z = { steer = hold, "
+                        "{ to = \"B\", when = heard(\"alarm\", 0.5) } }, B = { steer = hold, "
+                        "{ to = \"Z\", when = heard \"alarm\" } } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     step_scene(scene, 4);
     uint16_t waits = a->state[0];
@@ -96,15 +96,15 @@ static void signal_reaches_everybody(void **state) {
 
 static void unheard_signals_are_warned_of(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(EVENTS("  - {at: 1, signal: alarms}\n"), HEAD
+    JoScene *scene = load_scene_text(EVENTS("  - {at: 1, signal: alarms}\n"), MACHINE_START
                                      "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
                                      "heard \"alarm\" } } } }\n");
     assert_non_null(strstr(scene_messages.data, "scene.yaml:5:21: warning: "));
     assert_non_null(strstr(scene_messages.data, "Did you mean 'alarm'?"));
     jo_scene_free(scene);
-    scene = load_scene_text(EVENTS("  - {at: 1, signal: alarm}\n"),
-                            HEAD "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
-                                 "heard \"alarm\" } } } }\n");
+    scene = load_scene_text(EVENTS("  - {at: 1, signal: alarm}\n"), MACHINE_START
+                            "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
+                            "heard \"alarm\" } } } }\n");
     assert_null(scene_messages.data); /* a signal of the scene that a machine hears */
     jo_scene_free(scene);
 }
@@ -112,9 +112,10 @@ static void unheard_signals_are_warned_of(void **state) {
 /* ---- walls ---- */
 
 #define WALK                                                                                       \
-    HEAD "\"A\", defaults = { speed = 1.3, max_speed = 1.5 }, states = { A = { steer = drift(1, "  \
-         "0) "                                                                                     \
-         "} } }\n"
+    MACHINE_START                                                                                  \
+        "\"A\", defaults = { speed = 1.3, max_speed = 1.5 }, states = { A = { steer = drift(1, "   \
+        "0) "                                                                                      \
+        "} } }\n"
 
 static void closed_gate_is_not_passed(void **state) {
     (void)state;
@@ -175,7 +176,8 @@ static void moved_agent_is_seen_in_the_same_step(void **state) {
         "walls: [{solid: [[3, -3], [7, -3], [7, 3], [3, 3]], name: block, open: true}]\n"
         "groups: {people: {behaviour: own.lua, at: [[5, 0], [1.6, 0], [8.4, 0]]}}\n"
         "events: [{at: 0.25, close: block}]\n",
-        HEAD "\"A\", defaults = { perception = 2.5 }, states = { A = { steer = hold } } }\n");
+        MACHINE_START
+        "\"A\", defaults = { perception = 2.5 }, states = { A = { steer = hold } } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     const JoxNeighbours *n = &scene->world->scratch.neighbours;
     step_scene(scene, 5); /* every fourth step sorts anyway; the next does not */
@@ -281,13 +283,13 @@ static void picking_up_is_not_counted_as_a_throw(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
-    static const char FETCH[] =
-        HEAD "\"Take\", states = {\n"
-             "  Take = { steer = hold, take = nearest \"ball\", { to = \"Wait\", when = after(0.5) "
-             "} },\n"
-             "  Wait = { steer = hold, { to = \"Throw\", when = after(1) } },\n"
-             "  Throw = { steer = hold, throw = { nearest \"ball\", at = \"post\", speed = 6 },\n"
-             "    { to = \"End\", when = after(0.5) } }, End = { steer = hold } } }\n";
+    static const char FETCH[] = MACHINE_START
+        "\"Take\", states = {\n"
+        "  Take = { steer = hold, take = nearest \"ball\", { to = \"Wait\", when = after(0.5) "
+        "} },\n"
+        "  Wait = { steer = hold, { to = \"Throw\", when = after(1) } },\n"
+        "  Throw = { steer = hold, throw = { nearest \"ball\", at = \"post\", speed = 6 },\n"
+        "    { to = \"End\", when = after(0.5) } }, End = { steer = hold } } }\n";
     JoScene *scene = load_scene_text("jostle: 1\nplaces: {post: {point: [20, 0]}}\n"
                                      "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n"
                                      "bodies: [{name: b, shape: {sphere: {radius: 0.1}}, mass: 1, "

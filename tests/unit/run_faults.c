@@ -8,10 +8,11 @@
 /* ---- numbers that are not finite ---- */
 
 #define CROWD                                                                                      \
-    SCENE("groups:\n"                                                                              \
-          "  people: {behaviour: " JOX_DATADIR "/behaviours/stander.lua, count: 100, fill: grid, " \
-          "in: yard}\n"                                                                            \
-          "  odd: {behaviour: own.lua, at: [[20, 20], [20.1, 20.1]], team: a}\n")
+    YARD_SCENE("groups:\n"                                                                         \
+               "  people: {behaviour: " JOX_DATADIR                                                \
+               "/behaviours/stander.lua, count: 100, fill: grid, "                                 \
+               "in: yard}\n"                                                                       \
+               "  odd: {behaviour: own.lua, at: [[20, 20], [20.1, 20.1]], team: a}\n")
 
 static bool has_finite_agents(const JoScene *scene) {
     const JoxAgents *a = &scene->world->state.agents;
@@ -26,7 +27,8 @@ static bool has_finite_agents(const JoScene *scene) {
  * error. */
 static bool load_steering(const char *steer) {
     char sheet[600];
-    snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { steer = %s } } }\n", steer);
+    snprintf(sheet, sizeof sheet, MACHINE_START "\"A\", states = { A = { steer = %s } } }\n",
+             steer);
     write_test_file("own.lua", sheet);
     const JoSceneDef def = define_scene(write_test_file("scene.yaml", CROWD));
     JoError error = {0};
@@ -73,7 +75,8 @@ static void computed_weights_never_make_positions_infinite(void **state) {
         "lasted }"};
     for (size_t n = 0; n < sizeof sheets / sizeof *sheets; n++) {
         char sheet[600];
-        snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { %s } } }\n", sheets[n]);
+        snprintf(sheet, sizeof sheet, MACHINE_START "\"A\", states = { A = { %s } } }\n",
+                 sheets[n]);
         JoScene *scene = load_scene_text(CROWD, sheet);
         step_scene(scene, 40);
         if (!has_finite_agents(scene))
@@ -96,9 +99,10 @@ static void invalid_computed_parameters_are_reported(void **state) {
         {"radius =\n normal(-1, 0.1)", "; 0.02 m is taken."}};
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         char sheet[600];
-        snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = {\n steer = hold, %s } } }\n",
+        snprintf(sheet, sizeof sheet,
+                 MACHINE_START "\"A\", states = { A = {\n steer = hold, %s } } }\n",
                  cases[n].sheet);
-        JoScene *scene = load_scene_text(PEOPLE(4), sheet);
+        JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(4), sheet);
         step_scene(scene, 40);
         const char *line =
             scene_messages.data ? strstr(scene_messages.data, "own.lua:3: t = 0.00 s: ") : NULL;
@@ -117,7 +121,7 @@ static void invalid_computed_parameters_are_reported(void **state) {
 static void number_that_is_not_finite_ends_the_run(void **state) {
     (void)state;
     JoScene *scene =
-        load_scene_text(CROWD, HEAD "\"Odd\", states = { Odd = { steer = hold } } }\n");
+        load_scene_text(CROWD, MACHINE_START "\"Odd\", states = { Odd = { steer = hold } } }\n");
     JoxAgents *a = &scene->world->state.agents;
     JoError error = {0};
     step_scene(scene, 1);
@@ -154,17 +158,18 @@ static void failed_world_names_agents_without_a_machine(void **state) {
 
 static void lua_can_read_agents_without_a_machine(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(
-        PEOPLE(4), "local mine = memory { hits = 0, seen = 0 }\n" HEAD
-                   "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
-                   "  { to = \"A\", when = function(me)\n"
-                   "    me.seen = 0\n"
-                   "    for _, n in ipairs(me.neighbours) do\n"
-                   "      if n.machine == nil and n.state == nil and n.hits == nil then\n"
-                   "        me.seen = me.seen + 1 end\n"
-                   "    end\n"
-                   "    return false\n"
-                   "  end } } } }\n");
+    JoScene *scene =
+        load_scene_text(YARD_WITH_PEOPLE(4),
+                        "local mine = memory { hits = 0, seen = 0 }\n" MACHINE_START
+                        "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
+                        "  { to = \"A\", when = function(me)\n"
+                        "    me.seen = 0\n"
+                        "    for _, n in ipairs(me.neighbours) do\n"
+                        "      if n.machine == nil and n.state == nil and n.hits == nil then\n"
+                        "        me.seen = me.seen + 1 end\n"
+                        "    end\n"
+                        "    return false\n"
+                        "  end } } } }\n");
     JoAgentDef agent = jo_default_agent_def();
     agent.x = agent.y = 12.0;
     jo_world_add_agent(scene->world, &agent, NULL);
@@ -189,13 +194,14 @@ static void lua_can_read_agents_without_a_machine(void **state) {
  * changes to one memory, one is lost. */
 static void lost_changes_of_memory_are_counted(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(
-        PEOPLE(3), "local mine = memory { hits = 0 }\n" HEAD
-                   "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
-                   "  { to = \"A\", when = function(me)\n"
-                   "    for _, n in ipairs(me.neighbours) do n.hits = n.hits + 1 end\n"
-                   "    return false\n"
-                   "  end } } } }\n");
+    JoScene *scene =
+        load_scene_text(YARD_WITH_PEOPLE(3),
+                        "local mine = memory { hits = 0 }\n" MACHINE_START
+                        "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
+                        "  { to = \"A\", when = function(me)\n"
+                        "    for _, n in ipairs(me.neighbours) do n.hits = n.hits + 1 end\n"
+                        "    return false\n"
+                        "  end } } } }\n");
     step_scene(scene, 4);
     assert_non_null(strstr(scene_messages.data, "a change is lost"));
     assert_int_equal(scene->world->machines.state->changes_lost, 3 * 4);
@@ -230,7 +236,7 @@ static void three_hundred_sources_count_separately(void **state) {
         jox_text_printf(&text, "  - {at: p%d, like: people, rate: %d, even: true}\n", s,
                         s == 44 ? 5 : 1);
     JoScene *scene =
-        load_scene_text(text.data, HEAD "\"A\", states = { A = { steer = hold } } }\n");
+        load_scene_text(text.data, MACHINE_START "\"A\", states = { A = { steer = hold } } }\n");
     jox_text_free(&text);
     assert_int_equal(jo_world_agent_count(scene->world), 0);
     step_scene(scene, 61); /* 3 s: three of each, and fifteen of one */

@@ -160,14 +160,14 @@ static void spots_keep_clear_of_fixed_bodies(void **state) {
 /* `gather` leads to the area also from far away and from behind a wall. */
 static void distant_people_come_by_routes(void **state) {
     (void)state;
-    JoScene *scene =
-        load_scene_text("jostle: 1\nplaces:\n"
-                        "  front: {polygon: [[0, 0], [6, 0], [6, 4], [0, 4]]}\n"
-                        "  far: {polygon: [[0, -14], [6, -14], [6, -11], [0, -11]]}\n"
-                        "walls: [{line: [[-8, 2], [-8, -6], [14, -6], [14, 6]]}]\n"
-                        "groups: {a: {behaviour: own.lua, count: 20, in: far}}\n",
-                        HEAD "\"Wait\", defaults = { speed = 1.3, time_gap = 0.5, perception = 3 },"
-                             " states = { Wait = { steer = gather(\"front\", 90) } } }\n");
+    JoScene *scene = load_scene_text(
+        "jostle: 1\nplaces:\n"
+        "  front: {polygon: [[0, 0], [6, 0], [6, 4], [0, 4]]}\n"
+        "  far: {polygon: [[0, -14], [6, -14], [6, -11], [0, -11]]}\n"
+        "walls: [{line: [[-8, 2], [-8, -6], [14, -6], [14, 6]]}]\n"
+        "groups: {a: {behaviour: own.lua, count: 20, in: far}}\n",
+        MACHINE_START "\"Wait\", defaults = { speed = 1.3, time_gap = 0.5, perception = 3 },"
+                      " states = { Wait = { steer = gather(\"front\", 90) } } }\n");
     const Rest rest = measure_rest(scene, 50);
     assert_true(rest.inside >= 19); /* people in front move a little on its edge */
     assert_in_range(rest.moved, 0, 1);

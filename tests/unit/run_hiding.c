@@ -3,14 +3,14 @@
 
 #define PAIR(more) "jostle: 1\ngroups: {people: {behaviour: own.lua, at: [[0, 0], [3, 0]]}}\n" more
 #define LOOKS                                                                                      \
-    HEAD "\"A\", defaults = { perception = 10 }, states = {\n"                                     \
-         "  A = { steer = hold, { to = \"Seen\", when = sees(nearest \"anyone\") } },\n"           \
-         "  Seen = { steer = hold } } }\n"
+    MACHINE_START "\"A\", defaults = { perception = 10 }, states = {\n"                            \
+                  "  A = { steer = hold, { to = \"Seen\", when = sees(nearest \"anyone\") } },\n"  \
+                  "  Seen = { steer = hold } } }\n"
 #define CALLS                                                                                      \
-    HEAD "\"A\", defaults = { perception = 10 }, states = {\n"                                     \
-         "  A = { steer = hold, signal = { \"call\", every = 0.1 },\n"                             \
-         "    { to = \"Heard\", when = heard \"call\" } },\n"                                      \
-         "  Heard = { steer = hold } } }\n"
+    MACHINE_START "\"A\", defaults = { perception = 10 }, states = {\n"                            \
+                  "  A = { steer = hold, signal = { \"call\", every = 0.1 },\n"                    \
+                  "    { to = \"Heard\", when = heard \"call\" } },\n"                             \
+                  "  Heard = { steer = hold } } }\n"
 #define CRATE(size, at, more) "bodies: [{shape: {box: {size: " size "}}, at: " at more "}]\n"
 
 /* Returns whether two agents notice each other within 0.5 s; checks that both do, or neither. */

@@ -11,11 +11,11 @@
 
 /* Behaviour of two agents, "one" (id 0) and "other" (id 1): the content of each one's state. */
 #define TWO(own, one, other)                                                                       \
-    HEAD "\"Wait\", defaults = { perception = 10, speed = 1.3, mass = 70 }, states = {\n"          \
-         "  Wait = { steer = hold, { to = \"One\", when = sees(nearest \"other\") },\n"            \
-         "    { to = \"Other\", when = sees(nearest \"one\") } },\n"                               \
-         "  One = { " one " }, Other = { " other " },\n"                                           \
-         "  Has = { " own " }, Free = { steer = hold } } }\n"
+    MACHINE_START "\"Wait\", defaults = { perception = 10, speed = 1.3, mass = 70 }, states = {\n" \
+                  "  Wait = { steer = hold, { to = \"One\", when = sees(nearest \"other\") },\n"   \
+                  "    { to = \"Other\", when = sees(nearest \"one\") } },\n"                      \
+                  "  One = { " one " }, Other = { " other " },\n"                                  \
+                  "  Has = { " own " }, Free = { steer = hold } } }\n"
 
 typedef struct Pair {
     JoScene *scene;

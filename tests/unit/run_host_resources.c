@@ -57,7 +57,7 @@ static void files_only_reads_nothing_from_the_disk(void **state) {
     (void)state;
     JoError error;
     JoSceneDef def = jo_default_scene_def();
-    write_test_file("own.lua", HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    write_test_file("own.lua", MACHINE_START "\"A\", states = { A = { steer = hold } } }\n");
     def.path = write_test_file("scene.yaml",
                                "jostle: 1\ngroups: {one: {behaviour: own.lua, at: [[0, 0]]}}\n");
     def.message = ignore_message;

@@ -347,9 +347,11 @@ static void oldest_box_is_removed_for_a_new_one(void **state) {
 static void files_of_a_log_go_live(void **state) {
     (void)state;
     char text[4000];
-    JoScene *scene = load_scene_text(PEOPLE(20), FAST("1.5", "")); /* the text on the disk */
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(20),
+                                     STANDING_AT_SPEED("1.5", "")); /* the text on the disk */
     jo_scene_free(scene);
-    static const char BEGAN[] = FAST("0.7", ""), LIVE[] = FAST("0.9", ""), BAD[] = "return 7\n";
+    static const char BEGAN[] = STANDING_AT_SPEED("0.7", ""), LIVE[] = STANDING_AT_SPEED("0.9", ""),
+                      BAD[] = "return 7\n";
     snprintf(text, sizeof text,
              "# a session\n3 before 1\n%s/own.lua %zu\n%s\n3 files 1\n%s/own.lua %zu\n%s\n"
              "6 files 1\n%s/own.lua %zu\n%s\n",

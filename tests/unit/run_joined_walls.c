@@ -4,9 +4,13 @@
 #include "machine/internal.h"
 #include "unit/gate_ball_scene.h"
 
-#define EAST HEAD "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = drift(1, 0) } } }\n"
-#define WEST HEAD "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = drift(-1, 0) } } }\n"
-#define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define EAST                                                                                       \
+    MACHINE_START "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = drift(1, 0) } } "   \
+                  "}\n"
+#define WEST                                                                                       \
+    MACHINE_START "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = drift(-1, 0) } } "  \
+                  "}\n"
+#define STAY MACHINE_START "\"A\", states = { A = { steer = hold } } }\n"
 
 /* A corridor of 10 x 4 m whose ends are joined. */
 #define RING                                                                                       \
@@ -68,7 +72,7 @@ static void one_step_over_joined_edges_ends_at_a_wall(void **state) {
         "jostle: 1\nbounds: [[0, 0], [10, 4]]\nperiodic: both\n"
         "walls: [{line: [[2, 1], [2, 3]], name: gate}, {line: [[4, 0], [6, 0]]}]\n"
         "groups: {people: {behaviour: own.lua, at: [[5, 2], [5, 3.5]]}}\n",
-        HEAD "\"A\", defaults = { mass = 1 }, states = { A = { steer = hold } } }\n");
+        MACHINE_START "\"A\", defaults = { mass = 1 }, states = { A = { steer = hold } } }\n");
     const JoxAgents *a = agents_of(scene);
     apply_input(scene, "push 0 10000 0"); /* some 25 m in a step */
     apply_input(scene, "push 1 0 10000");
@@ -157,9 +161,10 @@ static void ends_of_walls_at_joined_edges_are_not_felt(void **state) {
                  "places: {hall: {polygon: [[0, 0.2], [10, 0.2], [10, 1.3], [0, 1.3]]}}\n"
                  "groups: {people: {behaviour: own.lua, count: 40, in: hall, fill: random}}\n",
                  WALLS[k]);
-        JoScene *scene = load_scene_text(
-            scene_text, HEAD "\"A\", defaults = { speed = uniform(0.8, 1.6), push = 300, "
-                             "radius = 0.2 }, states = { A = { steer = drift(1, 0.3) } } }\n");
+        JoScene *scene =
+            load_scene_text(scene_text, MACHINE_START
+                            "\"A\", defaults = { speed = uniform(0.8, 1.6), push = 300, "
+                            "radius = 0.2 }, states = { A = { steer = drift(1, 0.3) } } }\n");
         const JoxAgents *a = agents_of(scene);
         assert_true(count_laps(scene, 25) > 0);
         for (uint32_t i = 0; i < a->count; i++) {
@@ -180,9 +185,9 @@ static void ends_of_walls_at_joined_edges_are_not_felt(void **state) {
 static void walls_beyond_joined_edges_hide_bear_loads_and_are_reported_once(void **state) {
     (void)state;
     JoScene *scene =
-        load_scene_text(RING "  - {line: [[0, 0], [0, 4]], name: gate}\n" TWELVE,
-                        HEAD "\"A\", defaults = { speed = 1.3, push = 600 }, states = { A = { "
-                             "steer = drift(1, 0) } } }\n");
+        load_scene_text(RING "  - {line: [[0, 0], [0, 4]], name: gate}\n" TWELVE, MACHINE_START
+                        "\"A\", defaults = { speed = 1.3, push = 600 }, states = { A = { "
+                        "steer = drift(1, 0) } } }\n");
     const double from[] = {9, 2}, to[] = {11, 2}, back[] = {8, 2};
     const JoWorld *world = scene->world;
     double edges[4 * 16];
@@ -227,7 +232,8 @@ static void people_beyond_a_wall_at_joined_edges_do_not_count_in_densities(void 
     "places: {goal: {point: " goal ", radius: 0.4}}\n"                                             \
     "groups: {people: {behaviour: own.lua, at: [" at "], set: {goal: goal}}}\n"
 #define WALK                                                                                       \
-    HEAD "\"A\", states = { A = { steer = field(own.goal) } }, own = { goal = \"goal\" } }\n"
+    MACHINE_START                                                                                  \
+        "\"A\", states = { A = { steer = field(own.goal) } }, own = { goal = \"goal\" } }\n"
 
 static void routes_cross_joined_edges_where_that_is_shorter(void **state) {
     static const struct {

@@ -5,7 +5,7 @@
 #include "unit/gate_ball_scene.h"
 
 #define OWN                                                                                        \
-    "local mine = memory { met = false, hits = 0 }\n" HEAD                                         \
+    "local mine = memory { met = false, hits = 0 }\n" MACHINE_START                                \
     "\"Walk\", defaults = { speed = normal(1.2, 0.2) }, states = {\n"                              \
     "  Walk = { steer = seek(own.goal), { to = \"Rest\", when = mine.hits:above(2) } },\n"         \
     "  Rest = { steer = hold, set = { met = true } },\n"                                           \
@@ -20,8 +20,8 @@ static JoWorld *world;
 static JoError error;
 
 static void load_acted_scene(void) {
-    scene = load_scene_text(jox_bodies_available() ? WORLD PLACES WESTWARD : PLAIN PLACES WESTWARD,
-                            OWN);
+    scene = load_scene_text(
+        jox_bodies_available() ? GATE_AND_BODIES PLACES WESTWARD : GATE_ALONE PLACES WESTWARD, OWN);
     world = jo_scene_world(scene);
     error = (JoError){0};
 }
@@ -195,7 +195,7 @@ static void adds_and_removes_walls(void **state) {
 /* A snapshot holds added walls, and whether gates are open. */
 static void snapshot_holds_added_walls(void **state) {
     (void)state;
-    scene = load_scene_text(PLAIN PLACES WESTWARD, OWN);
+    scene = load_scene_text(GATE_ALONE PLACES WESTWARD, OWN);
     world = jo_scene_world(scene);
     JoxText empty = {0}, walled = {0};
     assert_true(jox_world_snapshot(world, &empty, &error));

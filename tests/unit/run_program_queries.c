@@ -4,7 +4,8 @@
 #include "unit/gate_ball_scene.h"
 
 #define OWN                                                                                        \
-    "local mine = memory { hits = 0 }\n" HEAD "\"Walk\", defaults = { speed = 1.2 }, states = {\n" \
+    "local mine = memory { hits = 0 }\n" MACHINE_START                                             \
+    "\"Walk\", defaults = { speed = 1.2 }, states = {\n"                                           \
     "  Walk = { steer = drift(1, 0), { to = \"Call\", when = mine.hits:above(2) } },\n"            \
     "  Call = { steer = hold, signal = \"here\" } } }\n"
 #define PLACES "places: {west: {point: [-20, 0]}, east: {point: [40, 0]}}\n"
@@ -14,8 +15,9 @@ static JoWorld *world;
 static JoError error;
 
 static void load_read_scene(void) {
-    scene = load_scene_text(
-        jox_bodies_available() ? WORLD PLACES PEOPLE_OF : PLAIN PLACES PEOPLE_OF, OWN);
+    scene = load_scene_text(jox_bodies_available() ? GATE_AND_BODIES PLACES FOUR_WALKERS
+                                                   : GATE_ALONE PLACES FOUR_WALKERS,
+                            OWN);
     world = jo_scene_world(scene);
 }
 
@@ -84,11 +86,11 @@ static void events_list_what_happened_in_the_step(void **state) {
 /* An agent that walks into a wall touches it; the touch begins once. */
 static void touch_begins_once(void **state) {
     (void)state;
-    scene =
-        load_scene_text("jostle: 1\nwalls: [{line: [[0, -0.3], [3, -0.3], [3, 0.3], [0, 0.3]]}]\n"
-                        "groups: {people: {behaviour: own.lua, at: [[2, 0], [1.4, 0]]}}\n",
-                        HEAD "\"Walk\", defaults = { speed = 1.5, push = 300, push_reach = 1 }, "
-                             "states = { Walk = { steer = drift(1, 0) } } }\n");
+    scene = load_scene_text(
+        "jostle: 1\nwalls: [{line: [[0, -0.3], [3, -0.3], [3, 0.3], [0, 0.3]]}]\n"
+        "groups: {people: {behaviour: own.lua, at: [[2, 0], [1.4, 0]]}}\n",
+        MACHINE_START "\"Walk\", defaults = { speed = 1.5, push = 300, push_reach = 1 }, "
+                      "states = { Walk = { steer = drift(1, 0) } } }\n");
     world = jo_scene_world(scene);
     uint32_t walls_begun = 0, walls = 0, people_begun = 0;
     for (int n = 0; n < 60; n++) {
@@ -118,11 +120,11 @@ static void kicks_are_listed(void **state) {
         "  {name: ball, shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [1, 0, 0.1],"
         " tags: [ball]}]\n"
         "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n",
-        HEAD "\"Go\", states = { Go = { steer = seek(nearest \"ball\"), "
-             "approach = nearest \"ball\", "
-             "kick = { nearest \"ball\", at = \"goal\", impulse = 6 }, "
-             "{ to = \"Stop\", when = kicked(nearest \"ball\") } }, "
-             "Stop = { steer = hold } } }\n");
+        MACHINE_START "\"Go\", states = { Go = { steer = seek(nearest \"ball\"), "
+                      "approach = nearest \"ball\", "
+                      "kick = { nearest \"ball\", at = \"goal\", impulse = 6 }, "
+                      "{ to = \"Stop\", when = kicked(nearest \"ball\") } }, "
+                      "Stop = { steer = hold } } }\n");
     world = jo_scene_world(scene);
     uint32_t kicks = 0;
     for (int n = 0; n < 40; n++) {
@@ -276,7 +278,7 @@ static void impulses_of_people_add_up_to_the_momentum_of_a_body(void **state) {
 
 static void snapshot_continues_exactly(void **state) {
     (void)state;
-    scene = load_scene_text(PLAIN PLACES PEOPLE_OF, OWN);
+    scene = load_scene_text(GATE_ALONE PLACES FOUR_WALKERS, OWN);
     world = jo_scene_world(scene);
     size_t size;
     step_scene(scene, 4);

@@ -3,7 +3,7 @@
 
 #include "unit/scene_loader.h"
 
-#define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define STAY MACHINE_START "\"A\", states = { A = { steer = hold } } }\n"
 #define PUSHED(list)                                                                               \
     "jostle: 1\nforces: {enabled: true}\n"                                                         \
     "places: {stand: {polygon: [[-1, -1], [1, -1], [1, 1], [-1, 1]]}}\n"                           \

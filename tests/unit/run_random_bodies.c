@@ -154,7 +154,7 @@ static void write_mix_behaviour(Mix *m) {
     m->lua.length = 0;
     jox_text_printf(
         &m->lua,
-        "local thing, other = nearest \"thing\", nearest \"anyone\"\n" HEAD "\"Fetch\",\n"
+        "local thing, other = nearest \"thing\", nearest \"anyone\"\n" MACHINE_START "\"Fetch\",\n"
         "  defaults = { speed = %.3g, max_speed = %.3g, perception = 6, push = %.4g,\n"
         "    radius = uniform(0.05, 0.35), mass = lognormal(4.2, %.3g, 1, 10000) },\n"
         "  states = {\n"

@@ -163,15 +163,15 @@ static void write_passage_behaviour(Passage *p) {
     static const double FAST[] = {1.5, 1.5, 5.0, 16.0};
     const double speed = FAST[p->number % 4];
     p->lua.length = 0;
-    jox_text_printf(&p->lua,
-                    HEAD "\"A\",\n  defaults = { speed = %g, max_speed = %g, push = %g, "
-                         "radius = uniform(0.12, 0.3), perception = 2, time_gap = %g },\n"
-                         "  states = { A = { steer = %s } }, own = { goal = \"east\" } }\n",
-                    speed, 1.2 * speed, roll_chance(p, 0.5) ? 800.0 : 0.0,
-                    roll_chance(p, 0.5) ? 1.0 : 0.0,
-                    p->period.y > 0.0f   ? "drift(-1, -0.7)"
-                    : p->period.x > 0.0f ? "drift(1, 0.1)"
-                                         : "seek(own.goal)");
+    jox_text_printf(
+        &p->lua,
+        MACHINE_START "\"A\",\n  defaults = { speed = %g, max_speed = %g, push = %g, "
+                      "radius = uniform(0.12, 0.3), perception = 2, time_gap = %g },\n"
+                      "  states = { A = { steer = %s } }, own = { goal = \"east\" } }\n",
+        speed, 1.2 * speed, roll_chance(p, 0.5) ? 800.0 : 0.0, roll_chance(p, 0.5) ? 1.0 : 0.0,
+        p->period.y > 0.0f   ? "drift(-1, -0.7)"
+        : p->period.x > 0.0f ? "drift(1, 0.1)"
+                             : "seek(own.goal)");
 }
 
 /* ---- inputs and edits ---- */

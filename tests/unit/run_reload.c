@@ -249,19 +249,19 @@ static void watching_and_reloads_of_the_same_text_keep_the_hash(void **state) {
 static void three_thousand_reloads_leak_no_memory(void **state) {
     (void)state;
     static const char EVEN[] =
-        "local mine = memory { laps = 0, seen = false }\n" HEAD
+        "local mine = memory { laps = 0, seen = false }\n" MACHINE_START
         "\"A\", defaults = { speed = uniform(1, 2), horizon = normal(1, 0.2, 0.2, 2) }, states = "
         "{\n"
         "  A = { steer = hold, push = 20 * own.horizon, { to = \"B\", when = after(0.2) } },\n"
         "  B = { steer = hold, on_enter = function(me) me.laps = me.laps + 1 end,\n"
         "    { to = \"A\", when = after(0.1) | stuck(1) } } } }\n";
     static const char ODD[] =
-        "local mine = memory { seen = false, more = 1, laps = 0 }\n" HEAD
+        "local mine = memory { seen = false, more = 1, laps = 0 }\n" MACHINE_START
         "\"B\", defaults = { speed = uniform(0.5, 1), perception = 3 }, states = {\n"
         "  B = { steer = spread, { to = \"A\", when = function(me) return me.laps > 2 end } },\n"
         "  C = { steer = hold }, A = { steer = hold, speed = own.perception / 3,\n"
         "    { to = \"B\", when = after(0.1) } } } }\n";
-    JoScene *scene = load_scene_text(PEOPLE(30), EVEN);
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(30), EVEN);
     size_t before = 0;
     for (int i = 0; i < 3200; i++) {
         if (i == 200)
@@ -303,27 +303,28 @@ static bool step_until_message(JoScene *scene, const char *text) {
 
 static void saved_file_goes_live(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(PEOPLE(20), FAST("1.5", ""));
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(20), STANDING_AT_SPEED("1.5", ""));
     JoError error = {0};
     assert_true(jo_scene_watch(scene, &error));
     step_scene(scene, 5);
-    write_test_file("own.lua", FAST("0.5", ""));
+    write_test_file("own.lua", STANDING_AT_SPEED("0.5", ""));
     assert_true(step_until_message(scene, "reload 1 is live"));
     assert_true(read_wanted_speed(scene, 3) == 0.5);
     write_test_file("own.lua", "return machine {");
     assert_true(step_until_message(scene, "Reload 1 keeps running"));
     for (int i = 0; i < 30; i++) { /* saved repeatedly during the run */
         char text[200];
-        snprintf(text, sizeof text, FAST("1.%02d", ""), i);
+        snprintf(text, sizeof text, STANDING_AT_SPEED("1.%02d", ""), i);
         write_test_file("own.lua", text);
         step_scene(scene, 3);
     }
-    write_test_file("own.lua", FAST("1.9", ""));
+    write_test_file("own.lua", STANDING_AT_SPEED("1.9", ""));
     for (double begun = read_wall_clock();
          read_wanted_speed(scene, 3) != (double)1.9f && read_wall_clock() - begun < 10.0;)
         step_scene(scene, 1), usleep(500);
     assert_true(read_wanted_speed(scene, 3) == (double)1.9f);
-    write_test_file("own.lua", FAST("1.1", "")); /* the scene is freed while this is being loaded */
+    write_test_file("own.lua", STANDING_AT_SPEED(
+                                   "1.1", "")); /* the scene is freed while this is being loaded */
     usleep(40000);
     jo_scene_free(scene);
 }

@@ -11,12 +11,12 @@
 #include "unit/scene_loader.h"
 
 static const char GREET[] =
-    "local mine = memory { met = 0, left = 0 }\n" HEAD "\"Enter\", states = {\n"
+    "local mine = memory { met = 0, left = 0 }\n" MACHINE_START "\"Enter\", states = {\n"
     "  Enter = { steer = hold, { to = \"Greet\", when = after(0.1) } },\n"
     "  Greet = { steer = hold, on_enter = function(me) me.met = me.met + 1 end,\n"
     "    on_exit = function(me) me.left = me.left + 1 end } } }\n";
 static const char ISTILAM[] =
-    "local mine = memory { met = 0, left = 0 }\n" HEAD
+    "local mine = memory { met = 0, left = 0 }\n" MACHINE_START
     "\"Enter\", renamed = { Greet = \"Istilam\" }, states = {\n"
     "  Enter = { steer = hold, { to = \"Istilam\", when = after(0.1) } },\n"
     "  Other = { steer = hold, { to = \"Enter\", when = after(9) } },\n"
@@ -41,7 +41,7 @@ static const char *read_state_name(const JoScene *scene, uint32_t agent) {
 
 static void renamed_state_keeps_its_people_and_time(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(PEOPLE(5), GREET);
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(5), GREET);
     step_scene(scene, 8); /* 0.1 s in Enter, and some 0.25 s in Greet */
     assert_string_equal(read_state_name(scene, 0), "Greet");
     uint32_t entered = scene->world->state.agents.entered[0];
@@ -72,14 +72,14 @@ static double read_own_value(const JoScene *scene, uint32_t agent, const char *n
 static void renamed_memory_and_own_values_keep_their_numbers(void **state) {
     (void)state;
     static const char BEFORE[] =
-        "local mine = memory { met = 0, other = 7 }\n" HEAD
+        "local mine = memory { met = 0, other = 7 }\n" MACHINE_START
         "\"A\", own = { courage = uniform(2, 3), calm = 5 }, states = { A = { steer = hold,\n"
         "  on_enter = function(me) me.met = me.id + 1 end } } }\n";
-    static const char AFTER[] = "local mine = memory { other = 7, seen = 0 }\n" HEAD
+    static const char AFTER[] = "local mine = memory { other = 7, seen = 0 }\n" MACHINE_START
                                 "\"A\", own = { calm = 5, bravery = uniform(2, 3) },\n"
                                 "  renamed = { courage = \"bravery\", met = \"seen\" }, states = { "
                                 "A = { steer = hold } } }\n";
-    JoScene *scene = load_scene_text(PEOPLE(4), BEFORE);
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(4), BEFORE);
     step_scene(scene, 2);
     double courage[4];
     for (uint32_t i = 0; i < 4; i++)
@@ -98,9 +98,9 @@ static void renamed_memory_and_own_values_keep_their_numbers(void **state) {
 static void removing_a_state_with_people_is_refused(void **state) {
     (void)state;
     static const char WITHOUT[] =
-        HEAD "\"Enter\", states = { Enter = { steer = hold }, Istilam = { steer = hold, "
-             "{ to = \"Enter\", when = after(1) } } } }\n";
-    JoScene *scene = load_scene_text(PEOPLE(312), GREET);
+        MACHINE_START "\"Enter\", states = { Enter = { steer = hold }, Istilam = { steer = hold, "
+                      "{ to = \"Enter\", when = after(1) } } } }\n";
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(312), GREET);
     assert_true(reload_behaviour(scene, 0, GREET));
     step_scene(scene, 8);
     uint64_t before = jo_world_hash(scene->world);
@@ -112,7 +112,7 @@ static void removing_a_state_with_people_is_refused(void **state) {
     step_scene(scene, 8);
     assert_string_equal(read_state_name(scene, 311), "Greet");
     jo_scene_free(scene);
-    scene = load_scene_text(PEOPLE(312), GREET); /* nobody has got there yet */
+    scene = load_scene_text(YARD_WITH_PEOPLE(312), GREET); /* nobody has got there yet */
     assert_true(reload_behaviour(scene, 0, WITHOUT));
     jo_scene_free(scene);
 }
@@ -120,13 +120,13 @@ static void removing_a_state_with_people_is_refused(void **state) {
 static void memory_is_kept_by_name_and_type(void **state) {
     (void)state;
     static const char BEFORE[] =
-        "local mine = memory { laps = 0, seen = 0, tired = false, gone = 3 }\n" HEAD
+        "local mine = memory { laps = 0, seen = 0, tired = false, gone = 3 }\n" MACHINE_START
         "\"A\", states = { A = { steer = hold,\n"
         "  on_enter = function(me) me.laps = 5; me.seen = 7; me.tired = true end } } }\n";
     static const char AFTER[] =
-        "local mine = memory { fresh = 11, tired = 4, laps = 0, seen = true }\n" HEAD
+        "local mine = memory { fresh = 11, tired = 4, laps = 0, seen = true }\n" MACHINE_START
         "\"A\", states = { A = { steer = hold, on_enter = function(me) me.laps = 99 end } } }\n";
-    JoScene *scene = load_scene_text(PEOPLE(5), BEFORE);
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(5), BEFORE);
     step_scene(scene, 2);
     assert_true(read_memory_value(scene, 4, "seen") == 7.0 &&
                 read_memory_value(scene, 4, "tired") == 1.0);
@@ -143,17 +143,17 @@ static void memory_is_kept_by_name_and_type(void **state) {
 }
 
 static const char TWO_GROUPS[] =
-    SCENE("groups:\n"
-          "  free: {behaviour: own.lua, count: 50, fill: grid, in: yard}\n"
-          "  set: {behaviour: own.lua, count: 50, fill: grid, in: yard, set: {speed: 0.7}}\n");
+    YARD_SCENE("groups:\n"
+               "  free: {behaviour: own.lua, count: 50, fill: grid, in: yard}\n"
+               "  set: {behaviour: own.lua, count: 50, fill: grid, in: yard, set: {speed: 0.7}}\n");
 
 static void new_distribution_applies_to_present_agents(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(TWO_GROUPS, FAST("uniform(1, 1.2)", ""));
+    JoScene *scene = load_scene_text(TWO_GROUPS, STANDING_AT_SPEED("uniform(1, 1.2)", ""));
     step_scene(scene, 3);
     uint64_t before = jo_world_hash(scene->world);
     const JoxAgents *a = &scene->world->state.agents;
-    assert_true(reload_behaviour(scene, 0, FAST("uniform(1.4, 1.6)", "")));
+    assert_true(reload_behaviour(scene, 0, STANDING_AT_SPEED("uniform(1.4, 1.6)", "")));
     double low = 9, high = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         double speed = read_wanted_speed(scene, i);
@@ -166,12 +166,12 @@ static void new_distribution_applies_to_present_agents(void **state) {
         high = speed > high ? speed : high;
     }
     assert_true(low < 1.45 && high > 1.55); /* each agent draws its own */
-    assert_true(reload_behaviour(scene, 0, FAST("2", "")));
+    assert_true(reload_behaviour(scene, 0, STANDING_AT_SPEED("2", "")));
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(read_wanted_speed(scene, i) == (a->group[i] ? (double)0.7f : 2.0));
-    assert_true(reload_behaviour(scene, 0, FAST("uniform(1, 1.2)", "")));
+    assert_true(reload_behaviour(scene, 0, STANDING_AT_SPEED("uniform(1, 1.2)", "")));
     assert_int_equal(jo_world_hash(scene->world), before); /* back again: the same random numbers */
-    assert_true(reload_behaviour(scene, 0, FAST("uniform(1, 1.2)", ", speed = 1.9")));
+    assert_true(reload_behaviour(scene, 0, STANDING_AT_SPEED("uniform(1, 1.2)", ", speed = 1.9")));
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(read_wanted_speed(scene, i) ==
                     (double)1.9f); /* the state's value overrides both */
@@ -181,14 +181,14 @@ static void new_distribution_applies_to_present_agents(void **state) {
 static void own_values_are_kept_by_name(void **state) {
     (void)state;
     static const char BEFORE[] =
-        HEAD "\"A\", defaults = { speed = uniform(1, 2), horizon = uniform(0.3, 0.6) },\n"
-             "  states = { A = { steer = hold, push = 100 * own.horizon } } }\n";
-    static const char AFTER[] =
-        HEAD "\"A\", defaults = { perception = uniform(5, 6), mass = normal(70, 5, 50, 90),\n"
-             "  horizon = uniform(0.3, 0.6), speed = uniform(1, 2) }, states = {\n"
-             "  A = { steer = hold, max_speed = uniform(2, 3), push = own.perception + 100 * "
-             "own.horizon } } }\n";
-    JoScene *scene = load_scene_text(PEOPLE(40), BEFORE);
+        MACHINE_START "\"A\", defaults = { speed = uniform(1, 2), horizon = uniform(0.3, 0.6) },\n"
+                      "  states = { A = { steer = hold, push = 100 * own.horizon } } }\n";
+    static const char AFTER[] = MACHINE_START
+        "\"A\", defaults = { perception = uniform(5, 6), mass = normal(70, 5, 50, 90),\n"
+        "  horizon = uniform(0.3, 0.6), speed = uniform(1, 2) }, states = {\n"
+        "  A = { steer = hold, max_speed = uniform(2, 3), push = own.perception + 100 * "
+        "own.horizon } } }\n";
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(40), BEFORE);
     step_scene(scene, 2);
     double speed[40], push[40];
     const JoxAgents *a = &scene->world->state.agents;
@@ -210,13 +210,14 @@ static void own_values_are_kept_by_name(void **state) {
 /* An own value that has another index in the next version, and a value from the scene. */
 static void values_at_another_index_are_kept(void **state) {
     (void)state;
-#define ZEAL(more) HEAD "\"A\", states = { A = { steer = hold, " more "push = 10 * own.zeal } } }\n"
+#define ZEAL(more)                                                                                 \
+    MACHINE_START "\"A\", states = { A = { steer = hold, " more "push = 10 * own.zeal } } }\n"
     static const char *const TEXTS[] = {ZEAL("mass = 50 + own.zest, speed = own.pace, "), ZEAL(""),
                                         ZEAL("speed = own.pace, radius = uniform(0.2, 0.25), ")};
-    JoScene *scene =
-        load_scene_text(SCENE("groups: {people: {behaviour: own.lua, count: 40, fill: grid, "
-                              "in: yard, set: {zeal: \"uniform(1, 5)\", zest: 3, pace: 1}}}\n"),
-                        TEXTS[0]);
+    JoScene *scene = load_scene_text(
+        YARD_SCENE("groups: {people: {behaviour: own.lua, count: 40, fill: grid, "
+                   "in: yard, set: {zeal: \"uniform(1, 5)\", zest: 3, pace: 1}}}\n"),
+        TEXTS[0]);
     const JoxAgents *a = &scene->world->state.agents;
     double push[40];
     step_scene(scene, 2);
@@ -250,10 +251,10 @@ static void values_at_another_index_are_kept(void **state) {
 static void condition_that_stays_true_rolls_no_new_chance(void **state) {
     (void)state;
 #define ROLL(before)                                                                               \
-    HEAD "\"A\", states = { A = { steer = hold, " before                                           \
-         "{ to = \"B\", when = after(0.1), chance = 0.5 } }, B = { steer = hold }, "               \
-         "C = { steer = hold } } }\n"
-    JoScene *scene = load_scene_text(PEOPLE(200), ROLL(""));
+    MACHINE_START "\"A\", states = { A = { steer = hold, " before                                  \
+                  "{ to = \"B\", when = after(0.1), chance = 0.5 } }, B = { steer = hold }, "      \
+                  "C = { steer = hold } } }\n"
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(200), ROLL(""));
     step_scene(scene, 8);
     uint32_t people[3];
     jox_machines_people(&scene->world->machines, 0, people);
@@ -276,11 +277,12 @@ static void condition_that_stays_true_rolls_no_new_chance(void **state) {
  */
 static void removed_parameter_falls_back_to_its_default(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(PEOPLE(5), FAST("1.5", ", push = 80, ignore = {}"));
+    JoScene *scene =
+        load_scene_text(YARD_WITH_PEOPLE(5), STANDING_AT_SPEED("1.5", ", push = 80, ignore = {}"));
     step_scene(scene, 2);
     float push = jox_parameter_store(JOX_PARAM_push, jox_parameters[JOX_PARAM_push].value);
     assert_true(jox_param(&scene->world->state.agents, JOX_PARAM_push, 2) == 80.0f);
-    assert_true(reload_behaviour(scene, 0, FAST("1.5", "")));
+    assert_true(reload_behaviour(scene, 0, STANDING_AT_SPEED("1.5", "")));
     assert_true(jox_param(&scene->world->state.agents, JOX_PARAM_push, 2) == push);
     jo_scene_free(scene);
 }

@@ -8,8 +8,8 @@
     "[folk]}}\n"
 /* A machine whose agents change state and run an action on a condition. */
 #define TURNS(when, set)                                                                           \
-    HEAD "\"A\", states = { A = { steer = hold, { to = \"B\", when = " when ", set = { " set       \
-         " } } }, B = { steer = hold } } }\n"
+    MACHINE_START "\"A\", states = { A = { steer = hold, { to = \"B\", when = " when               \
+                  ", set = { " set " } } }, B = { steer = hold } } }\n"
 
 /* Reloads the behaviour as a run does for its watch or input log. */
 static bool swap_behaviour(JoScene *scene, const char *text, JoError *error) {
@@ -127,10 +127,10 @@ static void run_with_new_tags_resumes_exactly(void **state) {
 
 #define LAPS "local mine = memory { laps = 0, met = false }\n"
 #define COUNTING                                                                                   \
-    LAPS HEAD                                                                                      \
+    LAPS MACHINE_START                                                                             \
         "\"A\", own = { luck = uniform(0, 1) }, states = { A = { steer = hold, "                   \
         "{ to = \"A\", when = after(0.1), set = { laps = mine.laps + 1, met = true } } } } }\n"
-#define RESTING HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define RESTING MACHINE_START "\"A\", states = { A = { steer = hold } } }\n"
 
 static double read_named_memory(const JoScene *scene, uint32_t agent, const char *name) {
     const JoxMachine *m = scene->world->machines.set->items[0];
@@ -156,7 +156,7 @@ static void memory_that_a_version_lacks_is_kept_and_reported(void **state) {
     assert_non_null(strstr(scene_messages.data, "memory 'laps' of 2 people is kept until"));
     assert_true(read_named_memory(scene, 1, "laps") == -1.0);
     step_scene(scene, 5);
-    swap_behaviour_live(scene, FAST("1", ""));
+    swap_behaviour_live(scene, STANDING_AT_SPEED("1", ""));
     assert_null(strstr(scene_messages.data, "laps")); /* reported once */
     step_scene(scene, 5);
     swap_behaviour_live(scene, COUNTING);
@@ -246,7 +246,7 @@ static void oldest_of_too_many_kept_names_is_dropped_and_reported(void **state) 
 }
 
 /* A version with the given memory and keys. */
-#define NAMES(memory, keys) "memory { " memory " }\n" HEAD "\"A\", " keys STEER_ALONE
+#define NAMES(memory, keys) "memory { " memory " }\n" MACHINE_START "\"A\", " keys STEER_ALONE
 #define STEER_ALONE "states = { A = { steer = hold } } }\n"
 
 static void restored_memory_is_not_reported_as_new(void **state) {

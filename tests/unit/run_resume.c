@@ -8,7 +8,8 @@
     "jostle: 1\nwalls: [{line: [[0, -2], [9, -2]]}]\n"                                             \
     "groups: {people: {behaviour: own.lua, at: [[0, 0], [1, 0.1], [2, -0.3], [3, 0.2]]}}\n"
 #define WALK                                                                                       \
-    HEAD "\"A\", states = { A = { steer = drift(1, 0), { to = \"A\", when = after(1) } } } }\n"
+    MACHINE_START                                                                                  \
+        "\"A\", states = { A = { steer = drift(1, 0), { to = \"A\", when = after(1) } } } }\n"
 
 static char latest[400], target[320];
 

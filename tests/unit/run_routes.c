@@ -16,10 +16,11 @@
 #define BLOCK                                                                                      \
     "bodies: [{name: block, shape: {box: {size: [1, 1.9, 1]}}, mass: 3000, at: [6, 3, 0.5]}]\n"
 #define GATE "  - {line: [[6, 2], [6, 4]], name: gate}\n"
-#define GOES HEAD "\"Go\", states = { Go = { steer = field \"goal\" } } }\n"
+#define GOES MACHINE_START "\"Go\", states = { Go = { steer = field \"goal\" } } }\n"
 #define WAITS                                                                                      \
-    HEAD "\"Wait\", states = { Wait = { steer = hold, { to = \"Go\", when = after(1) } },\n"       \
-         "Go = { steer = field \"goal\" } } }\n"
+    MACHINE_START                                                                                  \
+        "\"Wait\", states = { Wait = { steer = hold, { to = \"Go\", when = after(1) } },\n"        \
+        "Go = { steer = field \"goal\" } } }\n"
 
 enum { DELAY = 10 }; /* steps of 0.05 s: half a second */
 
@@ -110,9 +111,10 @@ static void route_follows_a_gate(void **state) {
 /* Only routes that agents still use are renewed. */
 static void unused_route_is_not_renewed(void **state) {
     (void)state;
-    JoScene *scene = load_scene_text(
-        COURT(GATE, ""), HEAD "\"Go\", states = { Go = { steer = field \"goal\", { to = \"Rest\", "
-                              "when = after(0.2) } }, Rest = { steer = hold } } }\n");
+    JoScene *scene =
+        load_scene_text(COURT(GATE, ""), MACHINE_START
+                        "\"Go\", states = { Go = { steer = field \"goal\", { to = \"Rest\", "
+                        "when = after(0.2) } }, Rest = { steer = hold } } }\n");
     step_scene(scene, 20);
     const JoxField *first = find_route_field(scene);
     assert_true(jo_scene_open_wall(scene, "gate", true, NULL));

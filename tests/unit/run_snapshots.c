@@ -25,7 +25,7 @@ enum { BEFORE = 130, AFTER = 120 };
     "  - {line: [[6, 2], [6, 4]], name: gate}\n"                                                   \
     "groups: {people: {behaviour: own.lua, count: 60, fill: random, in: square}}\n"
 #define TOWNSFOLK(wait)                                                                            \
-    "local mine = memory { turns = 0, waited = false }\n" HEAD "\"Come\",\n"                       \
+    "local mine = memory { turns = 0, waited = false }\n" MACHINE_START "\"Come\",\n"              \
     "  defaults = { speed = normal(1.3, 0.2), push = uniform(0, 60), perception = 3 },\n"          \
     "  states = {\n"                                                                               \
     "  Come = { steer = field \"goal\", lasts = normal(2, 0.6),\n"                                 \
@@ -185,7 +185,7 @@ static void another_world_takes_over_the_state(void **state) {
     "events: [{at: 7, open: gate}, {at: 8, every: 1.5, throw: ball, from: [12, 4, 2],"             \
     " velocity: [-9, 1, 0]}, {at: 9, signal: press}]\n"
 #define YARDFOLK                                                                                   \
-    "local ball = nearest \"ball\"\n" HEAD                                                         \
+    "local ball = nearest \"ball\"\n" MACHINE_START                                                \
     "\"Walk\", defaults = { speed = normal(1.2, 0.2), perception = 3 }, states = {\n"              \
     "  Walk = { steer = field \"goal\" + 0.1 * together(1), push = 150, take = ball,\n"            \
     "    { to = \"Aim\", when = has(ball) },\n"                                                    \
@@ -342,7 +342,7 @@ static void state_of_another_model_is_refused(void **state) {
     damaged.length = 100;
     expect_refused(scene, &damaged, "damaged");
     jo_scene_free(scene);
-    scene = load_scene_text(TOWN, HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    scene = load_scene_text(TOWN, MACHINE_START "\"A\", states = { A = { steer = hold } } }\n");
     expect_refused(scene, &saved, "machines.m: it has changed");
     jo_scene_free(scene);
     scene = load_scene_text(TOWN "seed: 9\n", TOWNSFOLK("1"));

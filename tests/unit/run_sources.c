@@ -3,7 +3,7 @@
 #include "run/results/demand.h"
 #include "unit/gate_ball_scene.h"
 
-#define STANDER HEAD "\"Stand\", states = { Stand = { steer = hold } } }\n"
+#define STANDER MACHINE_START "\"Stand\", states = { Stand = { steer = hold } } }\n"
 #define SOURCE(walls, place, more)                                                                 \
     "jostle: 1\nwalls: [" walls "]\nplaces: {door: {" place "}}\n"                                 \
     "groups: {people: {behaviour: own.lua, count: 0}}\n"                                           \

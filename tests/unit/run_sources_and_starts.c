@@ -32,9 +32,10 @@
     "bodies: [{name: crate, shape: {box: {size: [0.6, 0.6, 0.6]}}, mass: 15, at: [10, 5, 0.3]}]\n"
 #define THROW "  - {at: 8, throw: crate, from: [11, 5, 2], velocity: [-4, 0, 1]}\n"
 #define WALKER_TO                                                                                  \
-    HEAD "\"Walk\", states = {\n"                                                                  \
-         "  Walk = { steer = seek(own.goal), { to = \"Run\", when = heard \"hurry\" } },\n"        \
-         "  Run = { steer = seek(own.goal), speed = 2 } } }\n"
+    MACHINE_START                                                                                  \
+        "\"Walk\", states = {\n"                                                                   \
+        "  Walk = { steer = seek(own.goal), { to = \"Run\", when = heard \"hurry\" } },\n"         \
+        "  Run = { steer = seek(own.goal), speed = 2 } } }\n"
 
 enum { SAVED = JOX_BODIES_REINSERT_STEPS, AFTER = 200 };
 
@@ -142,7 +143,7 @@ static void counts_of_sources_are_hashed(void **state) {
     "places: {yard: {" shape "}}\n"                                                                \
     "groups: {people: {behaviour: own.lua, count: 0, in: yard}}\n"                                 \
     "sources: [{at: yard, like: people, rate: 400}]\n"
-#define STANDER HEAD "\"Stand\", states = { Stand = { steer = hold } } }\n"
+#define STANDER MACHINE_START "\"Stand\", states = { Stand = { steer = hold } } }\n"
 
 /* An agent without room waits, and comes in once others have left. */
 static void expect_waiting(const char *yaml, uint32_t most) {
@@ -178,9 +179,9 @@ static void source_waits_while_its_place_is_full(void **state) {
     "places: {far: {point: [50, 0], radius: 1}}\n"                                                 \
     "groups: {people: {behaviour: own.lua, starts: " rows ", set: {goal: far}}}\n"
 #define STAND                                                                                      \
-    HEAD "\"Stand\", states = {\n"                                                                 \
-         "  Stand = { steer = hold, { to = \"Go\", when = heard \"go\" } },\n"                     \
-         "  Go = { steer = seek(own.goal) } } }\n"
+    MACHINE_START "\"Stand\", states = {\n"                                                        \
+                  "  Stand = { steer = hold, { to = \"Go\", when = heard \"go\" } },\n"            \
+                  "  Go = { steer = seek(own.goal) } } }\n"
 
 static bool stands_at(const JoWorld *w, uint32_t i, float x, float y) {
     return fabsf(w->state.agents.x[i] - x) < 1e-6f && fabsf(w->state.agents.y[i] - y) < 1e-6f;

@@ -3,7 +3,7 @@
 
 #include "unit/scene_loader.h"
 
-#define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define STAY MACHINE_START "\"A\", states = { A = { steer = hold } } }\n"
 #define EVENTS(list)                                                                               \
     "jostle: 1\ngroups: {people: {behaviour: own.lua, at: [[0, 0]]}}\nevents:\n" list
 

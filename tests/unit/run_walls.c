@@ -6,10 +6,11 @@
 #include "geom/wall_way.h"
 #include "unit/gate_ball_scene.h"
 
-#define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define STAY MACHINE_START "\"A\", states = { A = { steer = hold } } }\n"
 #define SEEK                                                                                       \
-    HEAD "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = seek(own.goal), push = 500 " \
-         "} }, own = { goal = \"out\" } }\n"
+    MACHINE_START                                                                                  \
+        "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = seek(own.goal), push = 500 "  \
+        "} }, own = { goal = \"out\" } }\n"
 
 static const JoxStatistics *counted(const JoWorld *world) {
     return &world->state.statistics;

@@ -119,21 +119,25 @@ static inline bool reload_behaviour(JoScene *scene, uint32_t index, const char *
     return replace_behaviour_text(scene, index, text, strlen(text));
 }
 
-#define SCENE(groups)                                                                              \
+/* Text of a scene with a yard of 40 x 40 m; the same with people of own.lua on a grid; and the text
+   of a behaviour up to the name of its start state. */
+#define YARD_SCENE(groups)                                                                         \
     "jostle: 1\n"                                                                                  \
     "places: {yard: {polygon: [[0, 0], [40, 0], [40, 40], [0, 40]]}}\n" groups
-#define PEOPLE(count)                                                                              \
-    SCENE("groups: {people: {behaviour: own.lua, count: " #count ", fill: grid, in: yard}}\n")
-#define HEAD "return machine { name = \"m\", start = "
+#define YARD_WITH_PEOPLE(count)                                                                    \
+    YARD_SCENE("groups: {people: {behaviour: own.lua, count: " #count ", fill: grid, in: "         \
+                                                                      "yard}}\n")
+#define MACHINE_START "return machine { name = \"m\", start = "
 
 /* Wanted speed of the agent at an index, m/s. */
 static inline double read_wanted_speed(const JoScene *scene, uint32_t agent) {
     return (double)jox_param(&scene->world->state.agents, JOX_PARAM_speed, agent);
 }
 
-/* Behaviour of one state with a wanted speed and further members `more`. */
-#define FAST(speed, more)                                                                          \
-    HEAD "\"A\", defaults = { speed = " speed " }, states = { A = { steer = hold" more " } } }\n"
+/* Behaviour with one state that stands; its wanted speed, and more keys of the state. */
+#define STANDING_AT_SPEED(speed, more)                                                             \
+    MACHINE_START "\"A\", defaults = { speed = " speed " }, states = { A = { steer = hold" more    \
+                  " } } }\n"
 
 /* Teardown of tests that load scenes. */
 static inline int remove_scene_folder(void **state) {
