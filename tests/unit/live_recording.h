@@ -45,9 +45,9 @@ static char path[300];
     "sinks: [{at: gone}]\n"
 #define WALKERS                                                                                    \
     MACHINE_START                                                                                  \
-        "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3), lasts = uniform(1, "  \
-        "3), { to = \"B\", when = lasted } }, B = { steer = hold, lasts = 1, { to = \"A\", when "  \
-        "= lasted } } } }\n"
+    "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3), lasts = uniform(1, "      \
+    "3), { to = \"B\", when = lasted } }, B = { steer = hold, lasts = 1, { to = \"A\", when "      \
+    "= lasted } } } }\n"
 
 static inline void note_frame(const JoScene *scene) {
     const JoWorld *world = scene->world;

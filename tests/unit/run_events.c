@@ -113,9 +113,9 @@ static void unheard_signals_are_warned_of(void **state) {
 
 #define WALK                                                                                       \
     MACHINE_START                                                                                  \
-        "\"A\", defaults = { speed = 1.3, max_speed = 1.5 }, states = { A = { steer = drift(1, "   \
-        "0) "                                                                                      \
-        "} } }\n"
+    "\"A\", defaults = { speed = 1.3, max_speed = 1.5 }, states = { A = { steer = drift(1, "       \
+    "0) "                                                                                          \
+    "} } }\n"
 
 static void closed_gate_is_not_passed(void **state) {
     (void)state;

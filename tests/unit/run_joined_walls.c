@@ -233,7 +233,7 @@ static void people_beyond_a_wall_at_joined_edges_do_not_count_in_densities(void 
     "groups: {people: {behaviour: own.lua, at: [" at "], set: {goal: goal}}}\n"
 #define WALK                                                                                       \
     MACHINE_START                                                                                  \
-        "\"A\", states = { A = { steer = field(own.goal) } }, own = { goal = \"goal\" } }\n"
+    "\"A\", states = { A = { steer = field(own.goal) } }, own = { goal = \"goal\" } }\n"
 
 static void routes_cross_joined_edges_where_that_is_shorter(void **state) {
     static const struct {

@@ -9,7 +9,7 @@
     "groups: {people: {behaviour: own.lua, at: [[0, 0], [1, 0.1], [2, -0.3], [3, 0.2]]}}\n"
 #define WALK                                                                                       \
     MACHINE_START                                                                                  \
-        "\"A\", states = { A = { steer = drift(1, 0), { to = \"A\", when = after(1) } } } }\n"
+    "\"A\", states = { A = { steer = drift(1, 0), { to = \"A\", when = after(1) } } } }\n"
 
 static char latest[400], target[320];
 

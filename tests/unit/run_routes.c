@@ -19,8 +19,8 @@
 #define GOES MACHINE_START "\"Go\", states = { Go = { steer = field \"goal\" } } }\n"
 #define WAITS                                                                                      \
     MACHINE_START                                                                                  \
-        "\"Wait\", states = { Wait = { steer = hold, { to = \"Go\", when = after(1) } },\n"        \
-        "Go = { steer = field \"goal\" } } }\n"
+    "\"Wait\", states = { Wait = { steer = hold, { to = \"Go\", when = after(1) } },\n"            \
+    "Go = { steer = field \"goal\" } } }\n"
 
 enum { DELAY = 10 }; /* steps of 0.05 s: half a second */
 

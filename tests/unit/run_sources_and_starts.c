@@ -33,9 +33,9 @@
 #define THROW "  - {at: 8, throw: crate, from: [11, 5, 2], velocity: [-4, 0, 1]}\n"
 #define WALKER_TO                                                                                  \
     MACHINE_START                                                                                  \
-        "\"Walk\", states = {\n"                                                                   \
-        "  Walk = { steer = seek(own.goal), { to = \"Run\", when = heard \"hurry\" } },\n"         \
-        "  Run = { steer = seek(own.goal), speed = 2 } } }\n"
+    "\"Walk\", states = {\n"                                                                       \
+    "  Walk = { steer = seek(own.goal), { to = \"Run\", when = heard \"hurry\" } },\n"             \
+    "  Run = { steer = seek(own.goal), speed = 2 } } }\n"
 
 enum { SAVED = JOX_BODIES_REINSERT_STEPS, AFTER = 200 };
 

@@ -9,8 +9,8 @@
 #define STAY MACHINE_START "\"A\", states = { A = { steer = hold } } }\n"
 #define SEEK                                                                                       \
     MACHINE_START                                                                                  \
-        "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = seek(own.goal), push = 500 "  \
-        "} }, own = { goal = \"out\" } }\n"
+    "\"A\", defaults = { speed = 1.3 }, states = { A = { steer = seek(own.goal), push = 500 "      \
+    "} }, own = { goal = \"out\" } }\n"
 
 static const JoxStatistics *counted(const JoWorld *world) {
     return &world->state.statistics;

@@ -126,7 +126,7 @@ static inline bool reload_behaviour(JoScene *scene, uint32_t index, const char *
     "places: {yard: {polygon: [[0, 0], [40, 0], [40, 40], [0, 40]]}}\n" groups
 #define YARD_WITH_PEOPLE(count)                                                                    \
     YARD_SCENE("groups: {people: {behaviour: own.lua, count: " #count ", fill: grid, in: "         \
-                                                                      "yard}}\n")
+               "yard}}\n")
 #define MACHINE_START "return machine { name = \"m\", start = "
 
 /* Wanted speed of the agent at an index, m/s. */
