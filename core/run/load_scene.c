@@ -107,7 +107,7 @@ static int32_t find_breaking_mod(const JoSceneDef *def, uint64_t without) {
         }
         leave_scene_overlay(scene, before);
         bool fails = count >= all || now.errors > 0;
-        int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->number[count - 1] : -1;
+        int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->found_index[count - 1] : -1;
         jox_diag_free(&ignored);
         jox_diag_free(&now);
         discard_scene(scene);
@@ -151,9 +151,9 @@ static void leave_out_mod(const JoSceneDef *def, uint64_t without, int32_t culpr
     const JoxMod *mod = &before->found[culprit];
     char others[256] = "";
     for (uint32_t b = 0; b < before->count; b++) { /* mods that need it are left out too */
-        bool stays = before->number[b] == (uint32_t)culprit;
+        bool stays = before->found_index[b] == (uint32_t)culprit;
         for (uint32_t a = 0; a < after->count; a++)
-            stays |= after->number[a] == before->number[b];
+            stays |= after->found_index[a] == before->found_index[b];
         if (!stays && strlen(others) < 180)
             snprintf(others + strlen(others), 64, ", and %s, which needs it",
                      before->items[b].name);

@@ -111,7 +111,7 @@ JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnosti
             for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
                 if (mods->items[m].patches[p].lua &&
                     !find_patch_target(&mods->items[m].patches[p], &targets))
-                    broken |= (uint64_t)1 << mods->number[m];
+                    broken |= (uint64_t)1 << mods->found_index[m];
         if (!broken) {
             jox_diag_move(diagnostics, &found);
             jox_diag_move(diagnostics, &targets);

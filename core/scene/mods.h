@@ -21,7 +21,7 @@ typedef struct JoxMods {
     uint32_t count;
     JoxMod *found; /* all mods found; `items` are copies that share their texts */
     uint32_t found_count;
-    uint32_t *number;        /* index in `found` of each of `items` */
+    uint32_t *found_index;   /* index in `found` of each of `items` */
     struct JoxArena *memory; /* owns all of this */
 } JoxMods;
 

@@ -169,7 +169,7 @@ static bool write_enabled_list(const JoxText *list, JoxText *error) {
     return good;
 }
 
-bool jox_mods_enable(const char *name, const char *folder, bool on, JoxText *error) {
+bool jox_mods_set_enabled(const char *name, const char *folder, bool on, JoxText *error) {
     char hash[HASH + 1] = "", room[PATH_MAX], *list = jox_mods_read_enabled();
     const char *real = realpath(folder, room);
     JoxText out = {0};

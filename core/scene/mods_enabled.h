@@ -16,6 +16,6 @@ char *jox_mods_read_enabled(void);
    whatever the folder. Changed: a line has its name and its folder, but another hash. */
 JoxModSwitch jox_mods_look_up_enabled(const char *list, const char *name, const char *folder);
 /* Enables or disables a mod, in the file. False with a sentence in `error`. */
-bool jox_mods_enable(const char *name, const char *folder, bool on, JoxText *error);
+bool jox_mods_set_enabled(const char *name, const char *folder, bool on, JoxText *error);
 
 #endif

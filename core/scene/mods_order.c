@@ -161,10 +161,10 @@ static void sort_mods(JoxModsFind *f) {
         list[at] = m;
     }
     mods->items = jox_arena_take(f->reader.arena, count + 1, sizeof *mods->items);
-    mods->number = jox_arena_take(f->reader.arena, count + 1, sizeof *mods->number);
+    mods->found_index = jox_arena_take(f->reader.arena, count + 1, sizeof *mods->found_index);
     mods->count = count;
     for (uint32_t k = 0; k < count; k++) {
-        mods->number[k] = list[k];
+        mods->found_index[k] = list[k];
         mods->items[k] = mods->found[list[k]];
         for (uint32_t o = 0; o < k; o++)
             if (f->needs[list[k]].before >> list[o] & 1)

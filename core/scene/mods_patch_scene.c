@@ -55,7 +55,7 @@ static JoxPosition find_change_position(void *c, const JoxPatchPlace *at) {
 static void set_node_value(void *c, void *map, const char *key, const JoxPatchPlace *at,
                            void *value) {
     if (at)
-        jox_yaml_put(get_arena(c), map, key, find_change_position(c, at), value);
+        jox_yaml_set_at(get_arena(c), map, key, find_change_position(c, at), value);
     else
         jox_yaml_set(get_arena(c), map, key, value);
 }

@@ -72,7 +72,7 @@ JoMods *jo_mods_list(const JoSceneDef *def) {
     for (uint32_t f = 0; f < mods->found_count; f++) {
         bool taken = false;
         for (uint32_t m = 0; m < mods->count; m++)
-            taken |= mods->number[m] == f;
+            taken |= mods->found_index[m] == f;
         if (!taken)
             add_listed_mod(&pack, &mods->found[f], false);
     }
@@ -105,7 +105,7 @@ static bool switch_mod(const char *scene, const char *mod, bool on, bool *found,
             one = candidate;
     }
     *found = one != NULL;
-    const bool good = one && jox_mods_enable(one->name, one->folder, on, &why);
+    const bool good = one && jox_mods_set_enabled(one->name, one->folder, on, &why);
     if (one && !good)
         jox_error(error, JO_FAILED, "%s", why.data);
     else if (folder && !one) /* its mod.yaml is wrong */

@@ -63,7 +63,8 @@ const char *jox_yaml_name(const JoxYaml *node);
 /* Sets `map[key]`, which may be new. */
 void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value);
 /* Sets `map[key]` and the key's position. */
-void jox_yaml_put(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value);
+void jox_yaml_set_at(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at,
+                     JoxYaml *value);
 void jox_yaml_remove(JoxYaml *map, const char *key);
 void jox_yaml_append(JoxArena *arena, JoxYaml *list, JoxYaml *item);
 /* Adds a key that the map does not have, or an item of a list (then `key` and `at` are ignored). */

@@ -119,7 +119,8 @@ void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value
     jox_yaml_add(arena, map, jox_arena_text(arena, key), value->position, value);
 }
 
-void jox_yaml_put(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value) {
+void jox_yaml_set_at(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at,
+                     JoxYaml *value) {
     JOX_ASSERT(map->kind == JOX_YAML_MAP && value);
     jox_yaml_set(arena, map, key, value);
     for (uint32_t i = 0; i < map->count; i++)
