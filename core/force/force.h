@@ -2,7 +2,7 @@
    world/step.c calls the stages in this order: begin, push, contact, sum, (solve and move of nav),
    infer. Each stage reads the agents and writes columns of its own; forces between agents are
    collected, then summed by the receiver in ascending id of the giver, so that neither threads nor
-   the order in memory change a bit. */
+   the order in memory change a bit. The stages are in the rooms below this folder (README.md). */
 #ifndef JOX_FORCE_FORCE_H
 #define JOX_FORCE_FORCE_H
 
@@ -29,7 +29,7 @@ typedef struct JoxForceOptions {
     float least;         /* m/s2: least |f|/m that makes a half-plane */
 } JoxForceOptions;
 
-/* What else begin is given. All may be zero. It must stay valid from begin to infer. */
+/* Further inputs of a step, for begin. All may be zero. It must stay valid from begin to infer. */
 typedef struct JoxForceInputs {
     const JoxWallGrid *walls; /* grid that jox_nav_touching_walls returns; NULL: no walls */
     const float *unhidden2;   /* m2, until agents move: no wall hides neighbours nearer than this;
@@ -57,6 +57,9 @@ typedef struct JoxForceTotals {
 } JoxForceTotals;
 
 JoxForceOptions jox_force_default_options(void);
+/* Makes the forces of one world, with `options` or, at NULL, the default ones. They own the memory
+   of all stages, except what jox_forces_set_memory lends; it grows to its peak and stays until
+   jox_forces_free. */
 JoxForces *jox_forces_create(const JoxForceOptions *options);
 void jox_forces_free(JoxForces *forces);
 void jox_forces_set_options(JoxForces *forces, const JoxForceOptions *options);

@@ -1,8 +1,6 @@
 /* Collects forces between agents by chunk, sorts them by receiver, and sums them. */
 #include "base/assert.h"
 #include "base/mem.h"
-#include "base/sort.h"
-#include "force/equations.h"
 #include "force/forces.h"
 
 /* Length of a run, in which the list of a chunk is split. The first runs of all chunks are stored

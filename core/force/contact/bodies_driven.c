@@ -4,7 +4,6 @@
    one that nothing resists moves as driven. */
 #include <math.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 #include "force/support/supports.h"

@@ -1,5 +1,4 @@
 /* Finds contacts of agents with bodies ("touches"), chunk by chunk, and sorts them. */
-#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
 #include "force/contact/contacts.h"
 #include "force/push/pushes.h"
 #include "simd/four.h"

@@ -2,7 +2,6 @@
    run's instruction set, chunk by chunk. */
 #include <string.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 

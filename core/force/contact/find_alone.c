@@ -1,7 +1,6 @@
 /* Contacts of one agent, in plain C: with agents, where its neighbour list does not cover touch
-   range (contact_find_lanes.h at width 1), and with walls. */
+   range (find_lanes.h at width 1), and with walls. */
 #define JOX_ISA_scalar
-#include <math.h>
 
 #include "base/assert.h"
 #include "force/contact/find_lanes.h"

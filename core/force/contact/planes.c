@@ -2,13 +2,10 @@
    step. Along the normal, two agents in contact may move as their mean does, so that neither plans
    to move into the other. An agent that is pushed may brake with its feet; an agent that follows a
    receding one need not. */
-#include <math.h>
 #include <string.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
-#include "force/equations.h"
 
 /* m/s: residuals of the contact solve must not make planes contradict each other */
 static const float SLACK = 1e-3f;

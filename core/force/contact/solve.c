@@ -5,7 +5,6 @@
    in memory change a bit. */
 #include <math.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 

@@ -1,6 +1,4 @@
 /* The stage push, equation 5: deliberate pushes on agents and bodies ahead. */
-#include <math.h>
-
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/push/pushes.h"

@@ -1,6 +1,5 @@
 /* Creates, frees and configures the stages of force; begins a step; lists what outlasts it. */
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"

@@ -2,7 +2,6 @@
    has the part along the force that (11) gives; the step goes the share `response` of the way from
    the forced velocity to the planned one. Lanes behind the last agent hold meaningless numbers.
    tests/unit/force_one.h has the same for one agent, equal to the bit. */
-#include "base/assert.h"
 #include "force/stages/kernels.h"
 #include "force/terms_lanes.h"
 
