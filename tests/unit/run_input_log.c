@@ -23,7 +23,7 @@ static void assert_input_refused(JoScene *scene, const char *line, const char *b
     assert_true(before == jo_world_hash(scene->world));
 }
 
-static char *read_input_log(const char *path) {
+static char *read_log_text(const char *path) {
     char *text = jox_read_file(path, 1 << 24, NULL);
     assert_non_null(text);
     return text;
@@ -78,7 +78,7 @@ static void logged_session_plays_back_to_the_same_state(void **state) {
         assert_true(jo_world_hash(replay->world) == hash);
         jo_scene_free(replay);
     }
-    char *one = read_input_log(first), *two = read_input_log(second);
+    char *one = read_log_text(first), *two = read_log_text(second);
     assert_string_equal(one, two);
     assert_non_null(strstr(one, "# input log of jostle "));
     assert_non_null(strstr(one, "3 push 1 250 -40.5\n3 set m Walk speed 0.9\n5 open gate\n"));
@@ -118,7 +118,7 @@ static void refused_inputs_are_not_logged(void **state) {
     }
     assert_false(jo_scene_signal(scene, "a\nb", &error));
     jo_scene_free(scene);
-    char *text = read_input_log(path);
+    char *text = read_log_text(path);
     assert_null(strstr(text, "\n1 ")); /* it only lists the files of the scene */
     assert_non_null(strstr(text, "\n0 began 1 0.05\n0 made "));
     jox_free(text);

@@ -27,7 +27,7 @@ static double draw_magnitude(Mix *m, double low, double high) {
     return exp(draw_uniform_number(m, log(low), log(high)));
 }
 
-static bool draw_chance(Mix *m, double share) {
+static bool draw_outcome(Mix *m, double share) {
     return draw_uniform_number(m, 0.0, 1.0) < share;
 }
 
@@ -36,7 +36,7 @@ static bool draw_chance(Mix *m, double share) {
 /* Draws a speed along an axis, m/s: mostly up to that of throws and vehicles, sometimes the
  * greatest. */
 static double draw_speed(Mix *m) {
-    const double most = draw_chance(m, 0.2) ? 100.0 : draw_chance(m, 0.5) ? 10.0 : 1.0;
+    const double most = draw_outcome(m, 0.2) ? 100.0 : draw_outcome(m, 0.5) ? 10.0 : 1.0;
     return draw_uniform_number(m, -most, most);
 }
 
@@ -99,7 +99,7 @@ static void write_driven(Mix *m) {
     add_drawn_number(m, "[%.3f, ", draw_uniform_number(m, -4.0, 4.0));
     add_drawn_number(m, "%.3f, 1], [0, 0, 1]], end: round, ", draw_uniform_number(m, -4.0, 4.0));
     add_drawn_number(m, "speed: %.4g, ", draw_magnitude(m, 1e-2, 100.0));
-    jox_text_printf(&m->yaml, "reopens: %s}", draw_chance(m, 0.3) ? "true" : "false");
+    jox_text_printf(&m->yaml, "reopens: %s}", draw_outcome(m, 0.3) ? "true" : "false");
 }
 
 static void write_free(Mix *m) {
@@ -119,8 +119,8 @@ static void write_body(Mix *m, int cell) {
     write_shape(m, draw_magnitude(m, 0.041, 0.6));
     add_drawn_number(m, ", friction: %.3g", draw_uniform_number(m, 0.0, 3.0));
     add_drawn_number(m, ", restitution: %.3g",
-                     draw_chance(m, 0.5) ? 0.0 : draw_uniform_number(m, 0.0, 1.0));
-    if (draw_chance(m, 0.2))
+                     draw_outcome(m, 0.5) ? 0.0 : draw_uniform_number(m, 0.0, 1.0));
+    if (draw_outcome(m, 0.2))
         write_driven(m);
     else
         write_free(m);
@@ -179,7 +179,7 @@ static void add_heavy_bodies(Mix *m, JoWorld *world) {
         for (int k = 0; k < 3; k++)
             def.size[k] = draw_magnitude(m, 0.02, 0.8);
         def.mass =
-            draw_chance(m, 0.5) ? draw_magnitude(m, 1e7, 1e9) : draw_magnitude(m, 1e-9, 1e-3);
+            draw_outcome(m, 0.5) ? draw_magnitude(m, 1e7, 1e9) : draw_magnitude(m, 1e-9, 1e-3);
         def.x = 2.0 * n - 3.0;
         def.y = n % 2 ? 4.2 : -4.2;
         def.z = 0.5;

@@ -36,7 +36,7 @@ static double draw_number(Passage *p, double low, double high) {
     return low + (high - low) * jox_random_unit(p->number, p->drawn++, 0, JOX_DRAW_FILL, 0);
 }
 
-static bool roll_chance(Passage *p, double share) {
+static bool draw_whether(Passage *p, double share) {
     return draw_number(p, 0.0, 1.0) < share;
 }
 
@@ -45,10 +45,10 @@ static bool roll_chance(Passage *p, double share) {
 /* Adds a thin wall of two or three points, or a solid quadrangle. */
 static void add_random_wall(Passage *p, const char *more) {
     const double x = draw_number(p, 3.5, 11.0), y = draw_number(p, 0.5, 7.5);
-    if (roll_chance(p, 0.6)) {
+    if (draw_whether(p, 0.6)) {
         jox_text_printf(&p->yaml, "  - {line: [[%.3f, %.3f], [%.3f, %.3f]", x, y,
                         draw_number(p, 3.2, 11.8), draw_number(p, 0.0, 8.0));
-        if (roll_chance(p, 0.5))
+        if (draw_whether(p, 0.5))
             jox_text_printf(&p->yaml, ", [%.3f, %.3f]", draw_number(p, 3.2, 11.8),
                             draw_number(p, 0.0, 8.0));
         jox_text_printf(&p->yaml, "]%s}\n", more);
@@ -64,7 +64,7 @@ static void add_random_wall(Passage *p, const char *more) {
 /* Adds a line or solid at a joined edge or across it. */
 static void add_wall_at_edges(Passage *p, bool x, const char *more) {
     static const double OFF[] = {0.0, 0.0, 0.2, -0.4};
-    const double edge = (x ? SIZE.x : SIZE.y) * (roll_chance(p, 0.5) ? 1.0 : 0.0);
+    const double edge = (x ? SIZE.x : SIZE.y) * (draw_whether(p, 0.5) ? 1.0 : 0.0);
     const double from = edge + OFF[(int)draw_number(p, 0.0, 4.0)], other = x ? SIZE.y : SIZE.x;
     const double a = draw_number(p, 0.0, other), b = draw_number(p, 0.0, other),
                  slant = draw_number(p, -0.5, 0.5);
@@ -168,7 +168,7 @@ static void write_passage_behaviour(Passage *p) {
         MACHINE_START "\"A\",\n  defaults = { speed = %g, max_speed = %g, push = %g, "
                       "radius = uniform(0.12, 0.3), perception = 2, time_gap = %g },\n"
                       "  states = { A = { steer = %s } }, own = { goal = \"east\" } }\n",
-        speed, 1.2 * speed, roll_chance(p, 0.5) ? 800.0 : 0.0, roll_chance(p, 0.5) ? 1.0 : 0.0,
+        speed, 1.2 * speed, draw_whether(p, 0.5) ? 800.0 : 0.0, draw_whether(p, 0.5) ? 1.0 : 0.0,
         p->period.y > 0.0f   ? "drift(-1, -0.7)"
         : p->period.x > 0.0f ? "drift(1, 0.1)"
                              : "seek(own.goal)");
@@ -211,7 +211,7 @@ static void apply_random_line(Passage *p) {
         snprintf(line, sizeof line, "spawn people %.3f %.3f", draw_number(p, 0.2, 11.8), y);
         break;
     case 4:
-        snprintf(line, sizeof line, "%s gate", roll_chance(p, 0.5) ? "open" : "close");
+        snprintf(line, sizeof line, "%s gate", draw_whether(p, 0.5) ? "open" : "close");
         break;
     default:
         snprintf(line, sizeof line, "push %d %.0f %.0f", (int)draw_number(p, 0.0, 20.0),
@@ -357,7 +357,7 @@ static void run_passage(Passage *p) {
     for (int n = 0; n < 60; n++) {
         if (n % 20 == 13 && p->number % 3 == 0)
             edit_walls(p, walls + (n > 20));
-        if (roll_chance(p, 0.3))
+        if (draw_whether(p, 0.3))
             apply_random_line(p);
         note_before(p);
         step_scene(p->scene, 1);

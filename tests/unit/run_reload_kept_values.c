@@ -59,7 +59,7 @@ static void renamed_state_keeps_its_people_and_time(void **state) {
     jo_scene_free(scene);
 }
 
-static double read_own_value(const JoScene *scene, uint32_t agent, const char *name) {
+static double read_own_number(const JoScene *scene, uint32_t agent, const char *name) {
     const JoxMachine *m =
         scene->world->model.machines.items[scene->world->state.agents.machine[agent]];
     for (uint32_t s = 0; s < m->own_count; s++)
@@ -83,12 +83,12 @@ static void renamed_memory_and_own_values_keep_their_numbers(void **state) {
     step_scene(scene, 2);
     double courage[4];
     for (uint32_t i = 0; i < 4; i++)
-        courage[i] = read_own_value(scene, i, "courage");
+        courage[i] = read_own_number(scene, i, "courage");
     assert_true(courage[0] != courage[1]);
     assert_true(reload_behaviour(scene, 0, AFTER));
     for (uint32_t i = 0; i < 4; i++) {
-        assert_true(read_own_value(scene, i, "bravery") == courage[i]);
-        assert_true(read_own_value(scene, i, "calm") == 5.0);
+        assert_true(read_own_number(scene, i, "bravery") == courage[i]);
+        assert_true(read_own_number(scene, i, "calm") == 5.0);
         assert_true(read_memory_value(scene, i, "seen") == i + 1.0);
         assert_true(read_memory_value(scene, i, "other") == 7.0);
     }

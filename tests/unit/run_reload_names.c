@@ -32,7 +32,7 @@ static JoScene *load_resumable(const char *behaviour) {
 }
 
 /* Writes a checkpoint of a scene and resumes it as another scene. */
-static JoScene *resume_checkpoint(JoScene *scene) {
+static JoScene *resume_latest(JoScene *scene) {
     char *note = NULL;
     JoError error = {0};
     JoSceneDef def = jo_default_scene_def();
@@ -108,7 +108,7 @@ static void run_with_new_tags_resumes_exactly(void **state) {
         swap_behaviour(scene, TURNS("after(0.1)", "tags = \"well\", team = \"two\""), &error));
     step_scene(scene, 5);
     assert_string_equal(find_tag_name(scene, 0), "well");
-    JoScene *next = resume_checkpoint(scene);
+    JoScene *next = resume_latest(scene);
     assert_string_equal(find_tag_name(next, 0), "well");
     assert_int_equal(next->world->state.agents.team[0], JOX_FIRST_SET_TEAM + 1);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
@@ -215,7 +215,7 @@ static void run_with_dormant_memory_resumes_exactly(void **state) {
     const double laps = read_named_memory(scene, 1, "laps");
     swap_behaviour_live(scene, RESTING);
     step_scene(scene, 5);
-    JoScene *next = resume_checkpoint(scene);
+    JoScene *next = resume_latest(scene);
     assert_true(jo_world_hash(next->world) == jo_world_hash(scene->world));
     swap_behaviour_live(scene, COUNTING);
     swap_behaviour_live(next, COUNTING);

@@ -50,7 +50,7 @@ static JoScene *run_steps(uint32_t steps) {
     return scene;
 }
 
-static const JoFigure *find_figure(const JoFigures *figures, const char *path) {
+static const JoFigure *find_figure_at(const JoFigures *figures, const char *path) {
     for (uint32_t k = 0; k < figures->count; k++)
         if (strcmp(figures->items[k].path, path) == 0)
             return &figures->items[k];
@@ -70,16 +70,16 @@ static void figures_equal_those_of_the_summary(void **state) {
     assert_float_equal(jo_figure(figures, "simulated_s"), 4, 1e-9);
     assert_true(isnan(jo_figure(figures, "no.such")));
     assert_true(isnan(jo_figure(figures, "hash")));
-    assert_string_equal(find_figure(figures, "hash")->text, hash);
-    const JoFigure *events = find_figure(figures, "events"),
-                   *hits = find_figure(figures, "events.hits");
+    assert_string_equal(find_figure_at(figures, "hash")->text, hash);
+    const JoFigure *events = find_figure_at(figures, "events"),
+                   *hits = find_figure_at(figures, "events.hits");
     assert_int_equal(events->kind, JO_FIGURE_TABLE);
     assert_int_equal(events->depth, 1);
     assert_int_equal(hits->depth, 2);
     assert_string_equal(hits->name, "hits");
-    assert_int_equal(find_figure(figures, "inputs")->kind, JO_FIGURE_LIST);
-    assert_null(find_figure(figures, "inputs.0")->name);
-    assert_string_equal(find_figure(figures, "inputs.0.path")->name, "path");
+    assert_int_equal(find_figure_at(figures, "inputs")->kind, JO_FIGURE_LIST);
+    assert_null(find_figure_at(figures, "inputs.0")->name);
+    assert_string_equal(find_figure_at(figures, "inputs.0.path")->name, "path");
     assert_non_null(strstr(file, hash));
     jo_free(figures);
     jo_free(file);

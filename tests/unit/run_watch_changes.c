@@ -99,7 +99,7 @@ static void time_of_writing_is_that_of_the_last_file(void **state) {
 
 static char seen[400];
 
-static void note_change(void *context, const char *path, double written) {
+static void list_change(void *context, const char *path, double written) {
     (void)context;
     assert_true(written > 1e9);
     snprintf(seen + strlen(seen), sizeof seen - strlen(seen), "%s ",
@@ -110,7 +110,7 @@ static void note_change(void *context, const char *path, double written) {
 static const char *wait_for_change(JoxWatch *watch) {
     seen[0] = 0;
     for (int i = 0; i < 40 && !seen[0]; i++)
-        jox_watch_wait(watch, -1, 0.01, note_change, NULL);
+        jox_watch_wait(watch, -1, 0.01, list_change, NULL);
     return seen;
 }
 

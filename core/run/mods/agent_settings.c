@@ -166,7 +166,8 @@ static void add_unplaced(const Search *search, JoSetBy by, const char *where) {
 }
 
 /* Adds a value of the defaults or of a state, at the place that writes it. */
-static void add_value(Search *search, const JoxValue *value, const char *path, const char *where) {
+static void add_declared_value(Search *search, const JoxValue *value, const char *path,
+                               const char *where) {
     const JoxLua *lua = search->scene->lua;
     const JoxScope *scope = &search->scene->scope;
     JoxWritten written = {0};
@@ -193,7 +194,7 @@ static void add_parameter(Search *search, int p) {
     const bool slot = value->kind == JOX_VALUE_OWN && (uint32_t)value->index < a->own_count;
     char path[256], where[160];
     snprintf(path, sizeof path, "defaults.%s", name);
-    add_value(search, inherited, path, "defaults");
+    add_declared_value(search, inherited, path, "defaults");
     const bool drawn =
         inherited->kind == JOX_VALUE_OWN && (uint32_t)inherited->index < a->own_count;
     const bool given =
@@ -215,7 +216,7 @@ static void add_parameter(Search *search, int p) {
     if (!inherits) {
         snprintf(path, sizeof path, "states.%.120s.%s", search->state->name, name);
         snprintf(where, sizeof where, "state %.120s", search->state->name);
-        add_value(search, set, path, where);
+        add_declared_value(search, set, path, where);
     }
     if (apart && wrote)
         add_last_write(search, wrote, name);

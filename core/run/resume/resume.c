@@ -14,7 +14,7 @@
 static const size_t LARGEST_CHECKPOINT = (size_t)4 << 30; /* bytes */
 
 /* A checkpoint that was read; its texts point into `file`. */
-typedef struct Read {
+typedef struct ReadCheckpoint {
     JoxText file;
     JoxCheckpointNumbers numbers;
     const char *path, *input, *note;
@@ -22,7 +22,7 @@ typedef struct Read {
     size_t set_count, set_capacity, mod_count, mod_capacity;
     JoxOverlay files;
     JoxPiece state;
-} Read;
+} ReadCheckpoint;
 
 /* ---- reading ---- */
 
@@ -32,7 +32,7 @@ static void append_piece_text(const char ***list, size_t *count, size_t *capacit
     (*list)[(*count)++] = text;
 }
 
-static void take_piece(Read *r, const JoxPiece *piece) {
+static void take_piece(ReadCheckpoint *r, const JoxPiece *piece) {
     const char *name = piece->name, *data = piece->data;
     const size_t head = strlen(data) + 1; /* a zero follows each piece */
     if (strcmp(name, JOX_PIECE_NUMBERS) == 0 && piece->length == sizeof r->numbers)
@@ -53,16 +53,16 @@ static void take_piece(Read *r, const JoxPiece *piece) {
         jox_overlay_put(&r->files, data, data + head, piece->length - head);
 }
 
-static void free_checkpoint_read(Read *r) {
+static void free_checkpoint_read(ReadCheckpoint *r) {
     jox_text_free(&r->file);
     jox_free(r->sets);
     jox_free(r->mods);
     jox_overlay_free(&r->files);
-    *r = (Read){0};
+    *r = (ReadCheckpoint){0};
 }
 
 /* Reads a checkpoint; its checksums are verified before anything of it is used. */
-static bool read_checkpoint(Read *r, const char *path, JoError *error) {
+static bool read_checkpoint(ReadCheckpoint *r, const char *path, JoError *error) {
     char why[200] = "";
     r->file.data = jox_read_file(path, LARGEST_CHECKPOINT, &r->file.length);
     if (!r->file.data) {
@@ -81,7 +81,8 @@ static bool read_checkpoint(Read *r, const char *path, JoError *error) {
 }
 
 /* Reads a checkpoint from a file, or the newest undamaged one of a folder. */
-static bool find_checkpoint(Read *r, const JoSceneDef *def, const char *path, JoError *error) {
+static bool find_checkpoint(ReadCheckpoint *r, const JoSceneDef *def, const char *path,
+                            JoError *error) {
     static const char *const NAMES[] = {JOX_CHECKPOINT_LATEST, JOX_CHECKPOINT_BEFORE};
     struct stat info;
     if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode))
@@ -112,7 +113,7 @@ static bool find_checkpoint(Read *r, const JoSceneDef *def, const char *path, Jo
 /* ---- state ---- */
 
 /* Restores the world and checks its hash, then gives the listeners their state. */
-static bool restore_state(JoScene *scene, const Read *r, JoError *error) {
+static bool restore_from_checkpoint(JoScene *scene, const ReadCheckpoint *r, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
     if (!jox_world_restore(scene->world, r->state.data, r->state.length, error))
@@ -132,7 +133,7 @@ static bool restore_state(JoScene *scene, const Read *r, JoError *error) {
 }
 
 /* Loads the scene from the texts of the checkpoint alone, with its definition, and restores it. */
-static JoScene *load_from_texts(const JoSceneDef *def, const Read *r, JoError *error) {
+static JoScene *load_from_texts(const JoSceneDef *def, const ReadCheckpoint *r, JoError *error) {
     JoSceneDef own = *def;
     own.path = r->path;
     own.overrides = r->sets;
@@ -149,7 +150,7 @@ static JoScene *load_from_texts(const JoSceneDef *def, const Read *r, JoError *e
     const JoxOverlay *before = jox_overlay_use(&r->files);
     JoScene *scene = jo_scene_load(&own, error);
     jox_overlay_use(before);
-    if (scene && !restore_state(scene, r, error)) {
+    if (scene && !restore_from_checkpoint(scene, r, error)) {
         jo_scene_free(scene);
         scene = NULL;
     }
@@ -162,7 +163,7 @@ JoScene *jo_scene_resume(const JoSceneDef *def, const char *path, char **note, J
     JOX_REQUIRE(def && path && note, NULL);
     JOX_GUARD (NULL, error)
         return NULL;
-    Read read = {0};
+    ReadCheckpoint read = {0};
     JoScene *scene =
         find_checkpoint(&read, def, path, error) ? load_from_texts(def, &read, error) : NULL;
     *note = scene && read.note ? jox_disown(jox_strdup(read.note)) : NULL;
