@@ -144,7 +144,7 @@ JoxDatabase *jox_database_open(const char *path, JoxDatabaseUse use, JoxText *wh
     if (path && use == JOX_DATABASE_READ) { /* refuses pipes, for whose data SQLite would wait */
         FILE *file = jox_file_open(path, "rb");
         if (!file) {
-            jox_text_printf(why, "%s", jox_file_why(errno));
+            jox_text_printf(why, "%s", jox_file_error_text(errno));
             return NULL;
         }
         jox_file_close(file);

@@ -190,7 +190,7 @@ int jox_file_drop(FILE *file) {
     return EOF;
 }
 
-const char *jox_file_why(int number) {
+const char *jox_file_error_text(int number) {
     return number == EINVAL || number == EISDIR ? "it is no regular file"
            : number == ENXIO                    ? "it is a pipe that nobody reads"
            : number == EBUSY                    ? "another run writes it"
@@ -206,7 +206,7 @@ bool jo_write(const char *path, const char *text, JoError *error) {
     if (file)
         good = jox_file_close(file) == 0 && good;
     if (!good)
-        jox_error(error, JO_FAILED, "%s", jox_file_why(errno));
+        jox_error(error, JO_FAILED, "%s", jox_file_error_text(errno));
     return good;
 }
 

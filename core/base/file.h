@@ -30,7 +30,7 @@ FILE *jox_folder_claim(const char *path);
 /* Writes all bytes to a descriptor, such as a pipe's; false with errno. */
 bool jox_file_send(int descriptor, const void *bytes, size_t length);
 /* Returns the meaning of the errno that the functions above set, as the end of a sentence. */
-const char *jox_file_why(int number);
+const char *jox_file_error_text(int number);
 
 /* Lists the names in a folder, except "." and "..", sorted by bytes, up to a NULL. The caller frees
    the whole by one jox_free. `hidden`: includes names that begin with a dot. NULL with errno if the

@@ -173,8 +173,8 @@ static bool is_identifier(const char *name) {
 bool jox_live_lua_line(const JoScene *scene, const char *machine, const char *state,
                        const char *parameter, double value, JoxText *out) {
     JoError error;
-    JoxChoice choice;
-    if (!jox_run_choose(scene, machine, state, parameter, value, &choice, &error)) {
+    JoxParameterChoice choice;
+    if (!jox_run_choose_parameter(scene, machine, state, parameter, value, &choice, &error)) {
         jox_text_add(out, error.text);
         return false;
     }

@@ -85,8 +85,8 @@ static const JoxListenerKind LIVE = {.name = "live page",
                                      .release = release_live_listener};
 
 JoxLive *jox_live_attach(JoScene *scene) {
-    JoxLive *live = jox_run_listener(scene, &LIVE);
-    return live ? live : jox_run_listen(scene, &LIVE, NULL, NULL);
+    JoxLive *live = jox_run_find_listener(scene, &LIVE);
+    return live ? live : jox_run_attach_listener(scene, &LIVE, NULL, NULL);
 }
 
 uint32_t jox_live_player_id(const JoScene *scene) {
@@ -259,7 +259,7 @@ void jox_live_spread_crowd(JoScene *scene) {
 
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {
     if (field == JOX_LIVE_PRESSURE) { /* the run samples it from the first time it is shown */
-        const JoxLocal *local = jox_run_want_pressure(scene);
+        const JoxLocal *local = jox_run_collect_pressure(scene);
         jox_live_pack_field(local->grid, jox_pressure_now(local->pressure), field, out);
         return;
     }

@@ -204,7 +204,7 @@ bool jox_replay_page_load(JoxReplayPage *p, JoError *error) {
                                  .scene = def->scene,
                                  .options = {.fps = def->fps, .unit = def->unit}};
     p->replay = jox_replay_open(&replay, &diagnostics);
-    jox_run_report(def->message, def->message_context, &diagnostics, error);
+    jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, error);
     if (!p->replay)
         return false;
     p->from = jox_replay_time(p->replay, 0);
@@ -223,7 +223,7 @@ static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
         jox_replay_page_load(&p, error) &&
         jox_live_page_open(&p.page, def->address, def->port, def->page, def->three, error);
     if (good && def->opened)
-        jox_run_message(def->opened, def->opened_context, jox_view_address(p.page.server));
+        jox_run_send_message(def->opened, def->opened_context, jox_view_address(p.page.server));
     if (good) {
         seek_time(&p, p.from);
         jox_live_page_begin(&p.page);

@@ -105,7 +105,7 @@ static bool perform_push(JoxScenePage *s, JoxInputEntry *entry, JoError *error) 
         entry->numbers[0] -= before->x;
         entry->numbers[1] -= before->y;
     }
-    if (!jox_run_input(s->scene, entry, error))
+    if (!jox_run_perform_input(s->scene, entry, error))
         return false;
     if (!before)
         before = &s->pushes[s->push_count++ % JOX_HAND_PUSHES];
@@ -122,7 +122,7 @@ static bool perform_line(JoxScenePage *s, const char *line, JoError *error) {
     else if (entry.verb == JOX_INPUT_PUSH)
         good = perform_push(s, &entry, error);
     else
-        good = jox_run_input(s->scene, &entry, error);
+        good = jox_run_perform_input(s->scene, &entry, error);
     jox_input_entry_free(&entry);
     jox_text_free(&wrong);
     return good;

@@ -12,7 +12,7 @@
 static void forward_scene_message(void *context, const char *text) {
     JoxScenePage *s = context;
     const JoSceneDef *def = &s->def->scene;
-    jox_run_message(def->message, def->message_context, text);
+    jox_run_send_message(def->message, def->message_context, text);
     if (s->reported)
         return;
     size_t n = strlen(text);
@@ -50,7 +50,7 @@ static JoScene *reload_scene(JoxScenePage *s, JoError *error) {
     JoScene *scene = NULL;
     if (!vetter || vetter->vet(vetter->context, &what)) {
         jox_overlay_use(vetter ? &files : NULL);
-        scene = jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
+        scene = jox_run_load_and_report(&s->scene_def, jox_scene_page_diagnosed, s, error);
         jox_overlay_use(NULL);
     } else {
         jox_error(error, JO_INPUT, "%s: %s", what.file, what.why);
@@ -63,8 +63,9 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
     s->scene_def.message = forward_scene_message;
     s->scene_def.message_context = s;
     /* the first time the caller's overlay is in use, with the files that it had read */
-    JoScene *next = s->scene ? reload_scene(s, error)
-                             : jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
+    JoScene *next =
+        s->scene ? reload_scene(s, error)
+                 : jox_run_load_and_report(&s->scene_def, jox_scene_page_diagnosed, s, error);
     jox_overlay_use(NULL);
     if (!next)
         return false;

@@ -64,7 +64,7 @@ static double step_when_due(void *self, double now) {
     const JoxLiveSession *session = &s->page.session;
     const double due = s->began + s->scene->world->model.def.dt / session->speed;
     if (session->paused && s->steps == 0) {
-        jox_run_reload(s->scene); /* saved files are loaded in a pause too */
+        jox_run_swap_reloaded(s->scene); /* saved files are loaded in a pause too */
         return INFINITY;
     }
     if (session->paused) {
@@ -149,7 +149,7 @@ static bool run_scene_page(JoxScenePage *s, JoError *error) {
     if (!jox_scene_page_load(s, error))
         return false;
     if (def->opened)
-        jox_run_message(def->opened, def->opened_context, jox_view_address(s->page.server));
+        jox_run_send_message(def->opened, def->opened_context, jox_view_address(s->page.server));
     jox_live_page_run(&s->page, def->stop);
     if (def->summary)
         *def->summary = jo_scene_summary(s->scene);

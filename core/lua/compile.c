@@ -88,24 +88,25 @@ static void add_home_memory(JoxBuild *build) {
 }
 
 /* Compiles the filter of a target. */
-static JoxWhose build_target_filter(JoxBuild *build, const JoxNodeWhose *whose) {
-    JoxWhose made = {.some = whose->state || whose->machine || whose->memory || whose->grouped,
-                     .state = -1,
-                     .machine = -1,
-                     .memory = -1,
-                     .group = whose->grouped ? whose->group : -1,
-                     .least = whose->least,
-                     .greatest = whose->greatest};
-    if (whose->state)
-        made.state = add_name_at(build, whose->state, JOX_NAME_STATE, &whose->state_at);
-    if (whose->machine)
-        made.machine = jox_build_name(build, whose->machine, JOX_NAME_MACHINE);
-    if (whose->memory)
-        made.memory = add_name_at(build, whose->memory, JOX_NAME_MEMORY, &whose->memory_at);
+static JoxAgentFilter build_target_filter(JoxBuild *build, const JoxNodeFilter *filter) {
+    JoxAgentFilter made = {.some = filter->state || filter->machine || filter->memory ||
+                                   filter->grouped,
+                           .state = -1,
+                           .machine = -1,
+                           .memory = -1,
+                           .group = filter->grouped ? filter->group : -1,
+                           .least = filter->least,
+                           .greatest = filter->greatest};
+    if (filter->state)
+        made.state = add_name_at(build, filter->state, JOX_NAME_STATE, &filter->state_at);
+    if (filter->machine)
+        made.machine = jox_build_name(build, filter->machine, JOX_NAME_MACHINE);
+    if (filter->memory)
+        made.memory = add_name_at(build, filter->memory, JOX_NAME_MEMORY, &filter->memory_at);
     return made;
 }
 
-static bool is_same_filter(const JoxWhose *a, const JoxWhose *b) {
+static bool is_same_filter(const JoxAgentFilter *a, const JoxAgentFilter *b) {
     return a->some == b->some && a->state == b->state && a->machine == b->machine &&
            a->memory == b->memory && a->group == b->group && a->least == b->least &&
            a->greatest == b->greatest;
@@ -115,10 +116,10 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     JoxMachine *m = build->machine;
     if (!node || node->kind == JOX_NODE_ERROR)
         return -1;
-    static const JoxNodeWhose ANY;
+    static const JoxNodeFilter ANY;
     JoxTarget target = {
         node->target_kind, node->target_arg, NULL,
-        build_target_filter(build, node->kind == JOX_NODE_TARGET ? &node->whose : &ANY)};
+        build_target_filter(build, node->kind == JOX_NODE_TARGET ? &node->filter : &ANY)};
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_HOME)
         add_home_memory(build);
     bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
@@ -137,7 +138,7 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     for (uint32_t i = 0; i < m->target_count; i++)
         if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&
             strcmp(m->targets[i].name, node->name) == 0 &&
-            is_same_filter(&m->targets[i].whose, &target.whose))
+            is_same_filter(&m->targets[i].filter, &target.filter))
             return (int16_t)i;
     JOX_RESERVE(m->targets, build->target_capacity, m->target_count + 1);
     target.name = jox_strdup(node->name);

@@ -275,7 +275,7 @@ void jox_lua_bracket_hooks(void *context, bool begins) {
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = write->value;
         const JoxWrote wrote = {
             .is_memory = true, .index = (uint16_t)slot, .by = JOX_WROTE_FUNCTION};
-        jox_machines_wrote(lua->machines, i, &wrote);
+        jox_machines_record_writer(lua->machines, i, &wrote);
     }
     lua->write_count = 0;
 }

@@ -209,14 +209,14 @@ static void report_test_result(void *context, const JoxTestResult *result) {
     jox_text_printf(&text, "%s %s (%.1f s simulated in %.2f s)\n", result->passed ? "ok" : "not ok",
                     result->name, result->simulated, result->seconds);
     jox_text_add(&text, result->message);
-    jox_run_message(tests->message, tests->context, text.data);
+    jox_run_send_message(tests->message, tests->context, text.data);
     jox_text_free(&text);
 }
 
 static void print_test_output(void *context, const char *text) {
     const Tests *tests = context;
     if (!tests->json)
-        jox_run_message(tests->message, tests->context, text);
+        jox_run_send_message(tests->message, tests->context, text);
 }
 
 static void run_test_file(Tests *tests, const char *path) {
@@ -244,7 +244,7 @@ static void run_test_file(Tests *tests, const char *path) {
     if (tests->json)
         jox_diag_free(&diagnostics);
     else
-        jox_run_report(tests->message, tests->context, &diagnostics, NULL);
+        jox_run_report_diagnostics(tests->message, tests->context, &diagnostics, NULL);
 }
 
 static bool is_test_file(const char *name) {
@@ -277,14 +277,14 @@ static bool run_test_paths(const char *const *paths, size_t count, const char *o
     for (size_t p = 0; p < count; p++)
         run_test_path(&tests, paths[p]);
     if (!json && tests.passed + tests.failed == 0 && !tests.broken) {
-        jox_run_message(message, context,
-                        "no tests found: files that end with _test.lua hold them\n");
+        jox_run_send_message(message, context,
+                             "no tests found: files that end with _test.lua hold them\n");
         tests.broken = true;
     }
     if (json) {
         jox_json_end(&tests.array);
         jox_text_append(&tests.results, "\n", 1);
-        jox_run_message(message, context, tests.results.data);
+        jox_run_send_message(message, context, tests.results.data);
     }
     for (size_t k = 0; k < tests.kept_count; k++) {
         unlink(tests.kept[k]);

@@ -61,19 +61,19 @@ static bool print_infix(const JoxInstruction *in, const Written *registers, Writ
 }
 
 /* Prints the filter of a target: ":in_state("Wait")". */
-static void print_whose(const JoxMachine *machine, const JoxWhose *whose, JoxText *out) {
-    if (!whose->some)
+static void print_filter(const JoxMachine *machine, const JoxAgentFilter *filter, JoxText *out) {
+    if (!filter->some)
         return;
-    if (whose->state >= 0)
-        jox_text_printf(out, ":in_state(\"%s\")", machine->names[whose->state].text);
-    if (whose->machine >= 0)
-        jox_text_printf(out, ":of_machine(\"%s\")", machine->names[whose->machine].text);
-    if (whose->group >= 0)
-        jox_text_printf(out, ":of_group(number %d)", whose->group);
-    if (whose->memory < 0)
+    if (filter->state >= 0)
+        jox_text_printf(out, ":in_state(\"%s\")", machine->names[filter->state].text);
+    if (filter->machine >= 0)
+        jox_text_printf(out, ":of_machine(\"%s\")", machine->names[filter->machine].text);
+    if (filter->group >= 0)
+        jox_text_printf(out, ":of_group(number %d)", filter->group);
+    if (filter->memory < 0)
         return;
-    jox_text_printf(out, ":where(\"%s\", %.6g", machine->names[whose->memory].text, whose->least);
-    jox_text_printf(out, isinf(whose->greatest) ? ")" : ", %.6g)", whose->greatest);
+    jox_text_printf(out, ":where(\"%s\", %.6g", machine->names[filter->memory].text, filter->least);
+    jox_text_printf(out, isinf(filter->greatest) ? ")" : ", %.6g)", filter->greatest);
 }
 
 /* Prints a word with its arguments: distance(stone), near(ball, 1.2), heard("go"). */
@@ -87,7 +87,7 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
     for (int k = 0; k < 2; k++)
         if (targets[k] >= 0) {
             jox_text_printf(out, "%s%s", before, machine->targets[targets[k]].name);
-            print_whose(machine, &machine->targets[targets[k]].whose, out);
+            print_filter(machine, &machine->targets[targets[k]].filter, out);
             before = ", ";
         }
     if (in->name >= 0) {

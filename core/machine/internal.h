@@ -98,7 +98,7 @@ static inline double *jox_home_position(const JoxMachineRun *run, uint32_t agent
 }
 
 /* Makes the agent's present position its post. */
-void jox_post_set(JoxMachineRun *run, uint32_t agent);
+void jox_set_home_post(JoxMachineRun *run, uint32_t agent);
 
 /* Resolves target `index` of the agent's machine; index -1 is the agent itself. */
 JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t agent, int32_t index);
@@ -251,7 +251,7 @@ const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *s
                                     int parameter);
 /* Zeroes the agent's own values and memory beyond those of the machine, since values that an older
    machine left there would be hashed as state. */
-void jox_rows_end(JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
+void jox_clear_unused_slots(JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
 /* Stores a machine at an index of the set: numbers its names and transitions, widens the agents'
    rows, starts its counts. From here on it does not change. */
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine);

@@ -128,18 +128,18 @@ typedef enum JoxTargetKind {
 } JoxTargetKind;
 
 /* Filter on the agents that a target accepts. All zero accepts every agent. */
-typedef struct JoxWhose {
+typedef struct JoxAgentFilter {
     bool some;                      /* whether any condition below applies */
     int16_t state, machine, memory; /* indices into the machine's names; -1: any */
     int32_t group;                  /* number of the scene's group; -1: any */
     double least, greatest;         /* accepted range of the memory value */
-} JoxWhose;
+} JoxAgentFilter;
 
 typedef struct JoxTarget {
     JoxTargetKind kind;
     int32_t arg;
     char *name; /* as written: place, own, or tag name */
-    JoxWhose whose;
+    JoxAgentFilter filter;
 } JoxTarget;
 
 typedef enum JoxValueKind {

@@ -116,10 +116,10 @@ void jox_machine_check(const JoxMachine *m) {
             (uint32_t)target->arg < m->own_count);
         JOX_ASSERT(target->kind != JOX_TARGET_NEAREST || (target->arg >= 0 && target->arg < 64));
         JOX_ASSERT(target->kind != JOX_TARGET_HOME || (m->home && m->home < m->memory_count));
-        const JoxWhose *whose = &target->whose;
-        JOX_ASSERT(!whose->some || (is_index(whose->state, m->name_count) &&
-                                    is_index(whose->machine, m->name_count) &&
-                                    is_index(whose->memory, m->name_count)));
+        const JoxAgentFilter *filter = &target->filter;
+        JOX_ASSERT(!filter->some || (is_index(filter->state, m->name_count) &&
+                                     is_index(filter->machine, m->name_count) &&
+                                     is_index(filter->memory, m->name_count)));
     }
     for (uint32_t c = 0; c < m->counter_count; c++) {
         const JoxCounter *counter = &m->counters[c];

@@ -267,7 +267,7 @@ static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i
     for (uint32_t s = 0; s < r->next->memory_count; s++)
         memory[s] = r->memory[s] >= 0 ? r->before[r->memory[s]] : r->next->memory[s].initial;
     if (r->next->home && r->memory[r->next->home - 1] < 0)
-        jox_post_set(run, i); /* first version with a post */
+        jox_set_home_post(run, i); /* first version with a post */
 }
 
 /* Moves an agent to the successor of its state, and updates its conditions, memory, parameters and
@@ -374,7 +374,7 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
         if (any)
             carry_agent(run, r, i);
         if (shorter)
-            jox_rows_end(a, i, next);
+            jox_clear_unused_slots(a, i, next);
     }
     jox_shared_settle(a);
     jox_edits_end(run, index); /* frees the copy that `old` may be */

@@ -326,7 +326,7 @@ uint32_t jox_machines_goals(const JoxMachineRun *run, uint32_t i, int32_t *place
 /* Sets bits in `wanted` for the distance fields that agents need in their states. */
 void jox_machines_ask_routes(JoxMachineRun *run);
 /* Records the writer of a value of agent i, if it is watched. */
-void jox_machines_wrote(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote);
+void jox_machines_record_writer(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote);
 /* Frees the record of an agent that is no longer watched. */
 void jox_watched_end(JoxWatched *watched);
 /* Appends a transition as text: time, agent, states, and the condition with present values. */

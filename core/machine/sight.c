@@ -99,24 +99,26 @@ double jox_public_memory(const JoxMachineRun *run, uint32_t agent, uint32_t name
 }
 
 /* Returns whether agent j passes the filter of a target; names are those of agent i's machine. */
-static bool passes_filter(const JoxMachineRun *run, const JoxWhose *whose, uint32_t i, uint32_t j) {
+static bool passes_filter(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
+                          uint32_t j) {
     const JoxAgents *a = run->agents;
     const JoxName *names = jox_machine_of(run, i)->names;
-    if (whose->group >= 0 && a->group[j] != whose->group)
+    if (filter->group >= 0 && a->group[j] != filter->group)
         return false;
-    if (whose->state < 0 && whose->machine < 0 && whose->memory < 0)
+    if (filter->state < 0 && filter->machine < 0 && filter->memory < 0)
         return true;
     if (a->machine[j] == JOX_NO_MACHINE)
         return false;
     const JoxMachine *machine = jox_machine_of(run, j);
-    if (whose->machine >= 0 && machine->name_number != names[whose->machine].number)
+    if (filter->machine >= 0 && machine->name_number != names[filter->machine].number)
         return false;
-    if (whose->state >= 0 && machine->states[a->state[j]].name_number != names[whose->state].number)
+    if (filter->state >= 0 &&
+        machine->states[a->state[j]].name_number != names[filter->state].number)
         return false;
-    if (whose->memory < 0)
+    if (filter->memory < 0)
         return true;
-    const double value = jox_public_memory(run, j, names[whose->memory].number);
-    return value >= whose->least && value <= whose->greatest;
+    const double value = jox_public_memory(run, j, names[filter->memory].number);
+    return value >= filter->least && value <= filter->greatest;
 }
 
 /* Returns whether agent j is of the kind that a target asks for. */
@@ -138,7 +140,7 @@ static bool is_of_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, 
 bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j) {
     const JoxAgents *a = run->agents;
     if (!is_of_kind(a, target, i, j) ||
-        (target->whose.some && !passes_filter(run, &target->whose, i, j)))
+        (target->filter.some && !passes_filter(run, &target->filter, i, j)))
         return false;
     const JoxV2 from = {a->x[i], a->y[i]}, to = jox_add(from, jox_offset(a, i, j));
     return !jox_is_hidden(run, from, to, false) && !jox_is_behind_body(run, from, to, -1);

@@ -80,10 +80,10 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
         a->memory[(size_t)agent * a->memory_stride + s] = value;
     }
     if (kind->home && !overrides_slot(memory, kind->home - 1))
-        jox_post_set(run, agent);
+        jox_set_home_post(run, agent);
 }
 
-void jox_post_set(JoxMachineRun *run, uint32_t agent) {
+void jox_set_home_post(JoxMachineRun *run, uint32_t agent) {
     double *post = jox_home_position(run, agent);
     post[0] = run->agents->x[agent];
     post[1] = run->agents->y[agent];
@@ -154,7 +154,7 @@ void jox_machines_set_own(JoxMachineRun *run, uint32_t i, uint32_t slot, double 
     jox_machines_write_parameters(run, i);
 }
 
-void jox_rows_end(JoxAgents *a, uint32_t i, const JoxMachine *machine) {
+void jox_clear_unused_slots(JoxAgents *a, uint32_t i, const JoxMachine *machine) {
     double *memory = a->memory + (size_t)i * a->memory_stride;
     for (uint32_t s = machine->own_count; s < a->own_count; s++)
         jox_own_set(a, i, s, 0.0);
@@ -185,7 +185,7 @@ void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
             }
     a->machine[i] = (uint16_t)machine;
     draw_values(run, i, next, own, memory);
-    jox_rows_end(a, i, next);
+    jox_clear_unused_slots(a, i, next);
     a->given[i] = given;
     jox_machines_enter(run, i, next->start);
 }

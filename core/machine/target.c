@@ -150,7 +150,7 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
         return (JoxSpot){true, (float)post[0], (float)post[1], 0, 0, 0, 0, -1, -1, JOX_NO_INDEX};
     }
     float object_d2 = INFINITY;
-    int32_t object = target->kind == JOX_TARGET_NEAREST && !target->whose.some
+    int32_t object = target->kind == JOX_TARGET_NEAREST && !target->filter.some
                          ? find_nearest_object(run, target, i, &object_d2)
                          : -1;
     uint32_t other = find_nearest_agent(run, target, i);

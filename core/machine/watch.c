@@ -21,7 +21,7 @@ void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken) {
     }
 }
 
-void jox_machines_wrote(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote) {
+void jox_machines_record_writer(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote) {
     for (uint32_t n = 0; n < run->watched_count; n++) {
         JoxWatched *watched = &run->watched[n];
         uint32_t k = 0;
@@ -68,7 +68,7 @@ void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxA
     JoxWrote wrote = find_writer(machine, actions);
     for (uint32_t n = 0; n < actions->set_count; n++) {
         wrote.index = (uint16_t)actions->set[n].slot;
-        jox_machines_wrote(run, i, &wrote);
+        jox_machines_record_writer(run, i, &wrote);
     }
 }
 

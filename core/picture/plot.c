@@ -43,7 +43,7 @@ FILE *jox_plot_open(const char *folder, const char *name, JoxText *error) {
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = jox_file_replace(path);
     if (!file)
-        jox_text_printf(error, "cannot write '%s': %s", path, jox_file_why(errno));
+        jox_text_printf(error, "cannot write '%s': %s", path, jox_file_error_text(errno));
     return file;
 }
 

@@ -337,7 +337,7 @@ JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, JoxText *err
     if (file)
         return create_recorder(path, file, 0.0, NULL, last, error);
     jox_text_printf(error, "cannot continue the recording '%s': %s", path,
-                    ours ? jox_file_why(errno) : "there is no recording of Jostle's");
+                    ours ? jox_file_error_text(errno) : "there is no recording of Jostle's");
     return NULL;
 }
 

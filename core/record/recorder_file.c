@@ -70,7 +70,7 @@ FILE *jox_recording_claim(const char *path, JoxText *error) {
         file = fresh;
     }
     if (!file)
-        jox_text_printf(error, "cannot record to '%s': %s", path, jox_file_why(errno));
+        jox_text_printf(error, "cannot record to '%s': %s", path, jox_file_error_text(errno));
     return file;
 }
 

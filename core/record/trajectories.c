@@ -163,7 +163,7 @@ static bool read_text_file(JoxTrajectories *t, const char *path,
     if (!text) {
         JoxPosition at = {path, 0, 0, 0};
         jox_diag_error(diagnostics, at, "unreadable-file", NULL, "cannot be read: %s",
-                       jox_file_why(errno));
+                       jox_file_error_text(errno));
         return false;
     }
     /* Comments of other programs may be in any 8-bit encoding; zero bytes show UTF-16, which is

@@ -56,7 +56,7 @@ static bool fail_with_text(JoError *error, JoxText *why) {
 static void forward_message(const JoRenderDef *def, const char *format, const char *what) {
     char text[1200];
     snprintf(text, sizeof text, format, what);
-    jox_run_message(def->message, def->message_context, text);
+    jox_run_send_message(def->message, def->message_context, text);
 }
 
 static const struct {

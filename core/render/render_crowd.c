@@ -71,7 +71,7 @@ static void choose_map_area(JoxRender *r) {
         widen_box(&box, r->crowd->low);
         widen_box(&box, r->crowd->high);
     }
-    const JoxFrame *frame = r->scene ? jox_run_frame(r->scene, 0) : NULL;
+    const JoxFrame *frame = r->scene ? jox_run_present_frame(r->scene, 0) : NULL;
     for (uint32_t i = 0; frame && i < frame->count; i++)
         widen_box(&box, jox_v2(frame->x[i], frame->y[i]));
     if (!(box.low.x <= box.high.x)) /* no people and no walls: places alone */
@@ -311,7 +311,7 @@ static bool uses_scene_walls(const JoxRender *r) {
 /* Takes the current step or frame as r->frame, and extends the trails. */
 static void take_frame(JoxRender *r) {
     if (r->scene) {
-        r->frame = *jox_run_frame(r->scene, JOX_FRAME_WHOLE);
+        r->frame = *jox_run_present_frame(r->scene, JOX_FRAME_WHOLE);
         if (!r->states)
             build_state_names(r);
         r->frame.states = (const char *const *)r->states;
@@ -436,7 +436,7 @@ static bool load_recording(JoxRender *r, JoError *error) {
         jox_diag_attach_source(&diagnostics, r->spec->files[f].path, r->spec->files[f].text,
                                r->spec->files[f].length);
     bool good = r->crowd && diagnostics.errors == 0;
-    jox_run_report(def->message, def->message_context, &diagnostics, error);
+    jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, error);
     if (!good)
         return false;
     jox_trajectories_frame(r->crowd, 0, &r->frame);

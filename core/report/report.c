@@ -273,7 +273,7 @@ static char *make_report(const JoReportDef *def, JoError *error) {
         for (uint32_t f = 0; f < r.spec->file_count; f++)
             jox_diag_attach_source(&r.diagnostics, r.spec->files[f].path, r.spec->files[f].text,
                                    r.spec->files[f].length);
-    jox_run_report(def->message, def->message_context, &r.diagnostics, error);
+    jox_run_report_diagnostics(def->message, def->message_context, &r.diagnostics, error);
     if (good && (!def->directory || write_report(&r, error)))
         text = build_report_json(&r);
     for (uint32_t p = 0; p < r.count; p++)
@@ -293,7 +293,7 @@ char *jo_report(const JoReportDef *def, JoError *error) {
     JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
     JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
     JOX_GUARD (NULL, error) {
-        jox_run_message(def->message, def->message_context, "out of memory\n");
+        jox_run_send_message(def->message, def->message_context, "out of memory\n");
         return NULL;
     }
     return jox_disown(make_report(def, error));

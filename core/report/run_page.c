@@ -198,7 +198,7 @@ static void put_run_pictures(FILE *out, const JoScene *scene, const char *direct
 static void put_model_note(FILE *out, const JoScene *scene) {
     JoxDiagnostics notes = {0};
     char text[1024];
-    if (jox_run_advise(scene, &notes)) {
+    if (jox_run_note_orca_flow(scene, &notes)) {
         snprintf(text, sizeof text, "Note: %s. %s.", notes.items[0].message, notes.items[0].hint);
         jox_html_paragraph(out, text);
     }

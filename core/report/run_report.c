@@ -41,12 +41,12 @@ static bool begin_data_files(void *self, JoScene *scene, const void *folder, JoE
     RunReport *r = self;
     JoxText why = {0};
     if (!jox_plot_folder(folder, &why))
-        return jox_run_failed(error, &why);
+        return jox_run_fill_error(error, &why);
     r->folder_lock = jox_folder_claim(folder);
     if (!r->folder_lock) {
         jox_text_printf(&why, "cannot write into '%s': %s", (const char *)folder,
-                        jox_file_why(errno));
-        return jox_run_failed(error, &why);
+                        jox_file_error_text(errno));
+        return jox_run_fill_error(error, &why);
     }
     r->scene = scene;
     r->folder = jox_strdup(folder);
@@ -63,11 +63,11 @@ static bool begin_report_files(void *self, JoScene *scene, const void *folder, J
 
 /* Adds a sample to the story whenever the density was sampled in this step. */
 static void sample_story(RunReport *r, JoScene *scene) {
-    const JoxLocal *local = jox_run_local(scene);
+    const JoxLocal *local = jox_run_local_densities(scene);
     if (local->time != jo_world_time(scene->world))
         return;
     jox_story_add_sample(&r->story,
-                         &(JoxStorySample){.frame = jox_run_frame(scene, JOX_FRAME_WHOLE),
+                         &(JoxStorySample){.frame = jox_run_present_frame(scene, JOX_FRAME_WHOLE),
                                            .grid = local->grid,
                                            .walls = &scene->world->model.all_walls,
                                            .left = scene->world->state.exits.left,
@@ -83,7 +83,7 @@ static bool sample_run(void *self, JoScene *scene, JoError *error) {
     float time = (float)jo_world_time(world);
     (void)error;
     sample_story(r, scene);
-    if (!jox_run_is_due(scene, PACE))
+    if (!jox_run_is_sample_due(scene, PACE))
         return true;
     for (uint32_t rank = 0; rank < a->count; rank++) {
         uint32_t i = a->by_rank[rank];
@@ -110,7 +110,7 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
         names[g] = scene->spec->groups[g].name;
         colours[g] = scene->spec->groups[g].colour;
     }
-    jox_run_area(scene, &low, &high);
+    jox_run_find_shown_area(scene, &low, &high);
     for (uint32_t p = 0; p < r->paths->count; p++)
         for (uint32_t i = 0; i < r->paths->items[p].count; i++) {
             const JoxPathPoint *point = &r->paths->items[p].points[i];
@@ -153,7 +153,7 @@ static bool write_data_files(const RunReport *r, const JoScene *scene, const cha
 
 static bool end_data_files(void *self, JoScene *scene, JoError *error) {
     JoxText why = {0};
-    return write_data_files(self, scene, NULL, &why) || jox_run_failed(error, &why);
+    return write_data_files(self, scene, NULL, &why) || jox_run_fill_error(error, &why);
 }
 
 /* Input of draw_report_in_child. */
@@ -205,7 +205,7 @@ static bool end_run_report(void *self, JoScene *scene, JoError *error) {
     jox_run_subject_free(&subject);
     jox_text_free(&ended);
     if (why.length)
-        return jox_run_failed(error, &why);
+        return jox_run_fill_error(error, &why);
     jox_text_free(&why);
     return true;
 }
@@ -247,9 +247,9 @@ static const JoxListenerKind DATA = {.name = "data files",
                                      .release = release_run_report};
 
 JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
-    const RunReport *report = jox_run_listener(scene, &REPORT);
+    const RunReport *report = jox_run_find_listener(scene, &REPORT);
     static const JoxStory none;
-    const JoxLocal *local = jox_run_local(scene);
+    const JoxLocal *local = jox_run_local_densities(scene);
     const JoxSceneSpec *spec = scene->spec;
     const JoxProbe **probes = jox_alloc(spec->probe_count + 1, sizeof *probes);
     for (uint32_t p = 0; p < spec->probe_count; p++)
@@ -279,17 +279,17 @@ void jox_run_subject_free(JoxSubject *s) {
 }
 
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
-    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_listener(scene, &REPORT),
+    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_find_listener(scene, &REPORT),
                 false);
     JOX_GUARD (scene->heap, error)
         return false;
-    return jox_run_listen(scene, &REPORT, directory, error) != NULL;
+    return jox_run_attach_listener(scene, &REPORT, directory, error) != NULL;
 }
 
 bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
-    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_listener(scene, &DATA),
+    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_find_listener(scene, &DATA),
                 false);
     JOX_GUARD (scene->heap, error)
         return false;
-    return jox_run_listen(scene, &DATA, directory, error) != NULL;
+    return jox_run_attach_listener(scene, &DATA, directory, error) != NULL;
 }

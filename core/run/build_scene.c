@@ -67,7 +67,7 @@ static void add_places(JoScene *scene) {
                               .complete = true,
                               .mods = scene->mods->items,
                               .mod_count = scene->mods->count};
-    jox_run_refresh_names(scene);
+    jox_run_refresh_tags_and_teams(scene);
 }
 
 /* Reads the input log. The scene's files are then read as they were when the log began. */
@@ -76,11 +76,11 @@ static void read_input_log(JoScene *scene, const char *path, JoxDiagnostics *dia
     char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
     if (path && !text)
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
-                       "cannot read the input log '%s': %s", path, jox_file_why(errno));
+                       "cannot read the input log '%s': %s", path, jox_file_error_text(errno));
     if (text && jox_diag_check_text(diagnostics, path, text, length))
         jox_input_parse(&scene->input, path, text, length, diagnostics);
     if (text) {
-        jox_run_before(&scene->overlay, &scene->input);
+        jox_run_restore_logged_texts(&scene->overlay, &scene->input);
         jox_diag_attach_source(diagnostics, path, text, length);
         scene->input_path = jox_strdup(path);
         jox_sha256_hex(text, length, scene->input_sha256);
@@ -89,7 +89,7 @@ static void read_input_log(JoScene *scene, const char *path, JoxDiagnostics *dia
 }
 
 static void forward_message(void *context, const char *text) {
-    jox_run_tell(context, text);
+    jox_run_send_text(context, text);
 }
 
 static JoxLuaLimits get_script_limits(const JoxSceneSpec *spec) {
@@ -124,7 +124,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.lost_bodies = (JoLost)spec->lost_bodies;
     scene->world = jox_world_create(&world);
     jox_world_set_timed(scene->world, true);
-    scene->world->record = jox_run_record_act;
+    scene->world->record = jox_run_log_act;
     scene->world->record_context = scene;
     scene->world->model.reinserts_bodies = def->resumable;
     jox_world_set_walking(scene->world, &spec->walking);
@@ -142,7 +142,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     const JoxLuaLimits limits = get_script_limits(spec);
     scene->lua = jox_lua_create(&limits);
     jox_lua_attach(scene->lua, &scene->world->machines, forward_message, scene);
-    jox_run_take_names(scene);
+    jox_run_restore_tags_and_teams(scene);
     add_bodies(scene, diagnostics);
     add_places(scene);
     if (!jox_run_load_machines(scene, diagnostics))
@@ -153,18 +153,18 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     machines->hook_sections = jox_lua_sections;
     machines->call_context = scene->lua;
     if (diagnostics->errors == 0 && def->dry) {
-        jox_run_check_names(scene, diagnostics);
+        jox_run_check_machine_names(scene, diagnostics);
     } else if (diagnostics->errors == 0) {
-        jox_run_populate(scene, diagnostics);
-        jox_run_check_names(scene, diagnostics);
-        jox_run_check_step(scene, diagnostics);
+        jox_run_place_groups(scene, diagnostics);
+        jox_run_check_machine_names(scene, diagnostics);
+        jox_run_check_step_length(scene, diagnostics);
         jox_run_check_sources(scene, diagnostics);
         jox_run_check_journeys(scene, diagnostics);
-        jox_run_name_events(scene, diagnostics);
+        jox_run_number_event_signals(scene, diagnostics);
         jox_run_collect_regions(scene);
         if (!def->no_density)
-            jox_run_collect_local(scene, NULL);
-        jox_run_collect_standing(scene);
+            jox_run_collect_densities(scene, NULL);
+        jox_run_collect_standstills(scene);
         jox_run_collect_probes(scene);
     }
 }

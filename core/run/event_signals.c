@@ -7,7 +7,7 @@
 
 enum { MOST_NAMES = 256 };
 
-void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics) {
+void jox_run_number_event_signals(JoScene *scene, JoxDiagnostics *diagnostics) {
     JoxMachineRun *machines = &scene->world->machines;
     const char *names[MOST_NAMES];
     uint32_t count = 0;

@@ -7,6 +7,6 @@
 
 /* Numbers the signals of the scene's events, so that a step finds them; warns of those that no
    machine hears. `diagnostics` may be NULL. */
-void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics);
+void jox_run_number_event_signals(JoScene *scene, JoxDiagnostics *diagnostics);
 
 #endif

@@ -11,7 +11,7 @@
 /* Returns the collector (JoxRegions, JoxLocal or JoxDanger) of a listener, which holds its
    address alone; NULL: no such listener. */
 static void *find_collector(const JoScene *scene, const JoxListenerKind *kind) {
-    void **self = jox_run_listener(scene, kind);
+    void **self = jox_run_find_listener(scene, kind);
     return self ? *self : NULL;
 }
 
@@ -19,7 +19,8 @@ static void *find_collector(const JoScene *scene, const JoxListenerKind *kind) {
    scene holds unsound data of it. */
 static bool attach_collector(JoScene *scene, const JoxListenerKind *kind, const void *options,
                              JoError *error) {
-    return jox_run_listener(scene, kind) || jox_run_listen(scene, kind, options, error);
+    return jox_run_find_listener(scene, kind) ||
+           jox_run_attach_listener(scene, kind, options, error);
 }
 
 /* ---- regions: in every scene that has some ---- */
@@ -38,7 +39,7 @@ static bool begin_regions(void *self, JoScene *scene, const void *options, JoErr
 static bool sample_regions(void *self, JoScene *scene, JoError *error) {
     const JoxAgents *a = &scene->world->state.agents;
     (void)error;
-    if (jox_run_is_due(scene, REGION_INTERVAL) &&
+    if (jox_run_is_sample_due(scene, REGION_INTERVAL) &&
         jo_world_time(scene->world) >= scene->spec->heatmap_from)
         jox_regions_frame(*(JoxRegions **)self, a->x, a->y, a->prev_x, a->prev_y, a->count,
                           scene->world->model.def.dt);
@@ -75,7 +76,7 @@ const JoxRegions *jox_run_regions(const JoScene *scene) {
 static bool begin_densities(void *self, JoScene *scene, const void *options, JoError *error) {
     JoxV2 low, high;
     (void)options, (void)error;
-    jox_run_area(scene, &low, &high);
+    jox_run_find_shown_area(scene, &low, &high);
     JoxLocal *local = *(JoxLocal **)self = jox_local_create(low, high);
     local->mean_from = scene->spec->heatmap_from;
     local->grid->isa = scene->world->model.def.isa;
@@ -86,8 +87,8 @@ static bool sample_densities(void *self, JoScene *scene, JoError *error) {
     JoxLocal *local = *(JoxLocal **)self;
     (void)error;
     if (jox_local_is_due(local, jo_world_time(scene->world)))
-        jox_local_frame(local, jox_run_frame(scene, local->pressure ? JOX_FRAME_VELOCITIES : 0),
-                        NULL);
+        jox_local_frame(
+            local, jox_run_present_frame(scene, local->pressure ? JOX_FRAME_VELOCITIES : 0), NULL);
     return true;
 }
 
@@ -107,27 +108,27 @@ static const JoxListenerKind LOCAL = {.name = "density",
                                       .goes_on = true,
                                       .release = free_densities};
 
-bool jox_run_collect_local(JoScene *scene, JoError *error) {
+bool jox_run_collect_densities(JoScene *scene, JoError *error) {
     return attach_collector(scene, &LOCAL, NULL, error);
 }
 
-const JoxLocal *jox_run_local(const JoScene *scene) {
+const JoxLocal *jox_run_local_densities(const JoScene *scene) {
     return find_collector(scene, &LOCAL);
 }
 
-const JoxLocal *jox_run_want_pressure(JoScene *scene) {
-    if (jox_run_collect_local(scene, NULL))
+const JoxLocal *jox_run_collect_pressure(JoScene *scene) {
+    if (jox_run_collect_densities(scene, NULL))
         jox_local_enable_pressure(find_collector(scene, &LOCAL));
-    return jox_run_local(scene);
+    return jox_run_local_densities(scene);
 }
 
-double jox_run_density_max(const JoScene *scene) {
-    const JoxLocal *local = jox_run_local(scene);
+double jox_run_greatest_density(const JoScene *scene) {
+    const JoxLocal *local = jox_run_local_densities(scene);
     const JoxAgents *a = &scene->world->state.agents;
     JoxV2 low, high;
     if (!local || local->samples > 0)
         return local ? local->grid->most : NAN;
-    jox_run_area(scene, &low, &high); /* no sample yet: measure people as they stand */
+    jox_run_find_shown_area(scene, &low, &high); /* no sample yet: measure people as they stand */
     JoxDensity *now = jox_density_create(low, high, local->grid->cell, JOX_DENSITY_KERNEL);
     jox_density_walls(now, &scene->world->scratch.walls);
     jox_density_add(now, a->period, a->x, a->y, a->count, jo_world_time(scene->world));
@@ -161,7 +162,7 @@ static bool sample_danger(void *self, JoScene *scene, JoError *error) {
     const bool own = local != find_collector(scene, &LOCAL);
     const bool due = own && jox_local_is_due(local, jo_world_time(scene->world));
     (void)error;
-    jox_danger_frame(danger, jox_run_frame(scene, due ? JOX_FRAME_VELOCITIES : 0),
+    jox_danger_frame(danger, jox_run_present_frame(scene, due ? JOX_FRAME_VELOCITIES : 0),
                      &scene->world->state.exits);
     return true;
 }
@@ -188,7 +189,7 @@ void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
 }
 
 bool jox_run_collect_danger(JoScene *scene, JoError *error) {
-    return jox_run_collect_local(scene, error) && attach_collector(scene, &DANGER, NULL, error);
+    return jox_run_collect_densities(scene, error) && attach_collector(scene, &DANGER, NULL, error);
 }
 
 const JoxDanger *jox_run_danger(const JoScene *scene) {

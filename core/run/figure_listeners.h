@@ -16,13 +16,13 @@
 void jox_run_collect_regions(JoScene *scene);
 const JoxRegions *jox_run_regions(const JoScene *scene);
 /* Local densities, sampled in each run that is not told to do without. */
-bool jox_run_collect_local(JoScene *scene, JoError *error);
-const JoxLocal *jox_run_local(const JoScene *scene);
+bool jox_run_collect_densities(JoScene *scene, JoError *error);
+const JoxLocal *jox_run_local_densities(const JoScene *scene);
 /* Attaches the same listener, and has it measure crowd pressure too. */
-const JoxLocal *jox_run_want_pressure(JoScene *scene);
+const JoxLocal *jox_run_collect_pressure(JoScene *scene);
 /* The greatest density of any place and sample, 1/m2 (the figure density_max); before the first
    step, of the people there now; NAN if densities are not collected. */
-double jox_run_density_max(const JoScene *scene);
+double jox_run_greatest_density(const JoScene *scene);
 /* Danger to people, in the area that is shown or between two corners, m. */
 bool jox_run_collect_danger(JoScene *scene, JoError *error);
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high);

@@ -23,7 +23,7 @@ static bool reload_files(JoScene *scene, const JoxInputEntry *entry, JoError *er
         jox_overlay_put(&scene->overlay, file->path, file->text, file->length);
     }
     const JoxOverlay *before = jox_overlay_use(&scene->overlay);
-    bool live = jox_run_reload_now(scene, entry, error);
+    bool live = jox_run_reload_files(scene, entry, error);
     jox_overlay_use(before);
     return live;
 }
@@ -40,8 +40,8 @@ static bool perform_verb(JoScene *scene, const JoxInputEntry *entry, JoError *er
         return good;
     }
     if (entry->verb == JOX_INPUT_SET)
-        return jox_run_set(scene, entry->names[0], entry->names[1], entry->names[2],
-                           entry->numbers[0], error);
+        return jox_run_set_parameter(scene, entry->names[0], entry->names[1], entry->names[2],
+                                     entry->numbers[0], error);
     if (entry->verb == JOX_INPUT_FILES)
         return reload_files(scene, entry, error);
     return true; /* the other verbs were checked when the scene was loaded */
@@ -49,10 +49,10 @@ static bool perform_verb(JoScene *scene, const JoxInputEntry *entry, JoError *er
 
 /* ---- what comes in ---- */
 
-void jox_run_record_act(void *context, JoxInputEntry *entry) {
+void jox_run_log_act(void *context, JoxInputEntry *entry) {
     JoScene *scene = context;
     scene->acted_on = true;
-    jox_run_log(scene, entry);
+    jox_run_log_entry(scene, entry);
 }
 
 static bool perform_and_log(JoScene *scene, JoxInputEntry *entry, JoError *error) {
@@ -60,11 +60,11 @@ static bool perform_and_log(JoScene *scene, JoxInputEntry *entry, JoError *error
         return false;
     scene->acted_on |= entry->line == 0;
     if (jox_input_verbs[entry->verb].tool) /* a reload is logged when it goes live */
-        jox_run_log(scene, entry);
+        jox_run_log_entry(scene, entry);
     return true;
 }
 
-bool jox_run_input(JoScene *scene, JoxInputEntry *entry, JoError *error) {
+bool jox_run_perform_input(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     JOX_REQUIRE(scene && entry && !scene->finished && !scene->world->busy, false);
     JOX_GUARD (scene->heap, error)
         return false;
@@ -88,7 +88,7 @@ bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
     return good;
 }
 
-void jox_run_inputs(JoScene *scene) {
+void jox_run_perform_due_inputs(JoScene *scene) {
     const JoxInputEntry *next;
     while ((next = jox_input_take_due(&scene->world->state.input, scene->world->state.tick))) {
         JoxInputEntry entry = *next;

@@ -6,11 +6,11 @@
 #include "world/input/input_entries.h"
 
 /* Performs the entries of the played log that are due in the step that begins. */
-void jox_run_inputs(JoScene *scene);
+void jox_run_perform_due_inputs(JoScene *scene);
 /* Performs an entry between two steps and logs it, as jo_scene_input does with a line. False with
    the error if it cannot be performed. */
-bool jox_run_input(JoScene *scene, JoxInputEntry *entry, JoError *error);
+bool jox_run_perform_input(JoScene *scene, JoxInputEntry *entry, JoError *error);
 /* Logs what the program did to the world (JoWorld.record); `context` is the scene. */
-void jox_run_record_act(void *context, JoxInputEntry *entry);
+void jox_run_log_act(void *context, JoxInputEntry *entry);
 
 #endif

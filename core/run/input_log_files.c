@@ -19,7 +19,7 @@ static void log_file_hash(JoScene *scene, JoxFiles *told, const char *path, cons
     jox_files_add(told, path);
     JoxInputEntry entry = {.verb = JOX_INPUT_MADE, .names = {(char *)path, (char *)sha256}};
     if (told->count > before && strlen(path) <= JOX_INPUT_PATH)
-        jox_run_log(scene, &entry);
+        jox_run_log_entry(scene, &entry);
 }
 
 static void log_origin(JoScene *scene) {
@@ -29,7 +29,7 @@ static void log_origin(JoScene *scene) {
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)world->model.def.seed);
     JoxInputEntry began = {.verb = JOX_INPUT_BEGAN, .names = {seed}, .given = 1};
     began.numbers[0] = world->model.def.dt;
-    jox_run_log(scene, &began);
+    jox_run_log_entry(scene, &began);
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
         log_file_hash(scene, &told, scene->spec->files[f].path, scene->spec->files[f].sha256);
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
@@ -50,7 +50,7 @@ bool jo_scene_log_on(JoScene *scene, const char *path, JoError *error) {
     scene->log = there ? jox_file_open(path, "a") : NULL;
     if (!scene->log || ftruncate(fileno(scene->log), (off_t)scene->log_length) != 0) {
         jox_error(error, JO_FAILED, "cannot go on with the input log '%.200s': %s", path,
-                  there ? jox_file_why(errno) : "it is not there, or shorter than it was");
+                  there ? jox_file_error_text(errno) : "it is not there, or shorter than it was");
         return false;
     }
     scene->log_path = jox_strdup(path);
@@ -71,7 +71,7 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     scene->log = jox_file_open(path, "w");
     if (!scene->log) {
         jox_error(error, JO_FAILED, "cannot write the input log '%.200s': %s", path,
-                  jox_file_why(errno));
+                  jox_file_error_text(errno));
         return false;
     }
     scene->log_path = jox_strdup(path);
@@ -79,7 +79,7 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
             jo_version(), scene->def.path, (unsigned long long)world->model.def.seed,
             world->model.def.dt, world->state.tick ? ", begun in mid-run" : "");
     log_origin(scene);
-    return jox_run_logged(scene, error);
+    return jox_run_check_log_written(scene, error);
 }
 
 /* ---- writing ---- */
@@ -118,8 +118,8 @@ static const char *find_live_text(const JoScene *scene, const char *path, const 
     return NULL;
 }
 
-void jox_run_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, const char *sha256,
-                       const char *text, size_t length) {
+void jox_run_note_file(JoScene *scene, JoxReloadedFiles *reloaded, const char *path,
+                       const char *sha256, const char *text, size_t length) {
     const char *known;
     size_t live_length;
     const char *live = find_live_text(scene, path, &known, &live_length);
@@ -140,20 +140,20 @@ void jox_run_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, 
         add_entry_file(&reloaded->before, path, live, live_length);
 }
 
-void jox_run_log_files(JoScene *scene, JoxReloaded *reloaded) {
+void jox_run_log_files(JoScene *scene, JoxReloadedFiles *reloaded) {
     JoxInputEntry *const entries[] = {&reloaded->before, &reloaded->files};
     reloaded->before.verb = JOX_INPUT_BEFORE;
     reloaded->files.verb = JOX_INPUT_FILES;
     for (int e = 0; e < 2; e++) {
         if (entries[e]->number)
-            jox_run_log(scene, entries[e]);
+            jox_run_log_entry(scene, entries[e]);
         for (uint32_t f = 0; f < entries[e]->number; f++)
             jox_files_add(&scene->logged_files, entries[e]->files[f].path);
         jox_input_entry_free(entries[e]);
     }
 }
 
-bool jox_run_is_live(const JoScene *scene, const JoxInputFile *file) {
+bool jox_run_is_text_live(const JoScene *scene, const JoxInputFile *file) {
     const char *sha256;
     size_t length;
     const char *live = find_live_text(scene, file->path, &sha256, &length);
@@ -179,7 +179,7 @@ static void compare_beginning(const JoScene *scene, const JoxInputEntry *entry) 
                     scene->input_path, entry->line, entry->tick);
 }
 
-void jox_run_check_log(const JoScene *scene) {
+void jox_run_compare_with_log(const JoScene *scene) {
     const JoxInputLog *log = &scene->world->state.input;
     for (size_t e = 0; e < log->count; e++) {
         const JoxInputEntry *entry = &log->entries[e];
@@ -197,7 +197,7 @@ void jox_run_check_log(const JoScene *scene) {
     }
 }
 
-void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log) {
+void jox_run_restore_logged_texts(JoxOverlay *overlay, const JoxInputLog *log) {
     for (size_t e = 0; e < log->count; e++)
         for (uint32_t f = 0; log->entries[e].verb == JOX_INPUT_BEFORE && f < log->entries[e].number;
              f++) {

@@ -10,7 +10,7 @@
 #include "run/input_log.h"
 #include "run/run.h"
 
-void jox_run_log(JoScene *scene, JoxInputEntry *entry) {
+void jox_run_log_entry(JoScene *scene, JoxInputEntry *entry) {
     JoxText text = {0};
     if (!scene->log)
         return;
@@ -21,19 +21,19 @@ void jox_run_log(JoScene *scene, JoxInputEntry *entry) {
     jox_text_free(&text);
 }
 
-bool jox_run_logged(const JoScene *scene, JoError *error) {
+bool jox_run_check_log_written(const JoScene *scene, JoError *error) {
     if (scene->log_failed)
         jox_error(error, JO_FAILED, "cannot write the input log '%.200s'", scene->log_path);
     return !scene->log_failed;
 }
 
-bool jox_run_end_log(JoScene *scene, JoError *error) {
+bool jox_run_close_log(JoScene *scene, JoError *error) {
     if (!scene->log)
         return true;
     const bool there = jox_file_has_name(scene->log, scene->log_path);
     scene->log_failed |= jox_file_close(scene->log) != 0;
     scene->log = NULL;
-    bool good = jox_run_logged(scene, error);
+    bool good = jox_run_check_log_written(scene, error);
     if (good && !there) {
         jox_error(error, JO_FAILED,
                   "the input log '%.200s' was removed or replaced while it was written",

@@ -8,13 +8,13 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-bool jox_run_is_due(const JoScene *scene, double interval) {
+bool jox_run_is_sample_due(const JoScene *scene, double interval) {
     const JoWorld *world = scene->world;
     uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(interval / world->model.def.dt + 0.5));
     return world->state.tick % every == 0;
 }
 
-void *jox_run_listener(const JoScene *scene, const JoxListenerKind *kind) {
+void *jox_run_find_listener(const JoScene *scene, const JoxListenerKind *kind) {
     for (uint32_t l = 0; l < scene->listeners.count; l++)
         if (scene->listeners.items[l].kind == kind)
             return scene->listeners.items[l].self;
@@ -73,8 +73,8 @@ static JoxPiece find_piece(const JoScene *scene, const JoxListenerKind *kind) {
     return (JoxPiece){0};
 }
 
-bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *self,
-                     JoError *error) {
+bool jox_run_restore_listener(const JoScene *scene, const JoxListenerKind *kind, void *self,
+                              JoError *error) {
     if (!scene->resumed.length) {
         jox_error(error, JO_USAGE, "the %s goes on in resumed scenes alone", kind->name);
         return false;
@@ -99,22 +99,23 @@ static bool continues_from_checkpoint(const JoScene *scene, const JoxListenerKin
     return kind->goes_on && scene->resumed.length && find_piece(scene, kind).data;
 }
 
-bool jox_run_take_up_all(JoScene *scene, JoError *error) {
+bool jox_run_restore_listeners(JoScene *scene, JoError *error) {
     for (uint32_t l = 0; l < scene->listeners.count; l++) {
         const JoxListener *listener = &scene->listeners.items[l];
         if (continues_from_checkpoint(scene, listener->kind) &&
-            !jox_run_take_up(scene, listener->kind, listener->self, error))
+            !jox_run_restore_listener(scene, listener->kind, listener->self, error))
             return false;
     }
     return true;
 }
 
-void *jox_run_listen(JoScene *scene, const JoxListenerKind *kind, const void *options,
-                     JoError *error) {
+void *jox_run_attach_listener(JoScene *scene, const JoxListenerKind *kind, const void *options,
+                              JoError *error) {
     JoxListeners *all = &scene->listeners;
     void *self = jox_alloc(1, kind->size);
     if ((kind->begin && !kind->begin(self, scene, options, error)) ||
-        (continues_from_checkpoint(scene, kind) && !jox_run_take_up(scene, kind, self, error))) {
+        (continues_from_checkpoint(scene, kind) &&
+         !jox_run_restore_listener(scene, kind, self, error))) {
         if (kind->release)
             kind->release(self);
         jox_free(self);

@@ -14,8 +14,8 @@
 typedef struct JoxListenerKind {
     const char *name; /* for messages, and its key in a checkpoint: "recording" */
     size_t size;
-    /* Called when the listener is attached, with the `options` of jox_run_listen. False with
-       `error` refuses. */
+    /* Called when the listener is attached, with the `options` of jox_run_attach_listener. False
+       with `error` refuses. */
     bool (*begin)(void *self, JoScene *scene, const void *options, JoError *error);
     /* Called after each step. False with `error` ends the run. */
     bool (*frame)(void *self, JoScene *scene, JoError *error);
@@ -49,10 +49,10 @@ typedef struct JoxListeners {
 } JoxListeners;
 
 /* Attaches a listener and returns its `self`; NULL with `error` (may be NULL) if it refused. */
-void *jox_run_listen(JoScene *scene, const JoxListenerKind *kind, const void *options,
-                     JoError *error);
+void *jox_run_attach_listener(JoScene *scene, const JoxListenerKind *kind, const void *options,
+                              JoError *error);
 /* Returns `self` of the scene's listener of a kind, or NULL. */
-void *jox_run_listener(const JoScene *scene, const JoxListenerKind *kind);
+void *jox_run_find_listener(const JoScene *scene, const JoxListenerKind *kind);
 /* Call the function of that name of all listeners, also after one has failed; `error` holds the
    first failure. */
 bool jox_run_tell_frame(JoScene *scene, JoError *error);
@@ -61,15 +61,16 @@ bool jox_run_tell_end(JoScene *scene, JoError *error);
 void jox_run_release_listeners(JoScene *scene);
 /* Whether the step just done is one of those that come every `interval` seconds; every step if that
    is longer than the interval. */
-bool jox_run_is_due(const JoScene *scene, double interval);
+bool jox_run_is_sample_due(const JoScene *scene, double interval);
 
 /* Name of a checkpoint's pieces (base/format/piece_file.h) that hold listeners. Such a piece is the
    name of the kind, a zero, and its sections. */
 #define JOX_PIECE_LISTENER "listener"
 /* Restores the state of a listener from the checkpoint that the scene was resumed from. False
    with `error` if that has none. */
-bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *self, JoError *error);
+bool jox_run_restore_listener(const JoScene *scene, const JoxListenerKind *kind, void *self,
+                              JoError *error);
 /* Restores all listeners that are attached and go on. */
-bool jox_run_take_up_all(JoScene *scene, JoError *error);
+bool jox_run_restore_listeners(JoScene *scene, JoError *error);
 
 #endif

@@ -122,7 +122,7 @@ static JoScene *try_load(const JoSceneDef *def, uint64_t without, int32_t *culpr
                          JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
     scene->heap = jox_heap_used();
-    scene->message = def->message ? def->message : jox_run_to_stderr;
+    scene->message = def->message ? def->message : jox_run_write_to_stderr;
     scene->message_context = def->message_context;
     const JoxOverlay *before = use_scene_overlay(scene, def);
     scene->mods = jox_run_find_mods(def, without, mod_problems);
@@ -187,7 +187,7 @@ static bool takes_named_mods(const JoSceneDef *def, const JoScene *scene,
                  !mods->items[m].folder[length]))
                 taken = &mods->items[m];
         if (taken)
-            jox_run_check_use(scene, taken, diagnostics);
+            jox_run_check_mod_use(scene, taken, diagnostics);
         if (taken)
             continue;
         if (!is_missing_mod(mods, name)) /* a missing mod has been reported */
@@ -238,22 +238,22 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
                               JoError *error) {
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);
-    jox_run_tell_diagnosed(diagnosed, context, NULL, &diagnostics);
+    jox_run_call_diagnosed(diagnosed, context, NULL, &diagnostics);
     const size_t warnings = diagnostics.warnings;
-    jox_run_report(def->message, def->message_context, &diagnostics, error);
-    jox_run_tell_diagnosed(diagnosed, context, NULL, NULL);
+    jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, error);
+    jox_run_call_diagnosed(diagnosed, context, NULL, NULL);
     if (!scene)
         return NULL;
     scene->warnings += warnings + scene->mod_problems.warnings;
     scene->diagnosed = diagnosed;
     scene->diagnosed_context = context;
-    jox_run_report(scene->message, scene->message_context, &scene->mod_problems, NULL);
+    jox_run_report_diagnostics(scene->message, scene->message_context, &scene->mod_problems, NULL);
     for (uint32_t m = 0; m < scene->mods->count; m++)
         jox_run_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
                     scene->mods->items[m].version, scene->mods->items[m].folder);
     if (def->dry)
         return scene;
-    jox_run_check_log(scene);
+    jox_run_compare_with_log(scene);
     return scene;
 }
 
@@ -268,14 +268,14 @@ static void release_scene(void *scene) {
     jo_scene_free(scene);
 }
 
-JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
-                           JoError *error) {
-    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path && jox_run_is_whole(def), NULL);
+JoScene *jox_run_load_and_report(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                                 JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path && jox_run_is_def_whole(def), NULL);
     JoxHeap *heap = jox_heap_create();
     JoScene *scene = heap ? load_on_heap(def, diagnosed, context, heap, error) : NULL;
     if (!heap || jox_heap_has_failed(heap)) {
         jox_memory_error(error);
-        jox_run_message(def->message, def->message_context, "out of memory\n");
+        jox_run_send_message(def->message, def->message_context, "out of memory\n");
     }
     if (!scene) {
         jox_heap_free(heap);
@@ -287,14 +287,14 @@ JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void 
 }
 
 JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
-    return jox_run_load_told(def, NULL, NULL, error);
+    return jox_run_load_and_report(def, NULL, NULL, error);
 }
 
 static void free_scene(JoScene *scene) {
     jo_scene_finish(scene, NULL);
     jox_run_release_listeners(scene);
     jox_run_free_frame(scene);
-    jox_run_unwatch(scene);
+    jox_run_end_reload(scene);
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
     jox_lua_free(scene->lua);

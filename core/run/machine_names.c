@@ -113,8 +113,9 @@ static const char *find_new_own_name(const JoxMachine *machine, const char *name
     return NULL;
 }
 
-void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
-                       uint32_t count, JoxDiagnostics *diagnostics) {
+void jox_run_check_own_values(const JoScene *scene, const JoxMachine *machine,
+                              const JoxLuaFile *files, uint32_t count,
+                              JoxDiagnostics *diagnostics) {
     size_t before = diagnostics->count;
     for (uint32_t o = 0; o < machine->own_count; o++) {
         const JoxOwnSlot *slot = &machine->own[o];
@@ -177,7 +178,7 @@ static bool stays_gate_closed(const JoScene *scene, const char *gate) {
     for (uint32_t r = 0; r < walls->ring_count; r++)
         closed |= walls->rings[r].name && strcmp(walls->rings[r].name, gate) == 0 &&
                   !walls->rings[r].open;
-    return closed && !jox_run_opens(scene, gate);
+    return closed && !jox_run_has_gate_opener(scene, gate);
 }
 
 /* Returns the present name of a state or memory that is named as it was once called; else NULL. */
@@ -190,7 +191,7 @@ static const char *find_new_name_used(const JoxMachineRun *machines, const JoxNa
     return now;
 }
 
-void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
+void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
@@ -198,7 +199,7 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
         size_t before = diagnostics->count;
-        jox_run_check_own(scene, machine, files, count, diagnostics);
+        jox_run_check_own_values(scene, machine, files, count, diagnostics);
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             const bool others = name->uses & (JOX_NAME_STATE | JOX_NAME_MEMORY);
@@ -236,7 +237,7 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
 
 /* ---- mods ---- */
 
-void jox_run_check_use(const JoScene *scene, const JoxMod *mod, JoxDiagnostics *diagnostics) {
+void jox_run_check_mod_use(const JoScene *scene, const JoxMod *mod, JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = &scene->world->model.machines;
     bool used = false;
     for (uint32_t f = 0; f < scene->spec->file_count; f++)

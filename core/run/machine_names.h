@@ -10,12 +10,12 @@
 #include "scene/mods.h"
 
 /* Checks the names that all machines of a loaded scene use, and those of its tallies. */
-void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics);
+void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnostics);
 /* Checks the own values that a machine reads: parameters, declared, or set by a group that runs it.
    `files` are the machine's. */
-void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
-                       uint32_t count, JoxDiagnostics *diagnostics);
+void jox_run_check_own_values(const JoScene *scene, const JoxMachine *machine,
+                              const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diagnostics);
 /* Warns if no file of a mod is part of the scene: its patches change nothing there. */
-void jox_run_check_use(const JoScene *scene, const JoxMod *mod, JoxDiagnostics *diagnostics);
+void jox_run_check_mod_use(const JoScene *scene, const JoxMod *mod, JoxDiagnostics *diagnostics);
 
 #endif

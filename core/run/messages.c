@@ -8,24 +8,24 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-void jox_run_to_stderr(void *context, const char *text) {
+void jox_run_write_to_stderr(void *context, const char *text) {
     (void)context;
     if (isatty(2)) /* clears the line of progress */
         fputs("\r\033[K", stderr);
     fputs(text, stderr);
 }
 
-void jox_run_message(JoMessage *message, void *context, const char *text) {
+void jox_run_send_message(JoMessage *message, void *context, const char *text) {
     const JoxOutside outside = jox_guard_leave();
-    (message ? message : jox_run_to_stderr)(context, text);
+    (message ? message : jox_run_write_to_stderr)(context, text);
     jox_guard_return(outside);
 }
 
-void jox_run_tell(const JoScene *scene, const char *text) {
-    jox_run_message(scene->message, scene->message_context, text);
+void jox_run_send_text(const JoScene *scene, const char *text) {
+    jox_run_send_message(scene->message, scene->message_context, text);
 }
 
-void jox_run_tell_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
+void jox_run_call_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
                             const JoxDiagnostics *diagnostics) {
     const JoxOutside outside = jox_guard_leave();
     if (diagnosed)
@@ -39,15 +39,15 @@ void jox_run_say(const JoScene *scene, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    jox_run_tell(scene, text);
+    jox_run_send_text(scene, text);
 }
 
-void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
-                    JoError *error) {
+void jox_run_report_diagnostics(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
+                                JoError *error) {
     JoxText text = {0};
     jox_diag_print(diagnostics, &text);
     if (text.length)
-        jox_run_message(message, context, text.data);
+        jox_run_send_message(message, context, text.data);
     jox_text_free(&text);
     for (size_t i = 0; error && i < diagnostics->count; i++) {
         const JoxDiagnostic *d = &diagnostics->items[i];
@@ -62,7 +62,7 @@ void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnosti
     jox_diag_free(diagnostics);
 }
 
-bool jox_run_failed(JoError *error, JoxText *why) {
+bool jox_run_fill_error(JoError *error, JoxText *why) {
     jox_error(error, JO_FAILED, "%s", why->data ? why->data : "writing failed");
     jox_text_free(why);
     return false;

@@ -16,17 +16,18 @@ typedef void JoxDiagnosed(void *context, const bool *parts, const JoxDiagnostics
 void jox_run_say(const JoScene *scene, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Sends text to the scene's message function. */
-void jox_run_tell(const JoScene *scene, const char *text);
+void jox_run_send_text(const JoScene *scene, const char *text);
 /* Sends text to a message function of the program; NULL: to stderr. */
-void jox_run_message(JoMessage *message, void *context, const char *text);
+void jox_run_send_message(JoMessage *message, void *context, const char *text);
 /* The message function that writes to stderr; clears the line of progress first. */
-void jox_run_to_stderr(void *context, const char *text);
+void jox_run_write_to_stderr(void *context, const char *text);
 /* Sends diagnostics as text, fills `error` from the first error, and frees them. */
-void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics, JoError *error);
+void jox_run_report_diagnostics(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
+                                JoError *error);
 /* Calls `diagnosed`, unless NULL. */
-void jox_run_tell_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
+void jox_run_call_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
                             const JoxDiagnostics *diagnostics);
 /* Fills `error` with what could not be written, and frees the text. Returns false. */
-bool jox_run_failed(JoError *error, JoxText *why);
+bool jox_run_fill_error(JoError *error, JoxText *why);
 
 #endif

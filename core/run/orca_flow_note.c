@@ -64,7 +64,7 @@ static const JoxState *find_orca_state(const JoxMachine *machine) {
     return NULL;
 }
 
-bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics) {
+bool jox_run_note_orca_flow(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxProbeDef *probe = find_flow_probe(scene->spec);
     for (uint32_t g = 0; probe && g < scene->spec->group_count; g++) {
         const JoxGroup *group = &scene->spec->groups[g];

@@ -7,6 +7,6 @@
 
 /* Adds a note if a probe measures flow and a group walks by ORCA in place of the walking law, for
    the first such group. False: there is none. */
-bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics);
+bool jox_run_note_orca_flow(const JoScene *scene, JoxDiagnostics *diagnostics);
 
 #endif

@@ -104,7 +104,7 @@ static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
     f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
 }
 
-const JoxFrame *jox_run_frame(JoScene *scene, uint32_t parts) {
+const JoxFrame *jox_run_present_frame(JoScene *scene, uint32_t parts) {
     const JoWorld *world = scene->world;
     if (!scene->frame)
         scene->frame = jox_alloc(1, sizeof *scene->frame);
@@ -142,7 +142,7 @@ void jox_run_free_frame(JoScene *scene) {
 
 static const float MARGIN = 2.0f; /* m round the walls and people of a scene without bounds */
 
-void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
+void jox_run_find_shown_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
     if (spec->heatmap || spec->bounded) {

@@ -11,11 +11,11 @@ enum { JOX_FRAME_VELOCITIES = 1, JOX_FRAME_FORCES = 2, JOX_FRAME_STATES = 4, JOX
 
 /* Returns the frame of the present step, made once a step; valid until the next step. `parts`: bits
    of the columns that are needed; those that nobody needs in a step may be NULL. */
-const JoxFrame *jox_run_frame(JoScene *scene, uint32_t parts);
+const JoxFrame *jox_run_present_frame(JoScene *scene, uint32_t parts);
 void jox_run_free_frame(JoScene *scene);
 
 /* Writes the corners of the area that pictures and recordings show, m: the heat map's, else the
    scene's bounds, else a box round all walls and people. */
-void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
+void jox_run_find_shown_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
 
 #endif

@@ -19,7 +19,7 @@ static bool create_probes(void *self, JoScene *scene, const void *options, JoErr
     for (uint32_t n = 0; n < p->count; n++) {
         JoxProbeDef def = spec->probes[n];
         if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x)
-            jox_run_area(scene, &def.low, &def.high);
+            jox_run_find_shown_area(scene, &def.low, &def.high);
         p->items[n] = jox_probe_create(&def);
     }
     return true;
@@ -30,7 +30,7 @@ static bool sample_probes(void *self, JoScene *scene, JoError *error) {
     (void)error;
     for (uint32_t n = 0; n < p->count; n++)
         if (jox_probe_is_due(p->items[n], jo_world_time(scene->world)))
-            jox_probe_frame(p->items[n], jox_run_frame(scene, JOX_FRAME_WHOLE));
+            jox_probe_frame(p->items[n], jox_run_present_frame(scene, JOX_FRAME_WHOLE));
     return true;
 }
 
@@ -61,11 +61,11 @@ static const JoxListenerKind PROBES = {.name = "probes",
 
 void jox_run_collect_probes(JoScene *scene) {
     if (scene->spec->probe_count)
-        jox_run_listen(scene, &PROBES, NULL, NULL);
+        jox_run_attach_listener(scene, &PROBES, NULL, NULL);
 }
 
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n) {
-    const Probes *p = jox_run_listener(scene, &PROBES);
+    const Probes *p = jox_run_find_listener(scene, &PROBES);
     return p && n < p->count ? p->items[n] : NULL;
 }
 

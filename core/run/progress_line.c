@@ -60,8 +60,8 @@ static const JoxListenerKind PROGRESS = {.name = "progress",
 
 void jo_scene_show_progress(JoScene *scene, double until) {
     JOX_REQUIRE(scene && !scene->world->busy, );
-    if (until > 0.0 && !jox_run_listener(scene, &PROGRESS))
-        jox_run_listen(scene, &PROGRESS, &until, NULL);
+    if (until > 0.0 && !jox_run_find_listener(scene, &PROGRESS))
+        jox_run_attach_listener(scene, &PROGRESS, &until, NULL);
 }
 
 /* ---- trace ---- */
@@ -69,7 +69,7 @@ void jo_scene_show_progress(JoScene *scene, double until) {
 static bool send_trace(void *self, JoScene *scene, JoError *error) {
     (void)self, (void)error;
     if (scene->world->machines.trace.length)
-        jox_run_tell(scene, scene->world->machines.trace.data);
+        jox_run_send_text(scene, scene->world->machines.trace.data);
     return true;
 }
 
@@ -79,6 +79,6 @@ void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
     JOX_REQUIRE(scene && !scene->world->busy, );
     scene->world->machines.traces = true;
     scene->world->machines.trace_id = agent_id;
-    if (!jox_run_listener(scene, &TRACE))
-        jox_run_listen(scene, &TRACE, NULL, NULL);
+    if (!jox_run_find_listener(scene, &TRACE))
+        jox_run_attach_listener(scene, &TRACE, NULL, NULL);
 }

@@ -14,7 +14,7 @@ static bool has_all_texts(const char *const *texts, size_t count) {
     return true;
 }
 
-bool jox_run_is_whole(const JoSceneDef *def) {
+bool jox_run_is_def_whole(const JoSceneDef *def) {
     for (size_t f = 0; f < def->file_count; f++)
         if (!def->files || !def->files[f].path || (!def->files[f].text && def->files[f].length))
             return false;
@@ -51,7 +51,7 @@ static void add_overlay_files(JoxOverlay *all, const JoxOverlay *some) {
         jox_overlay_put(all, some->files[f].path, some->files[f].text, some->files[f].length);
 }
 
-void jox_run_texts(const JoScene *scene, JoxOverlay *out) {
+void jox_run_collect_texts(const JoScene *scene, JoxOverlay *out) {
     add_overlay_files(out, &scene->overlay);
     add_overlay_files(out, &scene->tape);
     for (uint32_t f = 0; f < scene->spec->file_count; f++)

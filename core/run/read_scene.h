@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 
 /* Whether the lists of a def, and the threads that it lends, are complete. */
-bool jox_run_is_whole(const JoSceneDef *def);
+bool jox_run_is_def_whole(const JoSceneDef *def);
 /* Finds the mods of a scene, and which files each of their patches changes. `without`: bits of
    found mods to leave out. Mods with a patch that names no target are left out too. */
 JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnostics *diagnostics);
@@ -19,6 +19,6 @@ JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint
                                 JoxDiagnostics *diagnostics);
 /* Adds the texts of all files of a scene to `out`: those read at the load if the scene is
    resumable, then those live now. */
-void jox_run_texts(const JoScene *scene, JoxOverlay *out);
+void jox_run_collect_texts(const JoScene *scene, JoxOverlay *out);
 
 #endif

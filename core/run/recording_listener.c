@@ -65,7 +65,7 @@ static void write_walkable_area(const JoScene *scene, JoxText *wkt) {
         points[count++] = world->model.places[scene->spec->sources[s].place].centre;
     for (uint32_t s = 0; s < starts; s++)
         points[count++] = world->model.starts[s].at;
-    jox_run_area(scene, &low, &high);
+    jox_run_find_shown_area(scene, &low, &high);
     if (jox_walls_outline_all(&world->scratch.walls, points, count))
         jox_wkt_outlines(&world->scratch.walls, wkt);
     else
@@ -122,18 +122,18 @@ static bool begin_recording(void *self, JoScene *scene, const void *options, JoE
     JoxText wkt = {0}, why = {0};
     double dt = scene->world->model.def.dt;
     if (target->goes_on) {
-        if (!jox_run_take_up(scene, &RECORDING, self, error))
+        if (!jox_run_restore_listener(scene, &RECORDING, self, error))
             return false;
         r->recorder =
             jox_recorder_continue(path, (uint32_t)(scene->world->state.tick / r->every), &why);
-        return r->recorder || jox_run_failed(error, &why);
+        return r->recorder || jox_run_fill_error(error, &why);
     }
     r->every = dt >= target->every ? 1 : (uint32_t)(target->every / dt + 0.5);
     write_walkable_area(scene, &wkt);
     r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);
     jox_text_free(&wkt);
     if (!r->recorder)
-        return jox_run_failed(error, &why);
+        return jox_run_fill_error(error, &why);
     record_walls(r, &scene->world->model.all_walls,
                  (uint32_t)((scene->world->state.tick + r->every - 1) / r->every));
     const JoxMachineRun *machines = &scene->world->machines;
@@ -227,7 +227,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
                                           pose.turn[2],        pose.turn[3]};
     }
     JoxText why = {0};
-    return jox_recorder_submit_frame(r->recorder, frame, &why) || jox_run_failed(error, &why);
+    return jox_recorder_submit_frame(r->recorder, frame, &why) || jox_run_fill_error(error, &why);
 }
 
 static bool end_recording(void *self, JoScene *scene, JoError *error) {
@@ -236,7 +236,7 @@ static bool end_recording(void *self, JoScene *scene, JoError *error) {
     const bool good = jox_recorder_close(r->recorder, &message);
     r->recorder = NULL;
     if (!good)
-        return jox_run_failed(error, &message);
+        return jox_run_fill_error(error, &message);
     if (message.length)
         jox_run_say(scene, "%s", message.data);
     jox_text_free(&message);
@@ -253,7 +253,8 @@ static void free_recording(void *self) {
 
 static bool settle_recording(void *self, JoError *error) {
     JoxText why = {0};
-    return jox_recorder_commit(((Recording *)self)->recorder, &why) || jox_run_failed(error, &why);
+    return jox_recorder_commit(((Recording *)self)->recorder, &why) ||
+           jox_run_fill_error(error, &why);
 }
 
 static void list_recording_sections(void *self, JoxSections *s) {
@@ -282,19 +283,19 @@ static const JoxListenerKind RECORDING = {.name = "recording",
 static bool attach_recording(JoScene *scene, const Target *target, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
-    return jox_run_listen(scene, &RECORDING, target, error) != NULL;
+    return jox_run_attach_listener(scene, &RECORDING, target, error) != NULL;
 }
 
 bool jo_scene_record(JoScene *scene, const char *path, double every, JoError *error) {
     JOX_REQUIRE(scene && !scene->world->busy && path && every >= 0.0 && every <= 1e6 &&
-                    !jox_run_listener(scene, &RECORDING),
+                    !jox_run_find_listener(scene, &RECORDING),
                 false);
     return attach_recording(scene, &(Target){path, every > 0.0 ? every : DEFAULT_INTERVAL, false},
                             error);
 }
 
 bool jo_scene_record_on(JoScene *scene, const char *path, JoError *error) {
-    JOX_REQUIRE(scene && !scene->world->busy && path && !jox_run_listener(scene, &RECORDING),
+    JOX_REQUIRE(scene && !scene->world->busy && path && !jox_run_find_listener(scene, &RECORDING),
                 false);
     return attach_recording(scene, &(Target){path, 0.0, true}, error);
 }

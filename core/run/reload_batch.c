@@ -29,7 +29,7 @@ void jox_batch_free(JoxBatch *batch) {
     jox_free(batch);
 }
 
-bool jox_reload_use(JoxReload *r, uint32_t part, const char *path) {
+bool jox_reload_watch_file(JoxReload *r, uint32_t part, const char *path) {
     jox_changes_add_use(&r->changes, part, path);
     return !r->watch || jox_watch_add(r->watch, path);
 }
@@ -42,16 +42,16 @@ static void account_batch(JoxReload *r, const JoxBatch *batch, bool live) {
     for (uint32_t c = 0; c < batch->count; c++) {
         const JoxChange *change = &batch->changes[c];
         for (uint32_t f = 0; f < change->files.count && (live || !change->added); f++)
-            jox_reload_use(r, change->index, change->files.paths[f]);
+            jox_reload_watch_file(r, change->index, change->files.paths[f]);
     }
     for (uint32_t f = 0; batch->spec_files.count > f; f++)
-        jox_reload_use(r, JOX_PART_SCENE, batch->spec_files.paths[f]);
+        jox_reload_watch_file(r, JOX_PART_SCENE, batch->spec_files.paths[f]);
     const uint32_t mod_parts =
         batch->parts[JOX_PART_MODS] ? r->scene->mods->count * JOX_RELOAD_MOD_PARTS : 0;
     for (uint32_t m = 0; m < mod_parts; m++) {
         char path[JOX_LONGEST_PATH];
         jox_reload_mod_path(r->scene, m / JOX_RELOAD_MOD_PARTS, m % JOX_RELOAD_MOD_PARTS, path);
-        jox_reload_use(r, JOX_PART_MODS, path);
+        jox_reload_watch_file(r, JOX_PART_MODS, path);
     }
 }
 
@@ -122,7 +122,7 @@ static void add_becomes(JoxReload *r, JoxBatch *batch, uint32_t c, const JoxMach
 static void load_change(JoxReload *r, JoxBatch *batch, uint32_t c) {
     JoScene *scene = r->scene;
     const char *path = batch->changes[c].path;
-    const char *made = jox_run_made(scene->spec, path);
+    const char *made = jox_run_journey_text(scene->spec, path);
     JoxLoaded *loaded = jox_lua_prepare(scene->lua, path, made, made ? strlen(made) : 0,
                                         &scene->scope, &batch->diagnostics);
     uint32_t count;
@@ -134,7 +134,7 @@ static void load_change(JoxReload *r, JoxBatch *batch, uint32_t c) {
     const JoxMachine *next = jox_loaded_machine(loaded);
     const JoxLuaFile *files = jox_loaded_files(loaded, &count);
     if (next)
-        jox_run_check_own(scene, next, files, count, &batch->diagnostics);
+        jox_run_check_own_values(scene, next, files, count, &batch->diagnostics);
     if (next)
         add_becomes(r, batch, c, next);
     else
@@ -277,8 +277,8 @@ static void check_batch_tags(JoScene *scene, JoxBatch *batch) {
     for (uint32_t c = 0; c < batch->count; c++) {
         uint32_t file_count;
         const JoxLuaFile *files = jox_loaded_files(batch->changes[c].loaded, &file_count);
-        jox_run_check_belongings(scene, jox_loaded_machine(batch->changes[c].loaded), files,
-                                 file_count, machines, count, &batch->diagnostics);
+        jox_run_check_tags_and_teams(scene, jox_loaded_machine(batch->changes[c].loaded), files,
+                                     file_count, machines, count, &batch->diagnostics);
     }
 }
 

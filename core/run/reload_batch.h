@@ -72,7 +72,7 @@ void jox_batch_free(JoxBatch *batch);
 /* Frees what was swapped out, and watches the files of its batch: as live, or as tried. */
 void jox_reload_free_retired(JoxReload *reload);
 /* Notes that a part is made of a file, and watches it. False with errno if it cannot be watched. */
-bool jox_reload_use(JoxReload *reload, uint32_t part, const char *path);
+bool jox_reload_watch_file(JoxReload *reload, uint32_t part, const char *path);
 /* Files of a mod that are watched though no machine or scene is made of them. */
 enum { JOX_RELOAD_SHEET, JOX_RELOAD_PATCHES, JOX_RELOAD_MOD_PARTS };
 /* Writes the path of a mod's mod.yaml, or of its folder of patches. */
@@ -80,6 +80,6 @@ void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part, char path
 /* Takes over a batch on the stepping thread, between two steps: all of it goes live, or nothing
    and the reasons are reported. Hands it back through `retired`. True if it is live.
    (reload_swap.c) */
-bool jox_batch_take(JoScene *scene, JoxBatch *batch);
+bool jox_batch_swap(JoScene *scene, JoxBatch *batch);
 
 #endif

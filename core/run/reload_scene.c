@@ -93,7 +93,8 @@ static bool same_dist(const JoxDist *a, const JoxDist *b) {
            !memcmp(a->values, b->values, (size_t)a->choices * sizeof *a->values);
 }
 
-void jox_run_give(JoScene *scene, int32_t which, uint32_t group, const JoxGroupValue *set) {
+void jox_run_give_group_value(JoScene *scene, int32_t which, uint32_t group,
+                              const JoxGroupValue *set) {
     JoxMachineRun *machines = &scene->world->machines;
     JoxAgents *a = machines->agents;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -169,7 +170,7 @@ static bool replace_group_values(SceneReload *r) {
                         same_dist(&before->dist, &set->dist);
             if (same || set->kind == JOX_SET_ANTIPODE)
                 continue;
-            jox_run_give(r->scene, -1, g, set);
+            jox_run_give_group_value(r->scene, -1, g, set);
             set_any = true;
         }
     }
@@ -200,10 +201,10 @@ static void check_new_sources(const SceneReload *r) {
         !jox_scene_differs(r->old, r->new, "places") && !jox_scene_differs(r->old, r->new, "walls"))
         return;
     jox_run_check_sources(r->scene, &blocked);
-    jox_run_report(r->scene->message, r->scene->message_context, &blocked, NULL);
+    jox_run_report_diagnostics(r->scene->message, r->scene->message_context, &blocked, NULL);
 }
 
-void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
+void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
     SceneReload r = {.scene = scene, .old = scene->spec, .new = *spec};
     double begun = jox_clock_wall();
     replace_places(&r);
@@ -236,7 +237,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
         scene->spec = r.new;
         r.new->duration = r.old->duration;
         jox_run_set_schedule(scene, sources);
-        jox_run_name_events(scene, NULL);
+        jox_run_number_event_signals(scene, NULL);
         check_new_sources(&r);
     }
     jox_text_free(&r.done);

@@ -27,10 +27,10 @@ static void report_refusal(JoScene *scene, JoxBatch *batch, const char *path, co
     if (why)
         jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
                        "%s", why);
-    jox_run_tell_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts,
+    jox_run_call_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts,
                            &batch->diagnostics);
-    jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
-    jox_run_tell_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts, NULL);
+    jox_run_report_diagnostics(scene->message, scene->message_context, &batch->diagnostics, NULL);
+    jox_run_call_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts, NULL);
     for (uint32_t c = 0; c < batch->count; c++) {
         if (batch->changes[c].added)
             continue;
@@ -55,14 +55,14 @@ static void link_batch(JoScene *scene, JoxBatch *batch) {
             continue;
         JoxMachine *machine = jox_loaded_machine(change->loaded);
         jox_lua_adopt(scene->lua, change->loaded);
-        jox_run_number_belongings(scene, machine);
+        jox_run_number_tags_and_teams(scene, machine);
         change->index = jox_machines_add(machines, machine);
         jox_run_tell_replaced(scene, change->index);
     }
     jox_run_link_groups(scene, scene->spec, NULL);
     for (uint32_t m = 0; m < machines->set->count; m++) {
         JoxDiagnostics none = {0};
-        jox_run_link(scene, machines->set->built[m], &none);
+        jox_run_link_becomes(scene, machines->set->built[m], &none);
         jox_diag_free(&none);
     }
 }
@@ -79,7 +79,8 @@ static void give_new_values(JoScene *scene, const JoxChange *change, const JoxMa
             for (uint32_t k = 0; k < spec->groups[g].set_count; k++)
                 if (strcmp(spec->groups[g].set[k].name, next->own[s].name) == 0 &&
                     spec->groups[g].set[k].kind != JOX_SET_ANTIPODE)
-                    jox_run_give(scene, (int32_t)change->index, g, &spec->groups[g].set[k]);
+                    jox_run_give_group_value(scene, (int32_t)change->index, g,
+                                             &spec->groups[g].set[k]);
     }
 }
 
@@ -103,7 +104,7 @@ static void swap_machines(JoScene *scene, JoxBatch *batch, JoxRetired *retired) 
         double begun = jox_clock_wall();
         jox_machines_people(machines, change->index, before);
         JoxMachine *next = jox_loaded_machine(change->loaded);
-        jox_run_number_belongings(scene, next);
+        jox_run_number_tags_and_teams(scene, next);
         JoxMachine *old = jox_machines_replace(machines, change->index, change->replacement);
         jox_run_link_groups(scene, scene->spec, NULL);
         give_new_values(scene, change, old, next);
@@ -134,12 +135,12 @@ static void swap_machines(JoScene *scene, JoxBatch *batch, JoxRetired *retired) 
     }
     link_batch(scene, batch);
     if (text.data)
-        jox_run_tell(scene, text.data);
+        jox_run_send_text(scene, text.data);
     jox_text_free(&text);
 }
 
 /* Notes the texts that differ from those that are live, for the input log. */
-static void note_batch_files(JoScene *scene, const JoxBatch *batch, JoxReloaded *reloaded) {
+static void note_batch_files(JoScene *scene, const JoxBatch *batch, JoxReloadedFiles *reloaded) {
     for (uint32_t c = 0; c < batch->count; c++) {
         uint32_t count;
         const JoxLuaFile *files = jox_loaded_files(batch->changes[c].loaded, &count);
@@ -156,13 +157,13 @@ static void note_batch_files(JoScene *scene, const JoxBatch *batch, JoxReloaded 
 }
 
 /* Takes the batch over. True if it is live. */
-bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
+bool jox_batch_swap(JoScene *scene, JoxBatch *batch) {
     JoxReload *r = scene->reload;
     char why[256];
     bool live = false;
     const char *refused = NULL, *path = "";
     if (batch->said.length)
-        jox_run_tell(scene, batch->said.data);
+        jox_run_send_text(scene, batch->said.data);
     for (uint32_t c = 0; c < batch->count && !batch->failed && !refused; c++)
         if (!batch->changes[c].added) {
             path = batch->changes[c].path;
@@ -176,16 +177,17 @@ bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
     if (batch->failed || refused) {
         report_refusal(scene, batch, path, refused);
     } else {
-        jox_run_tell_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts,
+        jox_run_call_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts,
                                &batch->diagnostics);
-        jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
-        JoxReloaded reloaded = {0};
+        jox_run_report_diagnostics(scene->message, scene->message_context, &batch->diagnostics,
+                                   NULL);
+        JoxReloadedFiles reloaded = {0};
         retired->live = live = true;
         if (scene->log)
             note_batch_files(scene, batch, &reloaded);
         swap_machines(scene, batch, retired);
         if (batch->spec)
-            jox_run_rescene(scene, &batch->spec, batch->written);
+            jox_run_reload_scene(scene, &batch->spec, batch->written);
         jox_run_log_files(scene, &reloaded);
     }
     atomic_store(&r->machine_count, scene->world->model.machines.count);

@@ -75,7 +75,7 @@ void jox_run_hold_machines(JoScene *scene, uint32_t machine, bool hold) {
     }
 }
 
-void jox_run_reload(JoScene *scene) {
+void jox_run_swap_reloaded(JoScene *scene) {
     JoxReload *r = scene->reload;
     if (!r)
         return;
@@ -85,12 +85,12 @@ void jox_run_reload(JoScene *scene) {
     JoxBatch *batch = (JoxBatch *)atomic_load(&r->ready);
     if (!batch)
         return;
-    jox_batch_take(scene, batch);
+    jox_batch_swap(scene, batch);
     atomic_store(&r->ready, 0); /* the loading thread may compare again */
 }
 
 static void watch_file(JoxReload *r, uint32_t part, const char *path) {
-    if (!jox_reload_use(r, part, path))
+    if (!jox_reload_watch_file(r, part, path))
         jox_run_say(r->scene, "%s cannot be watched: %s\n", path, strerror(errno));
 }
 
@@ -144,13 +144,13 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
         r->running = r->stop >= 0 && jox_thread_start(&r->thread, run_reload_thread, r);
         if (r->running)
             return true;
-        jox_run_unwatch(scene);
+        jox_run_end_reload(scene);
     }
     jox_error(error, JO_FAILED, "the system does not let files be watched");
     return false;
 }
 
-bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *error) {
+bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *error) {
     JoxReload *r = scene->reload ? scene->reload : create_reload(scene, NULL);
     bool live = true;
     JoxBatch *batch;
@@ -162,10 +162,10 @@ bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *err
         jox_changes_add_changed_file(&r->changes, files->files[f].path, 0.0);
     atomic_store(&r->next_id, scene->world->state.agents.next_id);
     while ((batch = jox_batch_prepare(r))) {
-        live &= jox_batch_take(scene, batch);
+        live &= jox_batch_swap(scene, batch);
         jox_reload_free_retired(r);
         for (uint32_t f = 0; f < files->number; f++) /* only the new version uses the file */
-            if (jox_run_is_live(scene, &files->files[f]))
+            if (jox_run_is_text_live(scene, &files->files[f]))
                 jox_changes_forget_file(&r->changes, files->files[f].path);
     }
     if (!live)
@@ -174,7 +174,7 @@ bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *err
     return live;
 }
 
-void jox_run_unwatch(JoScene *scene) {
+void jox_run_end_reload(JoScene *scene) {
     JoxReload *r = scene->reload;
     if (!r)
         return;

@@ -18,7 +18,7 @@ int32_t jox_run_find_machine(const JoScene *scene, const char *path) {
     return -1;
 }
 
-const char *jox_run_made(const JoxSceneSpec *spec, const char *path) {
+const char *jox_run_journey_text(const JoxSceneSpec *spec, const char *path) {
     for (uint32_t g = 0; g < spec->group_count; g++)
         for (uint32_t m = 0; m < spec->groups[g].mix_count; m++)
             if (spec->groups[g].mix[m].text && !strcmp(spec->groups[g].mix[m].behaviour, path))
@@ -36,13 +36,13 @@ static int32_t load_machine(JoScene *scene, const char *path, JoxDiagnostics *di
                        "a scene has at most %d behaviours", JOX_MOST_MACHINES);
         return -1;
     }
-    const char *made = jox_run_made(scene->spec, path);
+    const char *made = jox_run_journey_text(scene->spec, path);
     JoxMachine *machine = jox_lua_load_text(scene->lua, path, made, made ? strlen(made) : 0,
                                             &scene->scope, diagnostics);
     if (!machine)
         return -1;
-    jox_run_number_belongings(scene, machine);
-    jox_run_take_kept(machine);
+    jox_run_number_tags_and_teams(scene, machine);
+    jox_run_restore_kept_slots(machine);
     return (int32_t)jox_machines_add(machines, machine);
 }
 
@@ -74,7 +74,7 @@ bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32
     return false;
 }
 
-bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
+bool jox_run_link_becomes(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
     bool good = true;
     for (uint32_t s = 0; s < machine->state_count; s++) {
         char path[1024];
@@ -115,15 +115,15 @@ bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
             good = false;
         }
     for (uint32_t m = 0; m < machines->set->count; m++) /* the count grows in this loop */
-        good &= jox_run_link(scene, machines->set->built[m], diagnostics);
+        good &= jox_run_link_becomes(scene, machines->set->built[m], diagnostics);
     for (uint32_t m = 0; good && m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->built[m];
         const size_t before = diagnostics->count;
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
-        jox_run_check_belongings(scene, machine, files, count,
-                                 (const JoxMachine *const *)machines->set->built,
-                                 machines->set->count, diagnostics);
+        jox_run_check_tags_and_teams(scene, machine, files, count,
+                                     (const JoxMachine *const *)machines->set->built,
+                                     machines->set->count, diagnostics);
         if (diagnostics->count > before)
             jox_run_attach_sources(files, count, diagnostics);
     }

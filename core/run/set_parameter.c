@@ -17,8 +17,8 @@ static bool refuse_unknown(const char *kind, const char *name, const char *const
     return false;
 }
 
-static bool find_machine_named(const JoxMachineRun *machines, const char *name, JoxChoice *out,
-                               JoError *error) {
+static bool find_machine_named(const JoxMachineRun *machines, const char *name,
+                               JoxParameterChoice *out, JoError *error) {
     const char *names[JOX_MOST_MACHINES];
     uint32_t found = 0;
     for (uint32_t m = 0; m < machines->set->count; m++) {
@@ -40,7 +40,7 @@ static bool find_machine_named(const JoxMachineRun *machines, const char *name, 
     return found == 1 || refuse_unknown("machine", name, names, machines->set->count, error);
 }
 
-static bool find_state_named(const JoxMachine *machine, const char *name, JoxChoice *out,
+static bool find_state_named(const JoxMachine *machine, const char *name, JoxParameterChoice *out,
                              JoError *error) {
     out->state = jox_machine_state(machine, name);
     if (out->state >= 0 || strcmp(name, "defaults") == 0)
@@ -60,8 +60,9 @@ static bool find_state_named(const JoxMachine *machine, const char *name, JoxCho
     return refuse_unknown(kind, name, names, count, error);
 }
 
-bool jox_run_choose(const JoScene *scene, const char *machine, const char *state,
-                    const char *parameter, double value, JoxChoice *out, JoError *error) {
+bool jox_run_choose_parameter(const JoScene *scene, const char *machine, const char *state,
+                              const char *parameter, double value, JoxParameterChoice *out,
+                              JoError *error) {
     const JoxMachineRun *machines = &scene->world->machines;
     if (!find_machine_named(machines, machine, out, error) ||
         !find_state_named(machines->set->items[out->machine], state, out, error))
@@ -81,10 +82,10 @@ bool jox_run_choose(const JoScene *scene, const char *machine, const char *state
     return false;
 }
 
-bool jox_run_set(JoScene *scene, const char *machine, const char *state, const char *parameter,
-                 double value, JoError *error) {
-    JoxChoice choice;
-    if (!jox_run_choose(scene, machine, state, parameter, value, &choice, error))
+bool jox_run_set_parameter(JoScene *scene, const char *machine, const char *state,
+                           const char *parameter, double value, JoError *error) {
+    JoxParameterChoice choice;
+    if (!jox_run_choose_parameter(scene, machine, state, parameter, value, &choice, error))
         return false;
     jox_run_hold_machines(scene, choice.machine, true);
     jox_machines_set_parameter(&scene->world->machines, choice.machine, choice.state,

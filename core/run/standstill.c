@@ -38,9 +38,9 @@ typedef struct Standing {
     Stand *people; /* by agent's slot */
     size_t capacity;
     uint32_t seen; /* slots that are initialised */
-    JoxStood longest;
-    JoxStill still, now; /* the longest standstill, and the present one; people 0: none */
-    JoxV2 *stills;       /* positions of people who stand still at this look */
+    JoxLongestStand longest;
+    JoxStandstill still, now; /* the longest standstill, and the present one; people 0: none */
+    JoxV2 *stills;            /* positions of people who stand still at this look */
     size_t still_count, still_capacity;
     uint8_t *told; /* by place: NoWay */
     size_t told_count, told_capacity;
@@ -52,7 +52,7 @@ typedef struct Standing {
     size_t waits_capacity;
     JoxKeptList kept; /* made at time kept_at */
     /* Counts by group of each item of `kept`. Reserved at looks, on the scene's heap:
-       jox_run_kept may be called on the heap of a single call. */
+       jox_run_list_kept_people may be called on the heap of a single call. */
     uint32_t *kept_groups;
     size_t kept_groups_capacity;
     double kept_at;  /* s */
@@ -86,7 +86,7 @@ static void update_stand(Standing *s, const JoWorld *world, uint32_t i) {
     }
     const double now = jo_world_time(world), stood = now - stand->since * world->model.def.dt;
     if (stood > s->longest.seconds)
-        s->longest = (JoxStood){stood, now, stand->at, a->id[i]};
+        s->longest = (JoxLongestStand){stood, now, stand->at, a->id[i]};
     if (stood >= STANDSTILL_TIME - 1e-9)
         s->stills[s->still_count++] = at;
 }
@@ -116,7 +116,7 @@ static JoxV2 find_cluster_centre(const Standing *s) {
     return best;
 }
 
-static void report_standstill(const JoScene *scene, const JoxStill *still) {
+static void report_standstill(const JoScene *scene, const JoxStandstill *still) {
     JoxText text = {0};
     jox_text_printf(&text, "t = %.1f s: ", jo_world_time(scene->world));
     jox_text_noun(&text, still->people,
@@ -125,7 +125,7 @@ static void report_standstill(const JoScene *scene, const JoxStill *still) {
                     STANDSTILL_TIME, (double)still->at.x, (double)still->at.y);
     jox_place_where(scene->spec->places, scene->spec->place_count, still->at, true, &text);
     jox_text_add(&text, "\n");
-    jox_run_tell(scene, text.data);
+    jox_run_send_text(scene, text.data);
     jox_text_free(&text);
 }
 
@@ -138,7 +138,7 @@ static void update_standstill(Standing *s, const JoScene *scene) {
     }
     const bool new = s->now.people == 0;
     if (new)
-        s->now = (JoxStill){.since = jo_world_time(scene->world) - STANDSTILL_TIME};
+        s->now = (JoxStandstill){.since = jo_world_time(scene->world) - STANDSTILL_TIME};
     s->now.until = jo_world_time(scene->world);
     if (count > s->now.people) {
         s->now.people = count;
@@ -199,7 +199,7 @@ static bool report_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t 
         jox_text_printf(&text, "; a gap of %.2f m is twice a radius",
                         2.0 * (double)get_radius(a, first));
     jox_text_add(&text, "\n");
-    jox_run_tell(scene, text.data);
+    jox_run_send_text(scene, text.data);
     jox_text_free(&text);
     return true;
 }
@@ -262,7 +262,7 @@ static bool watch_standstills(void *self, JoScene *scene, JoError *error) {
     Standing *s = self;
     const JoWorld *world = scene->world;
     (void)error;
-    if (!jox_run_is_due(scene, LOOK_INTERVAL))
+    if (!jox_run_is_sample_due(scene, LOOK_INTERVAL))
         return true;
     JOX_RESERVE(s->stills, s->still_capacity, world->state.agents.count);
     JOX_RESERVE(s->kept_groups, s->kept_groups_capacity,
@@ -306,15 +306,15 @@ static const JoxListenerKind STANDING = {.name = "who stood the longest",
                                          .goes_on = true,
                                          .release = free_standstills};
 
-void jox_run_collect_standing(JoScene *scene) {
-    if (!jox_run_listener(scene, &STANDING))
-        jox_run_listen(scene, &STANDING, NULL, NULL);
+void jox_run_collect_standstills(JoScene *scene) {
+    if (!jox_run_find_listener(scene, &STANDING))
+        jox_run_attach_listener(scene, &STANDING, NULL, NULL);
 }
 
 /* ---- people who are kept from a place at the end ---- */
 
-static JoxKept *find_kept_people(Standing *s, const JoScene *scene, uint32_t place,
-                                 const JoxHindrance *why) {
+static JoxKeptPeople *find_kept_people(Standing *s, const JoScene *scene, uint32_t place,
+                                       const JoxHindrance *why) {
     JoxKeptList *list = &s->kept;
     const size_t groups = scene->spec->group_count;
     for (uint32_t k = 0; k < list->count; k++)
@@ -323,8 +323,9 @@ static JoxKept *find_kept_people(Standing *s, const JoScene *scene, uint32_t pla
             return &list->items[k];
     if (list->count == JOX_MOST_KEPT)
         return NULL;
-    JoxKept *kept = &list->items[list->count];
-    *kept = (JoxKept){.place = place, .groups = s->kept_groups + list->count * groups, .why = *why};
+    JoxKeptPeople *kept = &list->items[list->count];
+    *kept = (JoxKeptPeople){
+        .place = place, .groups = s->kept_groups + list->count * groups, .why = *why};
     memset(kept->groups, 0, groups * sizeof *kept->groups);
     list->count++;
     return kept;
@@ -342,7 +343,7 @@ static void add_kept_people(Standing *s, const JoScene *scene, uint32_t place,
             continue;
         const JoxHindrance why =
             jox_hindrances_find(hindrances, jox_v2(a->x[i], a->y[i]), get_radius(a, i));
-        JoxKept *kept =
+        JoxKeptPeople *kept =
             why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept_people(s, scene, place, &why);
         if (!kept)
             continue;
@@ -351,13 +352,14 @@ static void add_kept_people(Standing *s, const JoScene *scene, uint32_t place,
         kept->since = blocks_for_good(why.kind) ? (double)NAN : s->shut_since[place];
         kept->stands = blocks_for_good(why.kind);
         if (why.kind == JOX_HINDRANCE_GATE)
-            kept->stands = !jox_run_opens(scene, scene->world->model.all_walls.rings[why.by].name);
+            kept->stands =
+                !jox_run_has_gate_opener(scene, scene->world->model.all_walls.rings[why.by].name);
     }
     jox_hindrances_free(hindrances);
 }
 
-const JoxKeptList *jox_run_kept(const JoScene *scene) {
-    Standing *s = jox_run_listener(scene, &STANDING);
+const JoxKeptList *jox_run_list_kept_people(const JoScene *scene) {
+    Standing *s = jox_run_find_listener(scene, &STANDING);
     const double now = jo_world_time(scene->world);
     if (!s || s->kept_groups_capacity < (size_t)JOX_MOST_KEPT * scene->spec->group_count)
         return NULL; /* no look yet since the scene has so many groups */
@@ -365,7 +367,7 @@ const JoxKeptList *jox_run_kept(const JoScene *scene) {
         return &s->kept;
     s->kept_at = now;
     s->kept = (JoxKeptList){0};
-    bool *opening = jox_run_opening_gates(scene);
+    bool *opening = jox_run_list_gates_with_opener(scene);
     for (uint32_t p = 0; p < s->told_count && p < scene->world->machines.place_count; p++)
         if (s->told[p] == TOLD || !isnan(s->shut_since[p]))
             add_kept_people(s, scene, p, opening);
@@ -373,12 +375,12 @@ const JoxKeptList *jox_run_kept(const JoScene *scene) {
     return &s->kept;
 }
 
-const JoxStood *jox_run_stood_longest(const JoScene *scene) {
-    const Standing *s = jox_run_listener(scene, &STANDING);
+const JoxLongestStand *jox_run_longest_stand(const JoScene *scene) {
+    const Standing *s = jox_run_find_listener(scene, &STANDING);
     return s ? &s->longest : NULL;
 }
 
-const JoxStill *jox_run_stood_still(const JoScene *scene) {
-    const Standing *s = jox_run_listener(scene, &STANDING);
+const JoxStandstill *jox_run_longest_standstill(const JoScene *scene) {
+    const Standing *s = jox_run_find_listener(scene, &STANDING);
     return s && s->still.people ? &s->still : NULL;
 }

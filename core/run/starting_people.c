@@ -83,7 +83,7 @@ static bool check_state_step(const JoScene *scene, uint32_t number, const JoxSta
     return true;
 }
 
-void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics) {
+void jox_run_check_step_length(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxMachineSet *set = scene->world->machines.set;
     const double step = jox_world_substep_length(scene->world);
     for (uint32_t m = 0; m < set->count; m++)
@@ -153,7 +153,7 @@ static void place_groups(JoScene *scene, JoxDiagnostics *diagnostics) {
 
 /* ---- all of it ---- */
 
-void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
+void jox_run_place_groups(JoScene *scene, JoxDiagnostics *diagnostics) {
     jox_run_link_groups(scene, scene->spec, diagnostics);
     if (diagnostics->errors)
         return;

@@ -8,11 +8,11 @@
 
 /* Checks the values that groups set, and places the people of all groups; says of which groups how
    many were shifted and how far, and how many do not fit. */
-void jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
+void jox_run_place_groups(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Gives the world the spec's groups, sources, sinks and events. `anew`: sources count their people
    from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* Warns of speeds and pushes that take a person past another within a step. */
-void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics);
+void jox_run_check_step_length(const JoScene *scene, JoxDiagnostics *diagnostics);
 
 #endif

@@ -7,12 +7,12 @@
 #include "run/run.h"
 
 static bool perform_step(JoScene *scene, JoError *error) {
-    jox_run_inputs(scene);
-    jox_run_reload(scene);
+    jox_run_perform_due_inputs(scene);
+    jox_run_swap_reloaded(scene);
     const bool stepped = jox_world_step(scene->world);
     JoxText *said = &scene->world->scratch.messages;
     if (said->length)
-        jox_run_tell(scene, said->data);
+        jox_run_send_text(scene, said->data);
     jox_text_free(said);
     if (!stepped) {
         jox_error(error, JO_FAILED, "%s", scene->world->failure);
@@ -26,7 +26,7 @@ static bool perform_step(JoScene *scene, JoError *error) {
                   stalled);
         return false;
     }
-    return jox_run_tell_frame(scene, error) && jox_run_logged(scene, error);
+    return jox_run_tell_frame(scene, error) && jox_run_check_log_written(scene, error);
 }
 
 bool jo_scene_step(JoScene *scene, JoError *error) {
@@ -49,5 +49,5 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
         return true;
     scene->finished = true;
     bool good = !scene->world || jox_run_tell_end(scene, error);
-    return jox_run_end_log(scene, good ? error : NULL) && good;
+    return jox_run_close_log(scene, good ? error : NULL) && good;
 }

@@ -10,9 +10,9 @@
 #include "run/tags_and_teams.h"
 
 /* A resumed run reads them from a text in memory under this name. */
-const char jox_run_names_path[] = "<tags and teams>";
+const char jox_run_kept_names_path[] = "<tags and teams>";
 
-void jox_run_refresh_names(JoScene *scene) {
+void jox_run_refresh_tags_and_teams(JoScene *scene) {
     const JoxWorldModel *model = &scene->world->model;
     scene->scope.tags = (const char *const *)model->tags;
     scene->scope.tag_count = model->tag_count;
@@ -20,7 +20,7 @@ void jox_run_refresh_names(JoScene *scene) {
     scene->scope.set_team_count = model->set_team_count;
 }
 
-void jox_run_number_belongings(JoScene *scene, JoxMachine *machine) {
+void jox_run_number_tags_and_teams(JoScene *scene, JoxMachine *machine) {
     uint16_t *numbers = jox_alloc((size_t)machine->belonging_count + 1, sizeof *numbers);
     for (uint32_t n = 0; n < machine->belonging_count; n++) {
         const JoxBelonging *b = &machine->belongings[n];
@@ -35,7 +35,7 @@ void jox_run_number_belongings(JoScene *scene, JoxMachine *machine) {
     }
     jox_machine_renumber(machine, numbers);
     jox_free(numbers);
-    jox_run_refresh_names(scene);
+    jox_run_refresh_tags_and_teams(scene);
 }
 
 uint64_t jox_run_number_tags(JoScene *scene, char *const *tags, uint32_t count,
@@ -127,10 +127,10 @@ static void warn_of_new_name(const JoxBelonging *b, JoxPosition at, const char *
                       b->name);
 }
 
-void jox_run_check_belongings(const JoScene *scene, const JoxMachine *machine,
-                              const JoxLuaFile *files, uint32_t file_count,
-                              const JoxMachine *const *machines, uint32_t count,
-                              JoxDiagnostics *diagnostics) {
+void jox_run_check_tags_and_teams(const JoScene *scene, const JoxMachine *machine,
+                                  const JoxLuaFile *files, uint32_t file_count,
+                                  const JoxMachine *const *machines, uint32_t count,
+                                  JoxDiagnostics *diagnostics) {
     const JoxSceneSpec *spec = scene->spec;
     for (uint32_t n = 0; n < machine->belonging_count; n++) {
         const JoxBelonging *b = &machine->belongings[n];
@@ -181,7 +181,7 @@ static void write_kept_slots(const JoxMachine *machine, JoxText *out) {
                             machine->memory[s].initial, machine->memory[s].identity);
 }
 
-void jox_run_list_names(const JoScene *scene, JoxText *out) {
+void jox_run_write_kept_names(const JoScene *scene, JoxText *out) {
     const JoxWorldModel *model = &scene->world->model;
     for (uint32_t t = 0; t < model->tag_count; t++)
         jox_text_printf(out, "tag %s\n", model->tags[t]);
@@ -236,8 +236,8 @@ static void restore_kept_slot(JoxMachine *machine, char *line) {
                         numbers[0]);
 }
 
-void jox_run_take_kept(JoxMachine *machine) {
-    const JoxOverlayFile *file = jox_overlay_file(jox_run_names_path);
+void jox_run_restore_kept_slots(JoxMachine *machine) {
+    const JoxOverlayFile *file = jox_overlay_file(jox_run_kept_names_path);
     char *text = file ? jox_strndup(file->text, file->length) : NULL;
     for (char *line = text; line && *line;) {
         char *end = strchr(line, '\n');
@@ -250,8 +250,8 @@ void jox_run_take_kept(JoxMachine *machine) {
     jox_free(text);
 }
 
-void jox_run_take_names(JoScene *scene) {
-    const JoxOverlayFile *file = jox_overlay_file(jox_run_names_path);
+void jox_run_restore_tags_and_teams(JoScene *scene) {
+    const JoxOverlayFile *file = jox_overlay_file(jox_run_kept_names_path);
     char name[80];
     for (const char *line = file ? file->text : NULL; line && *line;
          line = strchr(line, '\n') + 1) {

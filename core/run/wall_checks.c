@@ -156,7 +156,7 @@ void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, 
     jox_text_printf(out, " at (%.1f, %.1f) m", (double)hindrance->at.x, (double)hindrance->at.y);
 }
 
-bool jox_run_opens(const JoScene *scene, const char *gate) {
+bool jox_run_has_gate_opener(const JoScene *scene, const char *gate) {
     const JoxInputLog *input = &scene->world->state.input;
     const JoxWalls *walls = &scene->world->model.all_walls;
     bool closes = false, set = false;
@@ -177,11 +177,11 @@ bool jox_run_opens(const JoScene *scene, const char *gate) {
     return set && !closes; /* set by a person at the page, or by a program */
 }
 
-bool *jox_run_opening_gates(const JoScene *scene) {
+bool *jox_run_list_gates_with_opener(const JoScene *scene) {
     const JoxWalls *walls = &scene->world->model.all_walls;
     bool *opening = jox_alloc((size_t)walls->ring_count + 1, sizeof *opening);
     for (uint32_t r = 0; r < walls->ring_count; r++)
-        opening[r] = walls->rings[r].name && jox_run_opens(scene, walls->rings[r].name);
+        opening[r] = walls->rings[r].name && jox_run_has_gate_opener(scene, walls->rings[r].name);
     return opening;
 }
 
@@ -193,7 +193,7 @@ static bool is_fault(const JoScene *scene, const JoxHindrance *h) {
     case JOX_HINDRANCE_FILLED:
         return true;
     case JOX_HINDRANCE_GATE:
-        return !jox_run_opens(scene, scene->world->model.all_walls.rings[h->by].name);
+        return !jox_run_has_gate_opener(scene, scene->world->model.all_walls.rings[h->by].name);
     default:
         return false;
     }
@@ -358,7 +358,7 @@ void jox_run_check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
     jox_walls_free(&walls);
 }
 
-void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics) {
+void jox_run_check_goals(JoScene *scene, JoxDiagnostics *diagnostics) {
     Goals goals = {.count = 0};
     uint32_t *source_of;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
@@ -368,7 +368,7 @@ void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics) {
     jox_routes_update_bodies(&stage);
     const uint32_t first = add_person_per_source(scene, &source_of);
     collect_goals(scene->world, &goals);
-    goals.opening = jox_run_opening_gates(scene);
+    goals.opening = jox_run_list_gates_with_opener(scene);
     for (uint32_t n = 0; n < goals.count; n++)
         check_goal(scene, &goals, n, first, source_of, diagnostics);
     jox_free(goals.of);

@@ -14,14 +14,14 @@ void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_run_check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics);
 /* Warns of goals that people as broad as they are cannot reach: walls, fixed bodies or a gate that
    nothing opens lie between. Adds a person for each source: the scene must not be stepped after. */
-void jox_run_check_ways(JoScene *scene, JoxDiagnostics *diagnostics);
+void jox_run_check_goals(JoScene *scene, JoxDiagnostics *diagnostics);
 
 /* Appends what keeps people from a place: "the body 'crate' fills the way at (3.0, 4.0) m". */
 void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, JoxText *out);
 /* Whether an event or a line of the input log opens the walls named `gate`, or a person or program
    has set them while no event closes them. */
-bool jox_run_opens(const JoScene *scene, const char *gate);
+bool jox_run_has_gate_opener(const JoScene *scene, const char *gate);
 /* Returns the same for each ring of the world's walls; freed by jox_free. */
-bool *jox_run_opening_gates(const JoScene *scene);
+bool *jox_run_list_gates_with_opener(const JoScene *scene);
 
 #endif

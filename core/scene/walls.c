@@ -48,7 +48,7 @@ static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
                         data             ? "too many files"
                         : !allowed       ? "a mod may not"
                         : errno == EFBIG ? "it is over 64 MB"
-                                         : jox_file_why(errno));
+                                         : jox_file_error_text(errno));
         jox_free(data);
         return false;
     }

@@ -156,7 +156,7 @@ bool jo_sweep_csv(const char *sweep, const char *csv, JoError *error) {
     bool good = jox_sweep_open_to_read(&store, sweep, error);
     FILE *out = !good ? NULL : prints ? stdout : jox_file_replace(csv);
     if (good && !out)
-        jox_error(error, JO_FAILED, "cannot write '%.300s': %s", csv, jox_file_why(errno));
+        jox_error(error, JO_FAILED, "cannot write '%.300s': %s", csv, jox_file_error_text(errno));
     good = out && jox_sweep_write_csv(&store, out, error);
     if (out && !prints && (good ? jox_file_close(out) : jox_file_drop(out)) != 0 && good) {
         jox_error(error, JO_FAILED, "cannot write '%.300s': %s", csv, strerror(errno));

@@ -75,8 +75,9 @@ static void sample_curves(Collected *c, JoScene *scene) {
     }
     add_sample(c, "greatest density", "1/m2", c->now);
     add_sample(c, "mean speed", "m/s",
-               c->samples > 1 ? jox_sweep_mean_speed(jox_run_frame(scene, JOX_FRAME_VELOCITIES))
-                              : NAN);
+               c->samples > 1
+                   ? jox_sweep_mean_speed(jox_run_present_frame(scene, JOX_FRAME_VELOCITIES))
+                   : NAN);
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
         if (jox_probe_def(probe)->kind == JOX_PROBE_FLOW) {
             snprintf(name, sizeof name, "passed %.150s", jox_probe_def(probe)->name);
@@ -88,7 +89,7 @@ static void sample_curves(Collected *c, JoScene *scene) {
 static bool begin_curves(void *self, JoScene *scene, const void *seconds, JoError *error) {
     Collected *c = self;
     const double dt = scene->world->model.def.dt, of = choose_interval(*(const double *)seconds);
-    const JoxDensity *grid = jox_run_local(scene)->grid;
+    const JoxDensity *grid = jox_run_local_densities(scene)->grid;
     (void)error;
     *c = (Collected){.every = (uint64_t)fmax(1.0, of / dt + 0.5), .now = NAN, .noted_s = NAN};
     c->most = jox_alloc((size_t)grid->columns * grid->rows, sizeof *c->most);
@@ -98,7 +99,7 @@ static bool begin_curves(void *self, JoScene *scene, const void *seconds, JoErro
 
 static bool update_curves(void *self, JoScene *scene, JoError *error) {
     Collected *c = self;
-    const JoxLocal *local = jox_run_local(scene);
+    const JoxLocal *local = jox_run_local_densities(scene);
     (void)error;
     if (local->time != c->noted_s && !isnan(local->time)) {
         const size_t cells = (size_t)local->grid->columns * local->grid->rows;
@@ -139,7 +140,7 @@ static const JoxListenerKind CURVES = {.name = "curves and fields",
 
 bool jox_sweep_collect(JoScene *scene, double seconds, JoError *error) {
     return jox_run_collect_danger(scene, error) && /* it measures the densities */
-           jox_run_listen(scene, &CURVES, &seconds, error);
+           jox_run_attach_listener(scene, &CURVES, &seconds, error);
 }
 
 /* ---- fields ---- */
@@ -184,10 +185,10 @@ static void put_density_field(const Collected *c, const JoxDensity *grid, const 
 }
 
 void jox_sweep_put_collected(const JoScene *scene, JoxText *pieces) {
-    const Collected *c = jox_run_listener(scene, &CURVES);
+    const Collected *c = jox_run_find_listener(scene, &CURVES);
     JOX_ASSERT(c);
     for (uint32_t k = 0; k < c->count; k++)
         jox_sweep_put_curve(pieces, &c->curves[k]);
-    put_density_field(c, jox_run_local(scene)->grid, "greatest density", false, pieces);
-    put_density_field(c, jox_run_local(scene)->grid, "mean density", true, pieces);
+    put_density_field(c, jox_run_local_densities(scene)->grid, "greatest density", false, pieces);
+    put_density_field(c, jox_run_local_densities(scene)->grid, "mean density", true, pieces);
 }

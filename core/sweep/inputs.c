@@ -54,10 +54,10 @@ static bool load_dry(const JoSweepDef *def, const JoSceneDef *vetted, JoxOverlay
     JoScene *scene = jo_scene_load(&dry, error);
     const bool good = scene != NULL;
     if (good)
-        jox_run_texts(scene, files);
+        jox_run_collect_texts(scene, files);
     jo_scene_free(scene);
     if (!good && said.data)
-        jox_run_message(def->message, def->message_context, said.data);
+        jox_run_send_message(def->message, def->message_context, said.data);
     jox_text_free(&said);
     return good;
 }

@@ -75,7 +75,7 @@ void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     JoxV2 low, high;
     JoxJson json = jox_json_begin(out, 0);
-    jox_run_area(scene, &low, &high);
+    jox_run_find_shown_area(scene, &low, &high);
     jox_json_object(&json, NULL);
     jox_json_string(&json, "title", spec->title ? spec->title : "");
     jox_json_numbers_of(

@@ -138,7 +138,7 @@ bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error) {
     }
     if (path && !(store->claim = jox_file_open(path, "a"))) {
         jox_error(error, JO_FAILED, "cannot write '%.300s': %s", path,
-                  errno == EBUSY ? "another sweep writes it" : jox_file_why(errno));
+                  errno == EBUSY ? "another sweep writes it" : jox_file_error_text(errno));
         return false;
     }
     return connect_database(store, path, JOX_DATABASE_WRITE, error) && prepare_tables(store, error);

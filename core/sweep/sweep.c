@@ -52,7 +52,7 @@ static bool is_stopped(const Sweep *s) {
 }
 
 static void pass_sweep_message(const Sweep *s, const char *text) {
-    jox_run_message(s->def->message, s->def->message_context, text);
+    jox_run_send_message(s->def->message, s->def->message_context, text);
 }
 
 /* "scenes/a.yaml, count=100, seed 7" */
@@ -394,7 +394,7 @@ bool jo_sweep(const JoSweepDef *def, JoSweepCounts *counts, char **summary, JoEr
     JOX_REQUIRE(def && def->cookie == SWEEP_COOKIE && def->scene.path && counts, false);
     JOX_REQUIRE(def->seeds > 0 && !(def->seconds < 0), false);
     JOX_GUARD (NULL, error) {
-        jox_run_message(def->message, def->message_context, "out of memory\n");
+        jox_run_send_message(def->message, def->message_context, "out of memory\n");
         return false;
     }
     Sweep s = {.def = def};

@@ -43,8 +43,8 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     def.named_mods_only = def.needed_mods_too = mod != NULL;
     JoScene *scene = jox_run_load(&def, all);
     if (scene) {
-        jox_run_advise(scene, all);
-        jox_run_check_ways(scene, all);
+        jox_run_note_orca_flow(scene, all);
+        jox_run_check_goals(scene, all);
         jox_diag_move(all, &scene->mod_problems);
     }
     jo_scene_free(scene);
@@ -413,7 +413,7 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
     else
         print_findings(&all, &text);
     if (text.length)
-        jox_run_message(message, context, text.data);
+        jox_run_send_message(message, context, text.data);
     size_t errors = all.errors;
     jox_text_free(&text);
     jox_diag_free(&all);

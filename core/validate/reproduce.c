@@ -270,7 +270,7 @@ static void measure_claim(const JoxReproduction *all, JoxOutcome *outcome) {
 
 static void write_message(const JoReproduceDef *def, const char *text) {
     if (def->message)
-        jox_run_message(def->message, def->message_context, text);
+        jox_run_send_message(def->message, def->message_context, text);
     else
         fputs(text, stdout);
 }
@@ -391,7 +391,7 @@ static bool reproduce_claims(const JoReproduceDef *def, size_t *missed, JoError 
                        "'%.60s' is no seed, and no range of up to 1000", def->seeds);
     load_claims(&all, &diagnostics);
     bool good = diagnostics.errors == 0;
-    jox_run_report(def->message, def->message_context, &diagnostics, error);
+    jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, error);
     for (uint32_t o = 0; good && def->list && o < all.outcome_count; o++)
         print_outcome(def, &all.outcomes[o]);
     if (good && !def->list)

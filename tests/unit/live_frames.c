@@ -258,7 +258,7 @@ static void pressure_field_matches_the_run(void **state) {
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
     step_scene(scene, 1620);
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
-    const JoxLocal *local = jox_run_local(scene);
+    const JoxLocal *local = jox_run_local_densities(scene);
     for (size_t c = 0; c < (size_t)local->grid->columns * local->grid->rows; c++)
         greatest = fmax(greatest, jox_local_pressure(local, c));
     assert_true(sum_field(&field, &most) > 0 && greatest > 0.02);

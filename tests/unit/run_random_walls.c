@@ -182,7 +182,7 @@ static void edit_walls(Passage *p, uint32_t walls) {
     write_test_file("scene.yaml", p->yaml.data);
     JoxSceneSpec *spec = jox_run_load_spec(&p->scene->def, p->scene->mods, 0, &diagnostics);
     if (spec) { /* a wall may cross itself */
-        jox_run_rescene(p->scene, &spec, 0.0);
+        jox_run_reload_scene(p->scene, &spec, 0.0);
         jox_scene_free(spec);
     }
     jox_diag_free(&diagnostics);

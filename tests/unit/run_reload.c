@@ -28,7 +28,8 @@ static char *read_behaviour(const JoScene *scene, uint32_t index, size_t *length
 
 /* Returns whether a behaviour is generated from a journey of the scene, and thus is no file. */
 static bool is_made(const JoScene *scene, uint32_t index) {
-    return jox_run_made(scene->spec, scene->world->model.machines.items[index]->path) != NULL;
+    return jox_run_journey_text(scene->spec, scene->world->model.machines.items[index]->path) !=
+           NULL;
 }
 
 /* ---- the scenes that are shipped, each with few people ---- */

@@ -19,7 +19,7 @@ static bool swap_behaviour(JoScene *scene, const char *text, JoError *error) {
     JoxInputEntry entry = {.number = 1, .files = &file};
     jox_overlay_put(&scene->overlay, path, text, file.length);
     const JoxOverlay *before = jox_overlay_use(&scene->overlay);
-    const bool live = jox_run_reload_now(scene, &entry, error);
+    const bool live = jox_run_reload_files(scene, &entry, error);
     jox_overlay_use(before);
     return live;
 }

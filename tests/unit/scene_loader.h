@@ -76,7 +76,7 @@ static inline void edit_scene(JoScene *scene, const char *text) {
     JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
     assert_non_null(spec);
     jox_text_free(&scene_messages);
-    jox_run_rescene(scene, &spec, 0.0);
+    jox_run_reload_scene(scene, &spec, 0.0);
     jox_scene_free(spec);
     jox_diag_free(&diagnostics);
 }
@@ -104,7 +104,7 @@ static inline bool replace_behaviour_text(JoScene *scene, uint32_t index, const 
             JoxMachine *old = jox_machines_replace(machines, index, replacement);
             JoxLoaded *retired = jox_lua_retire(scene->lua, old);
             jox_lua_adopt(scene->lua, loaded);
-            assert_true(jox_run_link(scene, next, &diagnostics));
+            assert_true(jox_run_link_becomes(scene, next, &diagnostics));
             jox_replacement_free(replacement);
             jox_loaded_free(retired);
         } else {

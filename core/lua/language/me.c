@@ -274,7 +274,7 @@ static void record_write(lua_State *L, JoxMachineRun *machines, uint32_t i, bool
                       .by = JOX_WROTE_FUNCTION,
                       .line = at.line};
     snprintf(wrote.file, sizeof wrote.file, "%s", at.file ? at.file : "");
-    jox_machines_wrote(machines, i, &wrote);
+    jox_machines_record_writer(machines, i, &wrote);
 }
 
 /* __newindex of `me`. */

@@ -242,7 +242,7 @@ static int method_is(lua_State *L) {
 
 /* Pushes a copy of the value that a method is called on, `nearest` or `neighbours`, and returns the
    filter of the copy, for the method to change; NULL with an error pushed. */
-static JoxNodeWhose *push_filtered_target(lua_State *L, const char *method) {
+static JoxNodeFilter *push_filtered_target(lua_State *L, const char *method) {
     const JoxNode *of = jox_node_get(L, 1);
     const bool counts = of && of->kind == JOX_NODE_NUMBER && of->op == JOX_OP_NEIGHBOURS;
     const JoxNode *target = counts ? of->target : of;
@@ -263,56 +263,56 @@ static JoxNodeWhose *push_filtered_target(lua_State *L, const char *method) {
         node->op = JOX_OP_NEIGHBOURS;
         node->target = copy;
     }
-    return &copy->whose;
+    return &copy->filter;
 }
 
 static int method_in_state(lua_State *L) {
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "in_state");
-    if (whose) {
-        whose->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
-        whose->state_at = jox_word_place(L, whose->state);
+    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "in_state");
+    if (filter) {
+        filter->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+        filter->state_at = jox_word_place(L, filter->state);
     }
     return 1;
 }
 
 static int method_of_machine(lua_State *L) {
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_machine");
-    if (whose)
-        whose->machine = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_machine");
+    if (filter)
+        filter->machine = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
     return 1;
 }
 
 static int method_of_group(lua_State *L) {
     const JoxScope *scope = jox_script_of(L)->scope;
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_group");
-    if (!whose)
+    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_group");
+    if (!filter)
         return 1;
     const char *name = lua_tostring(L, 2), *names[256];
     size_t count = 0;
-    whose->grouped = true;
-    whose->group = -2; /* the scene is not known: matches no group */
+    filter->grouped = true;
+    filter->group = -2; /* the scene is not known: matches no group */
     for (uint32_t g = 0; g < scope->group_count; g++) {
         if (count < 256)
             names[count++] = scope->groups[g].name;
         if (strcmp(scope->groups[g].name, name) == 0)
-            whose->group = (int32_t)g;
+            filter->group = (int32_t)g;
     }
     char hint[JOX_HINT];
-    if (whose->group < 0 && scope->complete)
+    if (filter->group < 0 && scope->complete)
         return jox_word_error(L, name, "unknown-group", jox_did_you_mean(name, names, count, hint),
                               "the scene has no group '%s'", name);
     return 1;
 }
 
 static int method_where(lua_State *L) {
-    JoxNodeWhose *whose = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "where");
+    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "where");
     const int given = lua_isnumber(L, 4) ? 4 : lua_isnumber(L, 3) ? 3 : 2;
-    if (!whose)
+    if (!filter)
         return 1;
-    whose->memory = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
-    whose->memory_at = jox_word_place(L, whose->memory);
-    whose->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
-    whose->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
+    filter->memory = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    filter->memory_at = jox_word_place(L, filter->memory);
+    filter->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
+    filter->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
     return 1;
 }
 

@@ -77,14 +77,14 @@ typedef struct JoxNamePlace {
     uint32_t source;
 } JoxNamePlace;
 
-/* Filter of a target by names, from which JoxWhose is compiled; NULL: any. */
-typedef struct JoxNodeWhose {
+/* Filter of a target by names, from which JoxAgentFilter is compiled; NULL: any. */
+typedef struct JoxNodeFilter {
     const char *state, *machine, *memory;
     JoxNamePlace state_at, memory_at;
     bool grouped;
     int32_t group;
     double least, greatest;
-} JoxNodeWhose;
+} JoxNodeFilter;
 
 typedef struct JoxNode JoxNode;
 struct JoxNode {
@@ -98,9 +98,9 @@ struct JoxNode {
     JoxNode *a, *b, *c; /* operands */
     JoxNode *target, *place;
     union {
-        JoxDist dist;       /* JOX_NODE_DIST */
-        JoxSteerTerm term;  /* JOX_NODE_STEER: one term, with its target and weight in nodes here */
-        JoxNodeWhose whose; /* JOX_NODE_TARGET: which agents it selects */
+        JoxDist dist;      /* JOX_NODE_DIST */
+        JoxSteerTerm term; /* JOX_NODE_STEER: one term, with its target and weight in nodes here */
+        JoxNodeFilter filter; /* JOX_NODE_TARGET: which agents it selects */
     };
     JoxNode *weight;
     JoxNode *next;    /* next term of a sum of steerings */

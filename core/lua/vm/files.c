@@ -86,7 +86,7 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
     } else if (disk && lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) {
         wrong = "symbolic links are not followed";
     } else if (!(text = jox_read_file(path, limit, &length))) {
-        wrong = errno == EFBIG ? large : jox_file_why(errno);
+        wrong = errno == EFBIG ? large : jox_file_error_text(errno);
     }
     if (text && length > limit)
         wrong = large;

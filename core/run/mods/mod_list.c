@@ -59,7 +59,7 @@ static void add_listed_mod(JoxPack *pack, const JoxMod *mod, bool taken) {
 }
 
 JoMods *jo_mods_list(const JoSceneDef *def) {
-    JOX_REQUIRE(def && jox_run_is_whole(def), NULL);
+    JOX_REQUIRE(def && jox_run_is_def_whole(def), NULL);
     JOX_GUARD (NULL, NULL)
         return NULL;
     JoxDiagnostics diagnostics = {0};
@@ -80,7 +80,7 @@ JoMods *jo_mods_list(const JoSceneDef *def) {
     head->count = (uint32_t)(jox_pack_length(&pack, ITEMS) / sizeof(JoMod));
     head->errors = (uint32_t)diagnostics.errors;
     jox_mods_free(mods);
-    jox_run_report(def->message, def->message_context, &diagnostics, NULL);
+    jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, NULL);
     return jox_disown(jox_pack_end(&pack));
 }
 
@@ -109,7 +109,7 @@ static bool switch_mod(const char *scene, const char *mod, bool on, bool *found,
     if (one && !good)
         jox_error(error, JO_FAILED, "%s", why.data);
     else if (folder && !one) /* its mod.yaml is wrong */
-        jox_run_report(NULL, NULL, &problems, error);
+        jox_run_report_diagnostics(NULL, NULL, &problems, error);
     jox_text_free(&why);
     jox_mods_free(mods);
     jox_diag_free(&problems);
@@ -135,7 +135,7 @@ static const char *suggest_mod(const char *const places[3], const char *mod, cha
 }
 
 bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error) {
-    JOX_REQUIRE(def && jox_run_is_whole(def) && mod, false);
+    JOX_REQUIRE(def && jox_run_is_def_whole(def) && mod, false);
     /* without a scene: the user's mods, then those of scenes in this folder */
     const char *const places[] = {def->path, def->path ? NULL : "./scene",
                                   def->path ? NULL : "scenes/scene"};

@@ -88,6 +88,6 @@ char *jo_mods_reference(const JoSceneDef *def) {
         jox_text_add(&page.out, "No mod is taken: name one by --mod, or turn it on.\n");
     jox_mods_free(mods);
     jox_lua_free(page.lua);
-    jox_run_report(def->message, def->message_context, &page.diagnostics, NULL);
+    jox_run_report_diagnostics(def->message, def->message_context, &page.diagnostics, NULL);
     return jox_disown(page.out.data);
 }

@@ -71,13 +71,13 @@ static void report_unset_path(const JoScene *scene, const char *path, const char
 }
 
 JoSettings *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
-    JOX_REQUIRE(def && jox_run_is_whole(def) && def->path && path, NULL);
+    JOX_REQUIRE(def && jox_run_is_def_whole(def) && def->path && path, NULL);
     JOX_GUARD (NULL, error)
         return NULL;
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);
     if (!scene) {
-        jox_run_report(def->message, def->message_context, &diagnostics, error);
+        jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, error);
         return NULL;
     }
     char name[128];

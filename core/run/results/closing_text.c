@@ -126,8 +126,8 @@ static void say_drives(const JoScene *scene, JoxText *out) {
 /* Appends the largest crowd that stood still, and the agent that stood longest. */
 static void say_standing(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
-    const JoxStood *stood = jox_run_stood_longest(scene);
-    const JoxStill *still = jox_run_stood_still(scene);
+    const JoxLongestStand *stood = jox_run_longest_stand(scene);
+    const JoxStandstill *still = jox_run_longest_standstill(scene);
     if (still) {
         jox_text_printf(out, " A crowd of ");
         jox_text_noun(out, still->people, "person|people");
@@ -150,7 +150,7 @@ static void say_standing(const JoScene *scene, JoxText *out) {
 /* Appends a warning if people overlapped, or stood denser, than real people can. */
 static void say_trust(const JoScene *scene, JoxText *out) {
     const double overlap = jox_statistics_overlap_p99(&scene->world->state.statistics);
-    const double density = jox_run_density_max(scene);
+    const double density = jox_run_greatest_density(scene);
     if (jox_trust_holds(overlap, density))
         return;
     jox_text_add(out, " ");

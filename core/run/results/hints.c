@@ -308,8 +308,8 @@ JoHints *jo_scene_hints(const JoScene *scene) {
                       .is_over = seconds > duration - 1.5 * dt,
                       .pack = &pack,
                       .head = head};
-        if (jox_run_made(scene->spec,
-                         j.machine->path)) /* made of a journey, not written by the user */
+        if (jox_run_journey_text(scene->spec,
+                                 j.machine->path)) /* made of a journey, not written by the user */
             continue;
         examine_transitions(&j);
         examine_cycles(&j);

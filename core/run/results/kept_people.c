@@ -1,5 +1,5 @@
-/* People whom an obstacle keeps from their goal (JoxKept): for the closing lines of a run and for
-   its figures. */
+/* People whom an obstacle keeps from their goal (JoxKeptPeople): for the closing lines of a run and
+   for its figures. */
 #include <math.h>
 
 #include "base/format/plurals.h"
@@ -9,9 +9,9 @@
 #include "run/wall_checks.h"
 
 void jox_run_say_kept(const JoScene *scene, JoxText *out) {
-    const JoxKeptList *list = jox_run_kept(scene);
+    const JoxKeptList *list = jox_run_list_kept_people(scene);
     for (uint32_t k = 0; list && k < list->count; k++) {
-        const JoxKept *kept = &list->items[k];
+        const JoxKeptPeople *kept = &list->items[k];
         const char *name = scene->world->machines.places[kept->place].name;
         if (isnan(kept->since))
             continue;
@@ -27,13 +27,13 @@ void jox_run_say_kept(const JoScene *scene, JoxText *out) {
 void jox_run_add_kept(const JoScene *scene, JoxJson *json) {
     static const char *const KINDS[JOX_HINDRANCE_KINDS] = {"",       "walls", "narrow",
                                                            "filled", "gate",  "body"};
-    const JoxKeptList *list = jox_run_kept(scene);
+    const JoxKeptList *list = jox_run_list_kept_people(scene);
     const JoxBodies *bodies = scene->world->state.bodies;
     if (!list || list->count == 0)
         return;
     jox_json_array(json, "kept");
     for (uint32_t k = 0; k < list->count; k++) {
-        const JoxKept *kept = &list->items[k];
+        const JoxKeptPeople *kept = &list->items[k];
         const char *name = scene->world->machines.places[kept->place].name, *by = "";
         const uint32_t row = jox_bodies_find(bodies, kept->why.by);
         if (kept->why.kind == JOX_HINDRANCE_GATE)

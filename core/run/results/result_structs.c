@@ -131,7 +131,7 @@ static void add_failing_functions(const JoScene *scene, JoxPack *pack, JoTrouble
 }
 
 /* Appends how many people of each group cannot reach a place. */
-static void say_groups(const JoScene *scene, const JoxKept *kept, JoxText *out) {
+static void say_groups(const JoScene *scene, const JoxKeptPeople *kept, JoxText *out) {
     const JoxAgents *a = &scene->world->state.agents;
     uint32_t *all = jox_alloc((size_t)scene->spec->group_count + 1, sizeof *all);
     for (uint32_t i = 0; i < a->count; i++)
@@ -149,7 +149,7 @@ static void say_groups(const JoScene *scene, const JoxKept *kept, JoxText *out) 
 }
 
 /* Adds the trouble that people cannot reach a place, as nothing will remove the obstacle. */
-static void add_unreachable_place(const JoScene *scene, const JoxKept *kept, JoxPack *pack,
+static void add_unreachable_place(const JoScene *scene, const JoxKeptPeople *kept, JoxPack *pack,
                                   JoTroubles *head) {
     const char *name = scene->world->machines.places[kept->place].name;
     const bool nobody =
@@ -167,7 +167,7 @@ static void add_unreachable_place(const JoScene *scene, const JoxKept *kept, Jox
 /* Adds the first places that people cannot reach, MOST_UNREACHABLE at most. */
 static void add_unreachable_places(const JoScene *scene, JoxPack *pack, JoTroubles *head) {
     const uint32_t before = head->count;
-    const JoxKeptList *list = jox_run_kept(scene);
+    const JoxKeptList *list = jox_run_list_kept_people(scene);
     for (uint32_t k = 0; list && k < list->count; k++)
         if (list->items[k].stands && head->count < before + MOST_UNREACHABLE)
             add_unreachable_place(scene, &list->items[k], pack, head);

@@ -134,7 +134,7 @@ static void add_regions(JoxJson *json, const JoScene *scene) {
 static void add_trust(JoxJson *json, const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
     const double overlap = jox_statistics_overlap_p99(s);
-    const bool holds = jox_trust_holds(overlap, jox_run_density_max(scene));
+    const bool holds = jox_trust_holds(overlap, jox_run_greatest_density(scene));
     jox_json_object(json, "trust");
     if (holds && isnan(overlap))
         jox_json_null(json, "holds");
@@ -149,7 +149,7 @@ static void add_trust(JoxJson *json, const JoScene *scene) {
 /* Adds the agent that stood longest though it wanted to get on: a sign of an agent that is stuck.
  */
 static void add_standing(JoxJson *json, const JoScene *scene) {
-    const JoxStood *stood = jox_run_stood_longest(scene);
+    const JoxLongestStand *stood = jox_run_longest_stand(scene);
     if (!stood)
         return;
     jox_json_object(json, "stood_longest");
@@ -313,7 +313,7 @@ char *jo_scene_summary(const JoScene *scene) {
                     stats.agent_steps ? (double)s->failures / (double)stats.agent_steps
                                       : (double)NAN);
     jox_json_number(&json, "lp_failure_peak", s->failure_peak);
-    jox_json_number(&json, "density_max", jox_run_density_max(scene));
+    jox_json_number(&json, "density_max", jox_run_greatest_density(scene));
     jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
     add_trust(&json, scene);
     add_standing(&json, scene);

@@ -32,7 +32,7 @@ static void add_text_unless_null(JoxText *out, const char *name, const char *tex
 /* Adds the texts of all files of the scene, as they are live. */
 static void add_scene_files(JoxText *out, const JoScene *scene) {
     JoxOverlay all = {0};
-    jox_run_texts(scene, &all);
+    jox_run_collect_texts(scene, &all);
     JoxText piece = {0};
     for (size_t f = 0; f < all.count; f++) {
         piece.length = 0;
@@ -48,8 +48,8 @@ static void add_scene_files(JoxText *out, const JoScene *scene) {
  */
 static void add_names(JoxText *out, const JoScene *scene) {
     JoxText piece = {0};
-    jox_text_append(&piece, jox_run_names_path, strlen(jox_run_names_path) + 1);
-    jox_run_list_names(scene, &piece);
+    jox_text_append(&piece, jox_run_kept_names_path, strlen(jox_run_kept_names_path) + 1);
+    jox_run_write_kept_names(scene, &piece);
     jox_pieces_add(out, JOX_PIECE_FILE, piece.data, piece.length);
     jox_text_free(&piece);
 }
@@ -119,7 +119,7 @@ static bool replace_latest(const Checkpoint *c, const JoxText *data, JoError *er
     good = good && sync_folder(c);
     if (!good)
         jox_error(error, JO_FAILED, "cannot write the checkpoint '%.300s': %s", latest.data,
-                  jox_file_why(errno));
+                  jox_file_error_text(errno));
     jox_text_free(&latest);
     jox_text_free(&before);
     return good;
@@ -177,7 +177,7 @@ static bool begin_checkpoints(void *self, JoScene *scene, const void *options, J
         c->claim = jox_folder_claim(def->folder);
     if (!c->claim) {
         jox_error(error, JO_FAILED, "cannot write checkpoints into '%.300s': %s", def->folder,
-                  errno == EEXIST ? "it is no folder" : jox_file_why(errno));
+                  errno == EEXIST ? "it is no folder" : jox_file_error_text(errno));
         return false;
     }
     c->folder = jox_strdup(def->folder);
@@ -203,10 +203,11 @@ static const JoxListenerKind CHECKPOINTS = {.name = "checkpoints",
 
 bool jo_scene_checkpoint(JoScene *scene, const char *directory, double every, const char *note,
                          JoError *error) {
-    JOX_REQUIRE(scene && !scene->world->busy && directory && !jox_run_listener(scene, &CHECKPOINTS),
+    JOX_REQUIRE(scene && !scene->world->busy && directory &&
+                    !jox_run_find_listener(scene, &CHECKPOINTS),
                 false);
     JOX_GUARD (scene->heap, error)
         return false;
-    return jox_run_listen(scene, &CHECKPOINTS, &(JoxCheckpointDef){directory, note, every},
-                          error) != NULL;
+    return jox_run_attach_listener(scene, &CHECKPOINTS, &(JoxCheckpointDef){directory, note, every},
+                                   error) != NULL;
 }

@@ -67,7 +67,7 @@ static bool read_checkpoint(ReadCheckpoint *r, const char *path, JoError *error)
     r->file.data = jox_read_file(path, LARGEST_CHECKPOINT, &r->file.length);
     if (!r->file.data) {
         jox_error(error, JO_INPUT, "cannot read the checkpoint '%.300s': %s", path,
-                  jox_file_why(errno));
+                  jox_file_error_text(errno));
         return false;
     }
     JoxPiece piece;
@@ -97,7 +97,7 @@ static bool find_checkpoint(ReadCheckpoint *r, const JoSceneDef *def, const char
         if (good && first.code) {
             JoxText said = {0};
             jox_text_printf(&said, "%s; the one before it is taken\n", first.text);
-            jox_run_message(def->message, def->message_context, said.data);
+            jox_run_send_message(def->message, def->message_context, said.data);
             jox_text_free(&said);
         }
         if (good)
@@ -129,7 +129,7 @@ static bool restore_from_checkpoint(JoScene *scene, const ReadCheckpoint *r, JoE
     scene->resumed_tick = r->numbers.tick;
     scene->log_length = r->numbers.log_length;
     jox_text_append(&scene->resumed, r->file.data, r->file.length);
-    return jox_run_take_up_all(scene, error);
+    return jox_run_restore_listeners(scene, error);
 }
 
 /* Loads the scene from the texts of the checkpoint alone, with its definition, and restores it. */

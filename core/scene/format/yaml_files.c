@@ -315,7 +315,7 @@ static JoxYaml *read_yaml_file(JoxArena *arena, const char *path, const char *te
     if (!text)
         text = own = jox_read_file(path, LARGEST, &length);
     if (!text)
-        wrong = errno == EFBIG ? "it is over 10 MB" : jox_file_why(errno);
+        wrong = errno == EFBIG ? "it is over 10 MB" : jox_file_error_text(errno);
     else if (length > LARGEST)
         wrong = "it is over 10 MB";
     if (wrong) {

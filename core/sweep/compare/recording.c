@@ -133,7 +133,7 @@ static JoxTrajectories *open_recording(const char *path, const JoCompareDef *def
     JoxDiagnostics diagnostics = {0};
     const JoxTrajectoryOptions options = {.fps = def->fps, .unit = def->unit};
     JoxTrajectories *t = jox_trajectories_read(path, &options, &diagnostics);
-    jox_run_report(def->message, def->message_context, &diagnostics, error);
+    jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, error);
     return t;
 }
 

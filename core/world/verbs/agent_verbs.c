@@ -197,7 +197,7 @@ bool jox_perform_memory(JoWorld *world, const JoxInputEntry *entry, JoxText *why
             return false;
         }
         a->memory[(size_t)i * a->memory_stride + s] = value;
-        jox_machines_wrote(
+        jox_machines_record_writer(
             &world->machines, i,
             &(JoxWrote){.is_memory = true, .index = (uint16_t)s, .by = JOX_WROTE_PROGRAM});
         return true;
@@ -234,7 +234,7 @@ bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *
     for (uint32_t s = 0; s < machine->own_count; s++)
         if (strcmp(machine->own[s].name, info->name) == 0)
             jox_machines_set_own(&world->machines, i, s, value);
-    jox_machines_wrote(&world->machines, i,
-                       &(JoxWrote){.index = (uint16_t)p, .by = JOX_WROTE_PROGRAM});
+    jox_machines_record_writer(&world->machines, i,
+                               &(JoxWrote){.index = (uint16_t)p, .by = JOX_WROTE_PROGRAM});
     return true;
 }
