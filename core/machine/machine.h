@@ -180,8 +180,8 @@ typedef enum JoxSteerKind {
     JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
 } JoxSteerKind;
 
-/* Indices into the args of ORBIT, guidance round a solid (see prefer.h): inward weight and the
-   density profile that it follows. */
+/* Indices into the args of ORBIT, guidance round a solid (steering/steer_wide.c): inward weight and
+   the density profile that it follows. */
 typedef enum {
     JOX_ORBIT_INWARD,
     JOX_ORBIT_DENSITY_NEAR,

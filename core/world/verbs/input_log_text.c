@@ -1,4 +1,4 @@
-/* The text of input logs: read by the rows of verbs.c, and written. */
+/* The text of input logs: read by the rows of verb_table.c, and written. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
