@@ -8,7 +8,7 @@ local widths = {
 local function law(b) return 1.92 * b - 0.07 end
 local function name(b) return string.format("b%03.0f", 100 * b) end
 
--- The same scene with another width of the bottleneck, m, and so many people at 3.3 per square metre.
+-- The scene with another width of the bottleneck, m, and this number of people at 3.3 per square metre.
 local function run(b, people)
   local half, west = b / 2, -2 - people / 3.3 / 7.2
   return { scene = "../bottleneck.yaml", seeds = "101-110", set = {

@@ -1,6 +1,6 @@
 local measure = require "measure"
 
--- Probe, what it is of, density there, 1/m2, and speed, m/s.
+-- Probe, what it measures, the source's density there, 1/m2, and speed, m/s.
 local areas = {
   { "before", "before the bend, 1 to 3 m from it", 0.99, 1.10 },
   { "corner", "in the bend", 0.58, 1.12 },

@@ -1,30 +1,30 @@
-local SIDE = { red = -1, blue = 1 } -- of the court that a group plays on, along x
-local STEP = 0.051                  -- s: the longest step here, and a bit
+local SIDE = { red = -1, blue = 1 } -- side of the court on which a group plays, along x
+local STEP = 0.051                  -- s: a little more than the longest step here
 
--- Whether the ball touched the ground in the step before: its middle is no higher than a radius, 0.04 m of what may
--- lie under it, and as far as it bounced since.
+-- Whether the ball touched the ground in the step before: its centre is no higher than its radius, plus 0.04 m for what
+-- may lie under it, plus the height that it bounced since.
 local function down(e) return e.body_z < 0.15 + e.body_speed * STEP end
 
--- Rules for one entry of the log: who = what happened to the player so far, ball = x of the ball, in its own court
--- above 0. Each tells whether the entry keeps to them.
+-- Rules for one entry of the log: who = what happened to the player so far, ball = x of the ball, above 0 in the
+-- player's own court. Each returns whether the entry keeps the rule.
 local rules = {
-  -- Only who defends begins to attack, and only a ball that is down in the own court.
+  -- Only a defender begins to attack, and only a ball that is down in its own court.
   Attack = function(e, ball) return e.from == "Defense" and ball > 0 and down(e) end,
-  -- A point: somebody who has defended for 0.3 s was hit by a ball that flies, or touched at more than 1 m/s.
+  -- A point: a player who has defended for 0.3 s was hit by a flying ball, or touched by one faster than 1 m/s.
   Hit = function(e, _, who)
     return e.from == "Defense" and e.time - who.since > 0.29
       and (e.time - who.hit < 2 * STEP or e.gap < 0.1 and e.body_speed > 1)
   end,
-  -- Who attacked has kicked, or the ball is down in the other court; who was hit has stood for a second.
+  -- An attacker has kicked, or the ball is down in the other court; a player who was hit has stood for a second.
   Defense = function(e, ball, who)
     if e.from == "Hit" then return e.time - who.since > 0.99 end
     return e.time - who.kicked < STEP or ball <= 0 and down(e)
   end,
-  -- Only who attacks kicks, once, what it touches and what does not lie in the other court.
+  -- Only an attacker kicks, once, a ball that it touches and that does not lie in the other court.
   kicks = function(e, ball, who) return e.state == "Attack" and who.kicks == 1 and e.gap < 0.05 and ball > -0.11 end,
 }
 
--- The game as the log has it, held against its rules; who is driven by hand (in state Play) is not judged.
+-- Checks the logged game against its rules; players driven by hand (in state Play) are not judged.
 local function judge(run)
   local log, players = run.csv("actions"), {}
   local out = { judged = 0, broken = 0, points = 0, missed = 0 }
@@ -46,7 +46,7 @@ local function judge(run)
       who.since = e.time
     elseif e.what == "hit" then
       who.hit = e.time
-      -- A hit on who defends has to be a point by the end of the next step.
+      -- A hit on a defender has to be a point by the end of the next step.
       if e.state == "Defense" and e.time - who.since > 0.3 then who.owes = e.time end
     end
   end
@@ -72,7 +72,7 @@ return claim {
     duel = { scene = "../dodgeball.yaml", seeds = 1, duration = 120,
       set = { ["groups.red.behaviour"] = "../behaviours/dodgeball.lua", ["groups.red.set.court"] = "red_court" } },
     many = { scene = "../dodgeball-500.yaml", seeds = 3 },
-    -- Balls that go on bouncing fly more than they lie, so that there are points.
+    -- Balls that keep bouncing fly more than they lie, so that there are points.
     bouncing = { scene = "../dodgeball-500.yaml", seeds = 3, duration = 30,
       set = { ["bodies.0.restitution"] = 1, ["bodies.0.damping"] = 0 } },
     many_fine = { scene = "../dodgeball-500.yaml", dt = 0.02, seeds = 1, duration = 30 },

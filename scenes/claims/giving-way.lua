@@ -2,8 +2,8 @@ local measure = require "measure"
 
 local WIDTH = 0.4 -- m: two radii
 
--- By which share of what is needed each of a group steps aside: the other stands or comes 0.02 m, 0.04 m, ... to
--- the side, and two radii have to be between them.
+-- Share of the necessary distance by which each agent of a group steps aside: the opponent stands or comes offset by
+-- 0.02 m, 0.04 m, ..., and two radii must be between them.
 local function shares(group)
   local list = {}
   for i = 1, group.n do

@@ -1,9 +1,9 @@
 local measure = require "measure"
 
--- The more come the other way, the longer it takes; a hundred at most, as they are.
+-- The more people come the other way, the longer it takes; at most a hundred, as in the scene.
 local function against(count)
   local one = { scene = "../counter-rooms.yaml", seeds = "101-103" }
-  if count == 0 then one.set = { ["groups.westward.set.goal"] = "east" } -- they are where they go to, and leave at once
+  if count == 0 then one.set = { ["groups.westward.set.goal"] = "east" } -- they begin at their goal, and leave at once
   else one.set = { ["groups.westward.count"] = count } end
   return one
 end

@@ -1,6 +1,6 @@
 local measure = require "measure"
 
--- The western doors shut, by the ends of their leaves; their people find the eastern ones.
+-- The western doors are shut by setting the ends of their leaves; their people go to the eastern ones.
 local shut = {
   ["walls.4.line.1.0"] = 8, ["walls.4.line.1.1"] = 0, ["walls.5.line.1.0"] = 8, ["walls.5.line.1.1"] = 20,
 }

@@ -1,6 +1,6 @@
 local measure = require "measure"
 
--- Times for 40 m between two lines, of a hundred people side by side.
+-- Times of a hundred people, side by side, for 40 m between two lines.
 return claim {
   id = "N2.4", title = "NIST 2.4: speeds that are given",
   source = "NIST TN 1822, test 2.4, as implemented by the verification notebooks of JuPedSim",

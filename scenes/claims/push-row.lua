@@ -1,6 +1,6 @@
 local measure = require "measure"
 
--- How fast the push travels: slope of where people stand over when they have moved 5 cm, m/s.
+-- Speed of the push, m/s: slope of people's positions over the times when they have moved 5 cm.
 local function front(row)
   local x, t = {}, {}
   for i = 1, row.n do
@@ -9,7 +9,7 @@ local function front(row)
   return measure.slope(t, x)
 end
 
--- How far the foremost is moved, as a share of how far the one who was pushed is.
+-- Displacement of the foremost person as a share of that of the pushed one.
 local function kept(run)
   local peak = run.csv("row").peak
   return peak[5] / peak[1]

@@ -3,7 +3,7 @@ local measure = require "measure"
 local GROUPS = { "adults", "age_20", "age_30", "age_40", "age_50", "age_60", "age_70" }
 local LENGTH = 40 -- m, between the lines of the probes
 
--- Speeds of those who crossed both lines, m/s.
+-- Speeds of the people who crossed both lines, m/s.
 local function speeds(passages)
   local list = {}
   for i = 1, passages.n do list[i] = LENGTH / passages.transit[i] end

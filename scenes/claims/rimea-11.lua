@@ -10,7 +10,7 @@ return claim {
   quick = { hall = { seeds = 1 } },
   measure = function(run)
     local near, far = run.hall.summary.probes.near, run.hall.summary.probes.far
-    local by_near, by_far = near.forward - near.back, far.forward - far.back -- some step back in between
+    local by_near, by_far = near.forward - near.back, far.forward - far.back -- some people step back
     return {
       out = by_near + by_far, near = by_near / (by_near + by_far),
       sooner = far.first - near.first, last = math.max(near.last, far.last),

@@ -1,6 +1,6 @@
 local measure = require "measure"
 
--- Speeds of the slowest tenth, of half, and of all but the fastest tenth, m/s, by density along the way, 1/m.
+-- 10 %, 50 % and 90 % values of speed, m/s, by density along the way, 1/m.
 local ENVELOPE = {
   { 0.3, 0.840, 1.160, 1.473 }, { 0.5, 0.708, 1.091, 1.389 }, { 0.7, 0.598, 0.975, 1.305 }, { 0.9, 0.448, 0.747, 1.101 },
   { 1.1, 0.316, 0.520, 0.840 }, { 1.3, 0.187, 0.393, 0.608 }, { 1.5, 0.112, 0.273, 0.485 }, { 1.7, 0.071, 0.199, 0.382 },

@@ -1,4 +1,4 @@
--- Rows beside the runner's way, out of its reach, in which somebody was moved by more than 5 cm.
+-- Rows beside the runner's way, out of its reach, in which a person was moved by more than 5 cm.
 local function secondary_rows(standing)
   local rows, count = {}, 0
   for i = 1, standing.n do
@@ -11,7 +11,7 @@ local function secondary_rows(standing)
   return count
 end
 
--- People who are driven along, more than five spacings.
+-- People who are driven along for more than five spacings.
 local function ploughed(standing, spacing)
   local count = 0
   for i = 1, standing.n do

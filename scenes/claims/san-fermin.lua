@@ -1,7 +1,7 @@
 local measure = require "measure"
 
 local STAGES = 6
-local RISES = 2 -- by so much the power of directions rises to its peak above that of slower turns
+local RISES = 2 -- least ratio of the peak power of directions to that of slower turns
 
 local expect, spectra = {}, { as_is = {}, pressed = {} }
 for _, run in ipairs { "as_is", "pressed" } do

@@ -6,7 +6,7 @@ local points = {
   { 1.49, 0.29 }, { 1.71, 0.22 }, { 1.92, 0.15 }, { 2.09, 0.10 },
 }
 local length = 26.84 -- m, round the ring
-local sway = 0.08    -- m/s: by so much slow speeds differ that are taken of the head or along the way
+local sway = 0.08    -- m/s: difference between slow speeds measured at the head and along the way
 
 local runs, quick, expect, measured = {}, {}, {}, {}
 for i = 1, #points do

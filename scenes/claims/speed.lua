@@ -1,6 +1,6 @@
--- Steps a second of processor time, on one core, while nothing is drawn.
+-- Steps per second of processor time, on one core, without drawing.
 local function frames(run) return run.summary.steps / run.summary.cpu_s end
--- How much faster than the clock on the wall, stepping alone.
+-- Simulated time per wall time of the steps alone.
 local function pace(run) return run.summary.simulated_s / run.summary.cpu_s end
 
 local function run(scene, duration, set)

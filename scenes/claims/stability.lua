@@ -1,4 +1,4 @@
--- Against the finest step: by how much the figure of a run differs.
+-- Difference of a run's figure from that with the finest step.
 local function against(run, what, of)
   local finest = what(run.dt010)
   return what(of) / finest - 1

@@ -1,6 +1,6 @@
 local measure = require "measure"
 
--- Turns of those who came in during the run and left before its end.
+-- Circuits of people who came in during the run and left before its end.
 local function turns_of(turns, seconds)
   local done, fewer, more, clockwise = 0, 0, 0, 0
   for i = 1, turns.n do

@@ -2,7 +2,7 @@ local measure = require "measure"
 
 local FIGURES = { R1 = 0.64, R2 = 0.76, R3 = 0.76, R4 = 0.73, R5 = 0.76, R6 = 0.78, R7 = 0.72 }
 
--- How far the slowest of some regions is above another one, m/s.
+-- Difference between the least mean speed of some regions and that of another one, m/s.
 local function above(regions, least, others)
   local slowest = math.huge
   for i = 1, #others do slowest = math.min(slowest, regions[others[i]]) end

@@ -1,6 +1,6 @@
 local measure = require "measure"
 
--- Mean over T = 80, 100, ... 180 s, once both jams are there, of how many more are through with forces.
+-- Mean over T = 80, 100, ... 180 s, after both jams have formed, of how many more people have passed with forces.
 local function ratio(with, without)
   local sum = 0
   for time = 80, 180, 20 do

@@ -1,8 +1,8 @@
 local measure = require "measure"
 
--- The greatest correlation of the density in two slices of the crowd, 2 m apart, over delays of 0.5 to 4 s: how clearly
--- what happens in the first reaches the second. Both without their trend, for a crowd that fills up would correlate by
--- that alone. Without waves it is about 0.2, by chance.
+-- Greatest correlation of the densities in two slices of the crowd, 2 m apart, over delays of 0.5 to 4 s: a measure
+-- of waves that travel from the first to the second. Trends are removed, as the densities of a crowd that fills up
+-- correlate anyway. Without waves it is about 0.2, by chance.
 local function reaches(from, to)
   local best, first, second = -1, measure.detrended(from.density), measure.detrended(to.density)
   for lag = 2, 16 do

@@ -39,8 +39,8 @@ says "  with the right names" 0 '"agents": 4' "$JOSTLE" run scenes/dodgeball.yam
 says "a mod that was asked for and changes nothing gives a warning" 0 "gentle-queue/patches/tawaf.lua:5:14: warning: mod gentle-queue changes nothing of this scene, which has no 'tawaf'" "$JOSTLE" run scenes/dodgeball.yaml --mod gentle-queue --steps 5 --quiet
 "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet 2>&1 | grep -q "changes nothing"; [ $? = 1 ]; verdict "  a mod that changes something gives none" $?
 says "without the mod there are two players" 0 '"agents": 2' "$JOSTLE" run scenes/dodgeball.yaml --steps 5 --quiet --summary -
-says "reference mods lists functions, with parameters and comments" 0 '| `has_room(place, most)` | function | Whether there is room about a place' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
-says "  and values" 0 '| `squeezed` | a condition | Who is squeezed' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
+says "reference mods lists functions, with parameters and comments" 0 '| `has_room(place, most)` | function | Whether there is room around a place' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
+says "  and values" 0 '| `squeezed` | a condition | Whether the net force' "$JOSTLE" reference mods scenes/tawaf.yaml --mod gentle-queue
 says "  of loaded mods alone" 0 "No mod is taken" "$JOSTLE" reference mods scenes/tawaf.yaml
 says "  and nothing of other pages" 2 "go with 'mods' alone" "$JOSTLE" reference scenes --mod gentle-queue
 says "a file that others require is not taken for a behaviour without a machine" 0 "nothing wrong" "$JOSTLE" mod check scenes/mods/gentle-queue

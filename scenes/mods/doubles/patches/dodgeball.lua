@@ -1,4 +1,4 @@
--- The machine: with more players, whoever stands nearer to the ball takes it; the others keep away.
+-- Patch of the machine: with more players, the one nearest to the ball takes it; the others keep away.
 local ball = nearest "ball"
 
 return patch "dodgeball" {

@@ -1,12 +1,12 @@
--- What the gentle take into account, for patches and behaviours of other mods too: require "gentle-queue:manners".
+-- Conditions for gentle people, also for patches and behaviours of other mods: require "gentle-queue:manners".
 local manners = {}
 
--- Whether there is room about a place: fewer than `most` people per square metre.
+-- Whether there is room around a place: fewer than `most` people per square metre.
 function manners.has_room(place, most)
   return ~density(place):above(most)
 end
 
--- Who is squeezed by more than this, N, gives way.
+-- Whether the net force on an agent is above 200 N: it then gives way.
 manners.squeezed = pushed:above(200)
 
 return manners

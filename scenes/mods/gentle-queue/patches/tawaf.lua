@@ -1,4 +1,4 @@
--- The queue at the Black Stone: who joins, and how.
+-- Patch of the queue at the Black Stone: who joins it, and how.
 local manners = require "gentle-queue:manners"
 local mine = memory { touched = false }
 
