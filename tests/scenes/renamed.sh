@@ -49,7 +49,7 @@ cd "$work/was" || exit 1
 
 told() { grep -qF "$2" "$work/out"; verdict "  $1" $?; } # NAME TEXT
 expect "old names are errors" 3 "6 errors" "$JOSTLE" check scenes/yard.yaml
-told "an old name of a value in `set` is an error" "scenes/yard.yaml:5:44: 'courage' is called 'bravery' now. Write the new name"
+told "an old name of a value in set is an error" "scenes/yard.yaml:5:44: 'courage' is called 'bravery' now. Write the new name"
 told "an old name of a group's memory" "scenes/yard.yaml:5:98: 'laps' is called 'laps_done' now"
 told "an old name of a state in a condition of another behaviour" "behaviours/other.lua:1:41: 'Amble' is called 'Stroll' now"
 told "an old name of memory in a condition of another behaviour" "behaviours/other.lua:1:56: 'laps' is called 'laps_done' now"

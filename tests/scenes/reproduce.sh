@@ -66,7 +66,7 @@ done
 # x, mean, least, most and band of a figure; points of a source; a line of a law; cells of a map, one of them empty
 awk '$1 == 1.25 && NF == 6 && $2 > 7.9 && $3 <= $2 && $4 >= $2 && $5 == 7.9 && $6 == 8.1 {f = 1} $1 == 1.25 && NF == 2 && $2 == 8 {s++} END {exit !(f && s == 2)}' "$work/rep/plots/good-speed.dat"; verdict "a plot has figures with their bands, points and lines" $?
 [ "$(awk 'NF == 3 {print $1, $2, ($3 == "NaN" ? "none" : int($3 + 0.5))}' "$work/rep/plots/good-map.dat" | tr '\n' ';')" = "0 0 20;1 0 8;0 1 none;1 1 20;" ]; verdict "a map has a cell for each pair of values" $?
-! grep -q "What was tried" "$work/rep/index.html" "$work/rep/table.md"; verdict "`tried` is not shown if nothing misses" $?
+! grep -q "What was tried" "$work/rep/index.html" "$work/rep/table.md"; verdict "tried is not shown if nothing misses" $?
 deviation() { grep -o "<td>$1<td class=n>$2<td><code>$3</code><td>[^<]*$4<td><a href=\"#c0\">G</a>" "$work/rep/index.html" | grep -q .; }
 deviation speed "1.3&nbsp;m/s" 0.5 "walk.yaml, group walker" && deviation time_gap "0&nbsp;s" crowd.time_gap "behaviours/walker.lua" && ! deviation mass ".*" ".*" ".*"; verdict "the page lists exactly the settings of scenes and behaviours" $?
 
@@ -86,7 +86,7 @@ echo '  line: {flow: [[2, -3], [2, 3]]}' >>"$work/walk.yaml"
 
 # ---- fewer and smaller ----
 expect "--quick" 1 "these miss: G" "${run[@]}" --quick
-between "--quick uses the settings of `quick`" "$(value length)" 15 15
+between "--quick uses the settings of quick" "$(value length)" 15 15
 between "and does not affect claims that share the runs" "$(value slow)" 9.9 10.1
 expect "--seeds A-B" 0 "in band" "${run[@]}" --seeds 7-10
 between "--seeds A-B replaces the claim's seeds" "$(value seed)" 8.5 8.5
@@ -150,7 +150,7 @@ refuse "an unknown level" "level is calm, normal or keen" -e 's/source = "nobody
 refuse "calibrated and held out" "not both" -e 's/source = "nobody"/source = "nobody", calibrated = "a", held_out = "b"/'
 refuse "a duration that is a text" "duration is a number" -e 's/duration = 30/duration = "long"/'
 refuse "a value that is a table" "is set to a table" -e 's/speed"\] = 0.5/speed"] = {}/'
-refuse "`quick` of an unknown run" "quick: there is no run 'slwo'" -e 's/quick = { slow/quick = { slwo/'
+refuse "quick of an unknown run" "quick: there is no run 'slwo'" -e 's/quick = { slow/quick = { slwo/'
 refuse "pictures of an unknown run" "pictures: there is no run 'wlak'" -e 's/pictures = { walk/pictures = { wlak/'
 refuse "a picture outside the run's folder" "names of files in its report" -e 's/"paths.png"/"..\/paths.png"/'
 refuse "a plot of an unknown figure" "plot 'speed': there is no figure 'slwo'" -e 's/{ 0.5, "slow" }, { 1.25, "time" } } }/{ 0.5, "slwo" } } }/'
@@ -162,7 +162,7 @@ refuse "a plot outside the folder" "a name has letters" -e 's/name = "map"/name 
 refuse "a map without its unit" 'a plot needs z = "..."' -e 's/, z = "time (s)"//'
 refuse "two plots of one name" "there are two plots 'speed'" -e 's/name = "map"/name = "speed"/'
 refuse "an empty plot" "needs a map, or from 1 to 12 curves" -e 's/^      map = .*/    },/'
-refuse "`tried` that is no list of texts" "each of tried is a text" -e 's/, "Waiting" }/, 7 }/'
+refuse "tried that is no list of texts" "each of tried is a text" -e 's/, "Waiting" }/, 7 }/'
 refuse "a syntax error" "odd.lua:7:" -e '7s/.*/    return { = 1 }/'
 refuse "an unknown word" "clam" -e 's/return claim/return clam/'
 printf 'return 5\n' >"$work/odd/odd.lua"

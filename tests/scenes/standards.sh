@@ -15,7 +15,7 @@ grep -q 'plan-N4.1.png' "$page" && [ -s "$work/rep/plan-N4.1.png" ]; verdict "ea
 grep -q '<td>IMO MSC.1/Circ.1533<td class=n>4<td class=n>4<td class=n>0' "$page"; verdict "the tests of a standard are counted" $?
 grep -q '2.2 (stairs)' "$page"; verdict "tests that are not covered are named" $?
 says "a group runs its claims" 0 "N2.10  NIST 2.10" "$JOSTLE" reproduce nist --list
-says "`standards` runs the tests of all standards" 0 "R16  RiMEA 16" "$JOSTLE" reproduce --standards --list
+says "standards runs the tests of all standards" 0 "R16  RiMEA 16" "$JOSTLE" reproduce --standards --list
 "$JOSTLE" reproduce --standards --list 2>/dev/null | grep -q '^B1 '; verdict "and no others" $((1 - $?))
 
 # Who cannot see that a door is shut does not know it: a screen stands between the two in the west and their door.
