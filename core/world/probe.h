@@ -1,4 +1,4 @@
-/* What a probe measures, as plain data: a scene says it, record/ makes a probe of it. */
+/* Definitions of probes, as plain data: scene reads them, record makes probes of them. */
 #ifndef JOX_WORLD_PROBE_H
 #define JOX_WORLD_PROBE_H
 

@@ -29,10 +29,10 @@ static uint32_t list_body_names(const JoWorld *world, const char *names[MOST_NAM
     return count;
 }
 
-static bool unknown(const char *kind, const char *name, const char *const *names, uint32_t count,
-                    JoxText *why) {
+bool jox_event_refuse_name(const char *kind, const char *name, const char *const *names,
+                           uint32_t count, JoxText *why) {
     const char *near = jox_suggest(name, names, count);
-    jox_text_printf(why, "there is no %s named '%.60s'%s%.60s%s", kind, name,
+    jox_text_printf(why, "there is no %s '%.60s'%s%.60s%s", kind, name,
                     near ? ". Did you mean '" : "", near ? near : "", near ? "'?" : "");
     return false;
 }
@@ -52,7 +52,7 @@ static uint32_t find_body(const JoWorld *world, const char *name, JoxText *why) 
     const uint32_t row = jox_bodies_find_name(world->state.bodies, name);
     if (row == JOX_NO_BODY) {
         const char *names[MOST_NAMES];
-        unknown("body", name, names, list_body_names(world, names), why);
+        jox_event_refuse_name("body named", name, names, list_body_names(world, names), why);
     }
     return row;
 }
@@ -93,7 +93,7 @@ bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why) {
     if (jox_world_open_walls(world, wall, open) == 0) {
         const char *names[MOST_NAMES];
         uint32_t count = list_wall_names(world, names);
-        return unknown("wall", wall, names, count, why);
+        return jox_event_refuse_name("wall named", wall, names, count, why);
     }
     *(open ? &world->state.statistics.opened : &world->state.statistics.closed) += 1;
     return true;

@@ -49,5 +49,8 @@ bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],
                     const double spin[3], JoxText *why);
 bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why);
 bool jox_event_signal(JoWorld *world, const char *name, JoxText *why);
+/* Appends that no `kind` has a name, and suggests the nearest of `names`; returns false. */
+bool jox_event_refuse_name(const char *kind, const char *name, const char *const *names,
+                           uint32_t count, JoxText *why);
 
 #endif

@@ -1,4 +1,5 @@
-/* The public calls of jostle_act.h: entries of the input log, made and done at once. */
+/* Public calls of jostle_act.h: actions on a running world. Each makes an entry of the input log
+   and performs it at once. */
 #include <math.h>
 #include <string.h>
 
@@ -7,8 +8,8 @@
 #include "world/verbs/verb_table.h"
 #include "world/world.h"
 
-/* False with `error` for a handle that is null or of somebody who has left. */
-static bool find_agent(const JoWorld *world, JoAgent agent, uint32_t *id, JoError *error) {
+/* Finds the id of an agent; false with `error` for a null handle or an agent that left. */
+static bool find_agent_id(const JoWorld *world, JoAgent agent, uint32_t *id, JoError *error) {
     const uint32_t i = jox_world_find_agent(world, agent);
     if (i == JOX_NO_INDEX)
         jox_error(error, JO_INPUT, "the handle is of no agent that is there");
@@ -17,27 +18,27 @@ static bool find_agent(const JoWorld *world, JoAgent agent, uint32_t *id, JoErro
     return i != JOX_NO_INDEX;
 }
 
-static bool find_body(const JoWorld *world, JoBody body, JoError *error) {
+static bool check_body(const JoWorld *world, JoBody body, JoError *error) {
     const bool good = jox_world_find_body(world, body) != JOX_NO_BODY;
     if (!good)
         jox_error(error, JO_INPUT, "the handle is of no body that is there");
     return good;
 }
 
-/* One of an agent: with a name or none, and so many numbers. */
+/* Performs an action on an agent, with a name (or NULL) and `count` numbers. */
 static bool act_on_agent(JoWorld *world, JoAgent agent, JoxInputVerb verb, const char *name,
                          const double *numbers, uint32_t count, JoError *error) {
     JoxInputEntry entry = {.verb = verb, .names = {(char *)name}, .given = count};
     JOX_GUARD (world->heap, error)
         return false;
-    if (!find_agent(world, agent, &entry.number, error))
+    if (!find_agent_id(world, agent, &entry.number, error))
         return false;
     for (uint32_t n = 0; n < count; n++)
         entry.numbers[n] = numbers[n];
     return jox_input_perform(world, &entry, error);
 }
 
-/* One of a body: with three numbers, and some more or none. */
+/* Performs an action on a body, with three numbers, and `more_count` others. */
 static bool act_on_body(JoWorld *world, JoBody body, JoxInputVerb verb, const double *first,
                         const double *more, uint32_t more_count, JoError *error) {
     const JoBody to = body; /* longjmp may lose an argument in a register */
@@ -48,7 +49,7 @@ static bool act_on_body(JoWorld *world, JoBody body, JoxInputVerb verb, const do
         entry.numbers[entry.given++] = more[n];
     JOX_GUARD (world->heap, error)
         return false;
-    return find_body(world, to, error) && jox_input_perform(world, &entry, error);
+    return check_body(world, to, error) && jox_input_perform(world, &entry, error);
 }
 
 static bool act_by_name(JoWorld *world, JoxInputVerb verb, const char *name, const double *numbers,
@@ -68,7 +69,8 @@ JoAgent jo_world_spawn(JoWorld *world, const char *group, double x, double y, Jo
     if (!act_by_name(world, JOX_INPUT_SPAWN, group, (double[]){x, y}, 2, error))
         return (JoAgent){0};
     const JoxAgents *a = &world->state.agents;
-    return jox_world_agent_handle(world, a->by_rank[a->count - 1]); /* the greatest id */
+    return jox_world_agent_handle(world,
+                                  a->by_rank[a->count - 1]); /* the new agent has the greatest id */
 }
 
 void jo_world_remove_agent(JoWorld *world, JoAgent agent) {
@@ -127,7 +129,9 @@ bool jo_agent_parameter(const JoWorld *world, JoAgent agent, const char *name, d
 }
 
 void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
-    const double most = world && world->record ? 1e4 : 1e6; /* what a line of the log can say */
+    const double most = world && world->record
+                            ? 1e4
+                            : 1e6; /* limit of the verb push, or of a call that is not logged */
     JOX_REQUIRE(world && !world->busy && fabs(fx) <= most && fabs(fy) <= most, );
     if (world->record) {
         act_on_agent(world, agent, JOX_INPUT_PUSH, NULL, (double[]){fx, fy}, 2, NULL);

@@ -20,7 +20,7 @@ JoAgentDef jo_default_agent_def(void) {
                         .cookie = AGENT_COOKIE};
 }
 
-/* The parameters that a JoAgentDef holds, by the table's names and ranges. */
+/* Reads the parameters of a def, and checks their ranges. */
 static bool read_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUNT], JoError *error) {
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         values[p] = jox_parameters[p].value;

@@ -1,4 +1,4 @@
-/* What a program gives the engine; the rest of that are fields of its definitions. */
+/* Public call of jostle_host.h: sets the allocator of a program. */
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"

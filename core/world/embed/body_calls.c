@@ -20,10 +20,10 @@ JoBodyDef jo_default_body_def(void) {
                        .cookie = BODY_COOKIE};
 }
 
-/* The path of a body, from where the body begins; its points are the caller's. */
-static JoxBodyPath path_of(const JoBodyDef *def) {
+/* Returns the path of a def, starting at the position of the body; the caller frees its points. */
+static JoxBodyPath make_path(const JoBodyDef *def) {
     const JoPath *p = &def->path;
-    if (!p->points || p->count >= JOX_PATH_POINTS) /* too many are refused when it is added */
+    if (!p->points || p->count >= JOX_PATH_POINTS) /* jox_bodies_add refuses too many */
         return (JoxBodyPath){.count = p->points ? JOX_PATH_POINTS + 1 : 0};
     JoxBodyPath path = {.points = jox_alloc(3 * ((size_t)p->count + 1), sizeof *path.points),
                         .count = p->count + 1,
@@ -62,7 +62,7 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     memcpy(body.velocity, (double[]){def->vx, def->vy, def->vz}, sizeof body.velocity);
     body.friction = def->friction;
     body.restitution = def->restitution;
-    body.path = path_of(def);
+    body.path = make_path(def);
     body.force_limit =
         def->path.points && def->path.force_limit > 0.0 ? def->path.force_limit : def->force_limit;
     body.ends_run = def->ends_world;

@@ -1,4 +1,5 @@
-/* The public columns, and what numbers in them mean. */
+/* Public calls of jostle_read.h about columns: arrays of agents, and names of the numbers in them.
+ */
 #include <string.h>
 
 #include "base/assert.h"

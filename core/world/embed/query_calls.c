@@ -1,4 +1,5 @@
-/* Questions about who and what is where: each looks at all agents, bodies or edges. */
+/* Public calls of jostle_read.h that ask what is where: each examines all agents, bodies or edges.
+ */
 #include <math.h>
 
 #include "base/assert.h"
@@ -9,11 +10,11 @@
 #include "geom/wall_images.h"
 #include "world/world.h"
 
-/* ---- about a point ---- */
+/* ---- neighbours and density of a point ---- */
 
-/* Puts one where it belongs among the nearest so far, of whom `room` are kept. */
-static void offer(uint32_t *ids, float *distances, uint32_t *kept, uint32_t room, uint32_t id,
-                  float distance) {
+/* Inserts an agent among the nearest so far, of which `room` are kept. */
+static void insert_nearest(uint32_t *ids, float *distances, uint32_t *kept, uint32_t room,
+                           uint32_t id, float distance) {
     uint32_t at = *kept;
     while (at > 0 &&
            (distance < distances[at - 1] || (distance == distances[at - 1] && id < ids[at - 1])))
@@ -46,7 +47,7 @@ uint32_t jo_world_neighbours(const JoWorld *world, double x, double y, double ra
         if (!((double)distance <= radius))
             continue;
         found++;
-        offer(nearest, away, &kept, room, a->id[i], distance);
+        insert_nearest(nearest, away, &kept, room, a->id[i], distance);
     }
     for (uint32_t k = 0; k < kept; k++) {
         if (ids)
@@ -113,11 +114,11 @@ double jo_world_density(const JoWorld *world, double x, double y) {
     double sum = 0.0;
     if (jox_heap_has_failed(world->heap))
         return 0.0;
-    for (uint32_t r = 0; r < a->count; r++) { /* by id, so that the sum has one order */
+    for (uint32_t r = 0; r < a->count; r++) { /* in ascending id: the sum has one order */
         const uint32_t i = a->by_rank[r];
         const JoxV2 d = jox_wrap(a, (JoxV2){a->x[i] - (float)x, a->y[i] - (float)y});
         const double d2 = (double)jox_length2(d);
-        if (d2 > 16.0) /* m2: less than 1e-7 of it is left */
+        if (d2 > 16.0) /* m2: the kernel is below 1e-7 there */
             continue;
         const JoxV2 from = {(float)x, (float)y}, to = jox_add(from, d);
         sum += is_behind_wall(world, from, to) ? 0.0 : jox_exp(-d2) / JOX_PI;
@@ -125,16 +126,16 @@ double jo_world_density(const JoWorld *world, double x, double y) {
     return sum;
 }
 
-/* ---- a disc that moves ---- */
+/* ---- casts of a disc ---- */
 
-/* The way of a disc's centre, and the first that it meets. */
+/* The way of a disc's centre, and the first hit on it. */
 typedef struct Sweep {
     JoxV2 from, way; /* m */
     float radius;    /* m */
     JoCast first;
 } Sweep;
 
-static void meet(Sweep *s, float share, JoTouched kind, uint32_t what, JoxV2 normal) {
+static void note_hit(Sweep *s, float share, JoTouched kind, uint32_t what, JoxV2 normal) {
     const double at = (double)share;
     if (s->first.hit &&
         (at > s->first.share ||
@@ -149,7 +150,7 @@ static void meet(Sweep *s, float share, JoTouched kind, uint32_t what, JoxV2 nor
                         .ny = (double)normal.y};
 }
 
-/* Share of the way after which the centre is within `reach` of a point; false: never. */
+/* Finds the share of the way after which the centre is within `reach` of a point; false: never. */
 static bool reaches_point(const Sweep *s, JoxV2 point, float reach, float *share) {
     const JoxV2 d = jox_sub(s->from, point);
     const float a = jox_length2(s->way), b = jox_dot(d, s->way), c = jox_length2(d) - reach * reach;
@@ -163,15 +164,15 @@ static bool reaches_point(const Sweep *s, JoxV2 point, float reach, float *share
     return *share <= 1.0f;
 }
 
-static void meet_disc(Sweep *s, JoxV2 centre, float reach, JoTouched kind, uint32_t what) {
+static void test_disc(Sweep *s, JoxV2 centre, float reach, JoTouched kind, uint32_t what) {
     float share;
     if (reaches_point(s, centre, reach, &share))
-        meet(s, share, kind, what,
-             jox_unit(jox_sub(jox_add(s->from, jox_scale(s->way, share)), centre)));
+        note_hit(s, share, kind, what,
+                 jox_unit(jox_sub(jox_add(s->from, jox_scale(s->way, share)), centre)));
 }
 
-/* A segment from both sides: its ends, and what lies beside it. */
-static void meet_segment(Sweep *s, JoxV2 a, JoxV2 b, JoTouched kind, uint32_t what) {
+/* Tests a segment from both sides, and its ends. */
+static void test_segment(Sweep *s, JoxV2 a, JoxV2 b, JoTouched kind, uint32_t what) {
     const JoxV2 along = jox_unit(jox_sub(b, a));
     const float length = jox_length(jox_sub(b, a));
     JoxV2 normal = {-along.y, along.x};
@@ -191,15 +192,15 @@ static void meet_segment(Sweep *s, JoxV2 a, JoxV2 b, JoTouched kind, uint32_t wh
         const JoxV2 at = jox_add(s->from, jox_scale(s->way, share));
         const float place = jox_dot(jox_sub(at, a), along);
         if (place >= 0.0f && place <= length) {
-            meet(s, share, kind, what, normal);
+            note_hit(s, share, kind, what, normal);
             return;
         }
     }
-    meet_disc(s, a, s->radius, kind, what);
-    meet_disc(s, b, s->radius, kind, what);
+    test_disc(s, a, s->radius, kind, what);
+    test_disc(s, b, s->radius, kind, what);
 }
 
-static void meet_bodies(const JoWorld *world, Sweep *s) {
+static void test_bodies(const JoWorld *world, Sweep *s) {
     const JoxObjects *objects = &world->scratch.objects;
     for (uint32_t row = 0; row < objects->count; row++) {
         const JoxObject *body = &objects->rows[row];
@@ -207,36 +208,36 @@ static void meet_bodies(const JoWorld *world, Sweep *s) {
             continue;
         const JoxV2 centre = {body->position.x, body->position.y};
         if (!body->footprint_count) {
-            meet_disc(s, centre, s->radius + body->round, JO_TOUCHED_BODY, row);
+            test_disc(s, centre, s->radius + body->round, JO_TOUCHED_BODY, row);
             continue;
         }
         const JoxFootprintPoint near = jox_footprint_nearest(body, s->from);
         if (near.gap <= s->radius)
-            meet(s, 0.0f, JO_TOUCHED_BODY, row, near.normal);
+            note_hit(s, 0.0f, JO_TOUCHED_BODY, row, near.normal);
         for (uint32_t k = 0; k < body->footprint_count; k++)
-            meet_segment(s, body->footprint[k], body->footprint[(k + 1) % body->footprint_count],
+            test_segment(s, body->footprint[k], body->footprint[(k + 1) % body->footprint_count],
                          JO_TOUCHED_BODY, row);
     }
 }
 
 /* Meets the standing walls, moved by `shift` m. */
-static void meet_walls_at(const JoWorld *world, Sweep *s, JoxV2 shift) {
+static void test_walls_at(const JoWorld *world, Sweep *s, JoxV2 shift) {
     const JoxWalls *walls = &world->model.all_walls;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t k = 0; !ring->open && k < ring->count; k++) {
             const JoxWallVertex *v = &walls->vertices[ring->first + k];
-            meet_segment(s, jox_add(v->point, shift),
+            test_segment(s, jox_add(v->point, shift),
                          jox_add(walls->vertices[v->next].point, shift), JO_TOUCHED_WALL,
                          ring->first + k);
         }
     }
 }
 
-static void meet_walls(const JoWorld *world, Sweep *s) {
+static void test_walls(const JoWorld *world, Sweep *s) {
     Turns turns = first_turns(world);
     do
-        meet_walls_at(world, s, shift_of_turns(world, &turns));
+        test_walls_at(world, s, shift_of_turns(world, &turns));
     while (next_turns(&turns));
 }
 
@@ -254,12 +255,12 @@ JoCast jo_world_cast(const JoWorld *world, const double from[2], const double to
     for (uint32_t i = 0; kinds & JO_CAST_AGENTS && i < a->count; i++) {
         const JoxV2 at =
             jox_add(s.from, jox_wrap(a, (JoxV2){a->x[i] - s.from.x, a->y[i] - s.from.y}));
-        meet_disc(&s, at, s.radius + jox_param(a, JOX_PARAM_radius, i), JO_TOUCHED_AGENT, a->id[i]);
+        test_disc(&s, at, s.radius + jox_param(a, JOX_PARAM_radius, i), JO_TOUCHED_AGENT, a->id[i]);
     }
     if (kinds & JO_CAST_BODIES)
-        meet_bodies(world, &s);
+        test_bodies(world, &s);
     if (kinds & JO_CAST_WALLS)
-        meet_walls(world, &s);
+        test_walls(world, &s);
     if (!s.first.hit)
         s.first.share = 1.0;
     s.first.x = from[0] + s.first.share * (to[0] - from[0]);
@@ -267,7 +268,7 @@ JoCast jo_world_cast(const JoWorld *world, const double from[2], const double to
     return s.first;
 }
 
-/* ---- what stands there ---- */
+/* ---- walls and bodies ---- */
 
 uint32_t jo_world_walls(const JoWorld *world, double *out, uint32_t capacity) {
     JOX_REQUIRE(world && (out || capacity == 0), 0);

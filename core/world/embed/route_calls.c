@@ -1,5 +1,5 @@
-/* Ways to places, by a distance field that is kept until the walls change or another place is asked
-   for; and snapshots. */
+/* The public call jo_world_path: the way from a point to a place, by a distance field that is kept
+   until walls change or another place is asked for. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -12,8 +12,8 @@
 static const float CLEARANCE = 0.25f, CELL = 0.2f, STRIDE = 0.25f, AROUND = 10.0f; /* m */
 enum { MOST_STRIDES = 200000 };
 
-/* The box that ways lead through: walls, places, and the point, with some room about them. */
-static void box_of(const JoWorld *w, const JoxWalls *walls, JoxV2 from, JoxV2 *low, JoxV2 *high) {
+/* Computes the box of the field: walls, places and the point, with a margin. */
+static void find_box(const JoWorld *w, const JoxWalls *walls, JoxV2 from, JoxV2 *low, JoxV2 *high) {
     *low = *high = from;
     for (uint32_t v = 0; v < walls->count; v++) {
         const JoxV2 p = walls->vertices[v].point;
@@ -29,7 +29,7 @@ static void box_of(const JoWorld *w, const JoxWalls *walls, JoxV2 from, JoxV2 *l
     *high = (JoxV2){high->x + AROUND, high->y + AROUND};
 }
 
-static const JoxField *field_to(JoWorld *w, uint32_t place, JoxV2 from) {
+static const JoxField *get_field(JoWorld *w, uint32_t place, JoxV2 from) {
     JoxStepEvents *h = &w->scratch.step_events;
     if (h->field && h->field_place == place && h->field_walls == w->state.walls_version)
         return h->field;
@@ -37,7 +37,7 @@ static const JoxField *field_to(JoWorld *w, uint32_t place, JoxV2 from) {
     JoxV2 low, high;
     const JoxAgents *a = &w->state.agents;
     jox_walls_standing(&standing, &w->model.all_walls, true);
-    box_of(w, &standing, from, &low, &high);
+    find_box(w, &standing, from, &low, &high);
     JoxPlace *places = w->model.places;
     uint32_t count = w->model.place_count, goal = place;
     const bool over_edges = jox_routes_lead_over_edges(a, &standing);
@@ -62,9 +62,9 @@ static const JoxField *field_to(JoWorld *w, uint32_t place, JoxV2 from) {
     return h->field;
 }
 
-static uint32_t walk(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint32_t capacity,
-                     double *out) {
-    const JoxField *field = field_to(w, place, at);
+static uint32_t trace_way(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint32_t capacity,
+                          double *out) {
+    const JoxField *field = get_field(w, place, at);
     uint32_t count = 0;
     double walked = 0.0, unused = 0.0, *length = out ? out : &unused;
     *length = INFINITY;
@@ -88,15 +88,15 @@ static uint32_t walk(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint32_t 
         walked += (double)jox_length(jox_sub(next, at));
         at = jox_agents_wrapped(&w->state.agents, next);
     }
-    return 0; /* it leads round and round */
+    return 0; /* the way does not end */
 }
 
-static uint32_t walk_to(JoWorld *w, double x, double y, const char *place, double *xy,
-                        uint32_t capacity, double *length) {
+static uint32_t trace_way_to(JoWorld *w, double x, double y, const char *place, double *xy,
+                             uint32_t capacity, double *length) {
     const JoxV2 at = jox_agents_wrapped(&w->state.agents, (JoxV2){(float)x, (float)y});
     const int found = jox_place_find(w->model.places, w->model.scene_places, place);
     if (found >= 0)
-        return walk(w, (uint32_t)found, at, xy, capacity, length);
+        return trace_way(w, (uint32_t)found, at, xy, capacity, length);
     if (length)
         *length = INFINITY;
     return 0;
@@ -107,5 +107,5 @@ uint32_t jo_world_path(JoWorld *world, double x, double y, const char *place, do
     JOX_REQUIRE(world && !world->busy && place && fabs(x) <= 1e4 && fabs(y) <= 1e4, 0);
     JOX_GUARD (world->heap, NULL)
         return 0;
-    return walk_to(world, x, y, place, xy, capacity, length);
+    return trace_way_to(world, x, y, place, xy, capacity, length);
 }

@@ -1,4 +1,4 @@
-/* What happened in the last step: found out when it is asked for. */
+/* The public call jo_world_events: finds what happened in the last step, when a program asks. */
 #include <string.h>
 
 #include "base/assert.h"
@@ -17,7 +17,7 @@ static void read_transitions(const JoWorld *w, JoxStepEvents *h) {
     }
 }
 
-static void read_said(const JoWorld *w, JoxStepEvents *h) {
+static void read_signals(const JoWorld *w, JoxStepEvents *h) {
     const JoxMachineState *state = &w->state.machines;
     JOX_RESERVE(h->said, h->said_capacity, state->called_count);
     h->said_count = 0;
@@ -27,9 +27,9 @@ static void read_said(const JoWorld *w, JoxStepEvents *h) {
     }
 }
 
-/* ---- who presses on what ---- */
+/* ---- contacts that press ---- */
 
-static int by_ids(const JoxSeenTouch *a, const JoxSeenTouch *b) {
+static int compare_touches(const JoxSeenTouch *a, const JoxSeenTouch *b) {
     if (a->agent != b->agent)
         return a->agent < b->agent ? -1 : 1;
     if (a->kind != b->kind)
@@ -37,8 +37,8 @@ static int by_ids(const JoxSeenTouch *a, const JoxSeenTouch *b) {
     return (a->other > b->other) - (a->other < b->other);
 }
 
-/* Merges the three lists of contacts, each in ascending ids, and marks those that are new against
-   the list of before, which is in the same order. */
+/* Merges the three lists of contacts, each in ascending ids, and marks contacts that are not in the
+   previous list, which has the same order. */
 static void read_touches(const JoWorld *w, JoxStepEvents *h) {
     const JoxKeptImpulse *list[3];
     size_t count[3], at[3] = {0, 0, 0}, before = 0;
@@ -55,7 +55,7 @@ static void read_touches(const JoWorld *w, JoxStepEvents *h) {
         int next = -1;
         for (int k = 0; k < 3; k++) {
             while (at[k] < count[k] && !(list[k][at[k]].impulse > 0.0f))
-                at[k]++; /* near, without pressing */
+                at[k]++; /* does not press */
             if (at[k] < count[k] && (next < 0 || list[k][at[k]].id < list[next][at[next]].id))
                 next = k;
         }
@@ -63,9 +63,10 @@ static void read_touches(const JoWorld *w, JoxStepEvents *h) {
             break;
         const JoxKeptImpulse *one = &list[next][at[next]++];
         const JoxSeenTouch touch = {one->id, (uint32_t)next, one->other};
-        while (before < h->touched_count && by_ids(&h->touched[before], &touch) < 0)
+        while (before < h->touched_count && compare_touches(&h->touched[before], &touch) < 0)
             before++;
-        const bool known = before < h->touched_count && by_ids(&h->touched[before], &touch) == 0;
+        const bool known =
+            before < h->touched_count && compare_touches(&h->touched[before], &touch) == 0;
         h->touching[h->touch_count] = touch;
         h->touches[h->touch_count++] = (JoTouchEvent){.agent = touch.agent,
                                                       .kind = touch.kind,
@@ -82,13 +83,14 @@ static void read_touches(const JoWorld *w, JoxStepEvents *h) {
     h->touching_capacity = spare_capacity;
 }
 
-/* ---- who came and left, and what they did ---- */
+/* ---- agents that entered, left, kicked and grasped ---- */
 
-static void note(JoxStepEvents *h, const JoxAgents *a, uint32_t i, JoDone kind, uint32_t other) {
+static void add_action(JoxStepEvents *h, const JoxAgents *a, uint32_t i, JoDone kind,
+                       uint32_t other) {
     h->actions[h->action_count++] = (JoActionEvent){a->id[i], kind, other, a->x[i], a->y[i]};
 }
 
-static JoPresenceEvent presence(const JoxSeenAgent *seen) {
+static JoPresenceEvent make_presence(const JoxSeenAgent *seen) {
     return (JoPresenceEvent){seen->id, seen->group, seen->x, seen->y};
 }
 
@@ -98,26 +100,26 @@ static void read_presence(const JoWorld *w, JoxStepEvents *h) {
     JOX_RESERVE(h->seeing, h->seeing_capacity, a->count);
     JOX_RESERVE(h->entered, h->entered_capacity, a->count);
     JOX_RESERVE(h->left, h->left_capacity, h->seen_count);
-    JOX_RESERVE(h->actions, h->action_capacity, 2 * a->count); /* both in one step at most */
+    JOX_RESERVE(h->actions, h->action_capacity, 2 * a->count); /* at most both in one step */
     h->entered_count = h->left_count = h->action_count = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r];
         const JoxSeenAgent now = {a->id[i], a->group[i], a->grasped[i], a->x[i], a->y[i]};
         uint32_t held = 0;
         while (before < h->seen_count && h->seen[before].id < now.id)
-            h->left[h->left_count++] = presence(&h->seen[before++]);
+            h->left[h->left_count++] = make_presence(&h->seen[before++]);
         if (before < h->seen_count && h->seen[before].id == now.id)
             held = h->seen[before++].grasped;
         else
-            h->entered[h->entered_count++] = presence(&now);
+            h->entered[h->entered_count++] = make_presence(&now);
         if (a->kicked[i])
-            note(h, a, i, JO_DONE_KICK, a->kicked[i] - 1);
+            add_action(h, a, i, JO_DONE_KICK, a->kicked[i] - 1);
         if (now.grasped && now.grasped != held)
-            note(h, a, i, JO_DONE_GRASP, now.grasped - 1);
+            add_action(h, a, i, JO_DONE_GRASP, now.grasped - 1);
         h->seeing[r] = now;
     }
     while (before < h->seen_count)
-        h->left[h->left_count++] = presence(&h->seen[before++]);
+        h->left[h->left_count++] = make_presence(&h->seen[before++]);
     JoxSeenAgent *spare = h->seen;
     const size_t spare_capacity = h->seen_capacity;
     h->seen = h->seeing;
@@ -134,10 +136,10 @@ JoEvents jo_world_events(JoWorld *world) {
     JOX_GUARD (world->heap, NULL)
         return (JoEvents){0};
     const bool same = h->tick == world->state.tick + 1 && h->next_id == a->next_id &&
-                      h->count == a->count; /* asked for once more */
+                      h->count == a->count; /* asked again in the same step */
     if (!same) {
         read_transitions(world, h);
-        read_said(world, h);
+        read_signals(world, h);
         read_touches(world, h);
         read_presence(world, h);
         h->tick = world->state.tick + 1;

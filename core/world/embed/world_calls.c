@@ -88,7 +88,8 @@ JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
     return world;
 }
 
-/* Checks and converts points; NULL with `error` if something is wrong. The caller frees. */
+/* Checks and converts points of a wall. Returns NULL with `error` if they are wrong; the caller
+ * frees. */
 static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, size_t least,
                           JoError *error) {
     if (world->state.tick > 0 || count < least || count > 100000) {
@@ -234,6 +235,6 @@ bool jo_world_restore(JoWorld *world, const void *data, size_t size, JoError *er
     JOX_REQUIRE(world && !world->busy && data, false);
     JOX_GUARD (world->heap, error)
         return false;
-    world->scratch.step_events.tick = 0; /* what was seen is of another time */
+    world->scratch.step_events.tick = 0; /* events are found anew */
     return jox_world_restore(world, data, size, error);
 }

@@ -1,4 +1,4 @@
-/* The entries of an input log, and how far it has been played. */
+/* Entries of an input log, and the position in it. */
 #include "world/input/input_entries.h"
 
 #include "base/assert.h"

@@ -9,7 +9,7 @@
 #include "base/format/diag.h"
 #include "machine/run.h"
 
-/* Rows of jox_input_verbs that the code names; there may be more behind them. */
+/* Rows of jox_input_verbs. */
 typedef enum JoxInputVerb {
     JOX_INPUT_PLAYER,
     JOX_INPUT_THROW,
@@ -41,7 +41,7 @@ typedef enum JoxInputVerb {
     JOX_INPUT_UNWALL
 } JoxInputVerb;
 
-/* Bytes of one file. */
+/* Greatest size of one file, bytes. */
 #define JOX_INPUT_LARGEST ((size_t)16 << 20)
 
 enum {
@@ -61,38 +61,39 @@ typedef struct JoxInputFile {
 typedef struct JoxInputEntry {
     uint32_t tick;
     uint32_t verb;                     /* row of jox_input_verbs */
-    uint32_t number;                   /* of an agent, the row of a body, or how many files */
-    char *names[JOX_INPUT_NAMES];      /* in the order of the line; NULL: none */
-    double numbers[JOX_INPUT_NUMBERS]; /* likewise */
-    uint32_t given;                    /* how many numbers the line has */
+    uint32_t number;                   /* id of an agent, row of a body, or number of files */
+    char *names[JOX_INPUT_NAMES];      /* in the order of the line; owned; NULL: none */
+    double numbers[JOX_INPUT_NUMBERS]; /* in the order of the line */
+    uint32_t given;                    /* number of numbers in the line */
     bool here;                         /* throw: from where the body lies */
     JoxInputFile *files;               /* `number` of them */
-    int line;                          /* of the log; 0: did not come from one */
+    int line;                          /* line of the log; 0: not from a log */
 } JoxInputEntry;
 
 /* Zero-initialised is empty. */
 typedef struct JoxInputLog {
     JoxInputEntry *entries;
     size_t count, capacity;
-    size_t next; /* first entry that has not taken effect */
-    /* What each player's agent wants at present; handed to the machines. */
+    size_t next; /* first entry that was not done yet */
+    /* Wanted velocity of each player's agent, m/s; read by machines. */
     struct JoxPlayerInput *present;
     uint32_t present_count;
     size_t present_capacity;
 } JoxInputLog;
 
-/* Appends the entries of `text`; every wrong line is an error of `file`. */
+/* Parses `text` and appends its entries; reports each wrong line as an error in `file`. */
 bool jox_input_parse(JoxInputLog *log, const char *file, const char *text, size_t length,
                      JoxDiagnostics *diagnostics);
-/* Reads one line without its tick, and no files. False with what is wrong and the way out. */
+/* Reads one line without a tick and without files. Returns false with an error and a hint in
+   `wrong`. */
 bool jox_input_read_line(const char *line, JoxInputEntry *entry, JoxText *wrong);
-/* Appends the entry as jox_input_parse reads it back, bit for bit. */
+/* Appends the text of an entry, which jox_input_parse reads back bit for bit. */
 void jox_input_write(const JoxInputEntry *entry, JoxText *out);
-/* The log takes the entry over. */
+/* Appends an entry; the log owns it from now on. */
 void jox_input_add(JoxInputLog *log, JoxInputEntry entry);
-/* The next entry that takes effect at `tick` or did not before; NULL where there is none. */
+/* Returns the next entry that is due at `tick`, and counts it as done; NULL if there is none. */
 const JoxInputEntry *jox_input_take_due(JoxInputLog *log, uint64_t tick);
-/* From here on the player of the agent with this id wants that velocity, m/s. */
+/* Sets the velocity, m/s, that the player of an agent wants from now on. */
 void jox_input_set_player(JoxInputLog *log, uint32_t agent_id, float vx, float vy);
 void jox_input_entry_free(JoxInputEntry *entry);
 void jox_input_free(JoxInputLog *log);

@@ -1,4 +1,4 @@
-/* What verbs do to people. */
+/* Verbs that act on agents. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,8 +8,8 @@
 
 enum { MOST_NAMES = 256 };
 
-/* Index of the living agent with an id, or JOX_NO_INDEX with a sentence in `why`. */
-static uint32_t find_agent(const JoWorld *world, uint32_t id, JoxText *why) {
+/* Returns the index of a live agent by its id, or JOX_NO_INDEX with a sentence in `why`. */
+static uint32_t find_live_agent(const JoWorld *world, uint32_t id, JoxText *why) {
     const JoxAgents *a = &world->state.agents;
     uint32_t i = jox_agents_find(a, id);
     if (i != JOX_NO_INDEX)
@@ -22,15 +22,7 @@ static uint32_t find_agent(const JoWorld *world, uint32_t id, JoxText *why) {
     return JOX_NO_INDEX;
 }
 
-static bool unknown(const char *kind, const char *name, const char *const *names, uint32_t count,
-                    JoxText *why) {
-    const char *near = jox_suggest(name, names, count);
-    jox_text_printf(why, "there is no %s '%.60s'%s%.60s%s", kind, name,
-                    near ? ". Did you mean '" : "", near ? near : "", near ? "'?" : "");
-    return false;
-}
-
-/* Whether the machine calls by another name now what is asked for, which is said. */
+/* Returns whether a part of the machine was renamed, with a sentence in `why`. */
 static bool is_renamed(const JoxMachine *machine, JoxPart part, const char *name, JoxText *why) {
     const char *now = jox_machine_renamed(machine, part, name);
     if (now)
@@ -38,8 +30,8 @@ static bool is_renamed(const JoxMachine *machine, JoxPart part, const char *name
     return now != NULL;
 }
 
-/* The machine of an agent; NULL with a sentence where it has none. */
-static const JoxMachine *machine_of(const JoWorld *world, uint32_t i, JoxText *why) {
+/* Returns the machine of an agent; NULL with a sentence if it has none. */
+static const JoxMachine *get_machine(const JoWorld *world, uint32_t i, JoxText *why) {
     const JoxAgents *a = &world->state.agents;
     if (a->machine[i] != JOX_NO_MACHINE)
         return world->model.machines.items[a->machine[i]];
@@ -47,8 +39,8 @@ static const JoxMachine *machine_of(const JoWorld *world, uint32_t i, JoxText *w
     return NULL;
 }
 
-/* What the machines read is as of the step that comes. */
-static void tell_machines(JoWorld *world) {
+/* Sets what machines read to the state of the coming step. */
+static void update_machines(JoWorld *world) {
     world->machines.tick = (uint32_t)world->state.tick;
     world->machines.places = world->model.places;
     world->machines.place_count = world->model.place_count;
@@ -56,7 +48,7 @@ static void tell_machines(JoWorld *world) {
 
 bool jox_perform_push(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxAgents *a = &world->state.agents;
-    uint32_t i = find_agent(world, entry->number, why);
+    uint32_t i = find_live_agent(world, entry->number, why);
     if (i == JOX_NO_INDEX)
         return false;
     a->ext_x[i] += (float)entry->numbers[0];
@@ -64,9 +56,9 @@ bool jox_perform_push(JoWorld *world, const JoxInputEntry *entry, JoxText *why) 
     return true;
 }
 
-/* A log may speak of players who are yet to come. */
+/* A log may name players that have not entered yet. */
 bool jox_perform_player(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    if (entry->line == 0 && find_agent(world, entry->number, why) == JOX_NO_INDEX)
+    if (entry->line == 0 && find_live_agent(world, entry->number, why) == JOX_NO_INDEX)
         return false;
     jox_input_set_player(&world->state.input, entry->number, (float)entry->numbers[0],
                          (float)entry->numbers[1]);
@@ -99,11 +91,11 @@ bool jox_perform_spawn(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
         jox_world_explain_unplaced(spot, entry->numbers[0], entry->numbers[1], why);
         return false;
     }
-    return unknown("group", entry->names[0], names, count, why);
+    return jox_event_refuse_name("group", entry->names[0], names, count, why);
 }
 
 bool jox_perform_remove(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    uint32_t i = find_agent(world, entry->number, why);
+    uint32_t i = find_live_agent(world, entry->number, why);
     if (i == JOX_NO_INDEX)
         return false;
     world->state.agents.removed[i] = 1;
@@ -114,7 +106,7 @@ bool jox_perform_remove(JoWorld *world, const JoxInputEntry *entry, JoxText *why
 bool jox_perform_teleport(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxAgents *a = &world->state.agents;
     JoxV2 at = {(float)entry->numbers[0], (float)entry->numbers[1]};
-    uint32_t i = find_agent(world, entry->number, why);
+    uint32_t i = find_live_agent(world, entry->number, why);
     if (i == JOX_NO_INDEX)
         return false;
     jox_world_apply_walls(world);
@@ -134,8 +126,8 @@ bool jox_perform_teleport(JoWorld *world, const JoxInputEntry *entry, JoxText *w
 
 bool jox_perform_goal(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxAgents *a = &world->state.agents;
-    uint32_t i = find_agent(world, entry->number, why);
-    const JoxMachine *machine = i == JOX_NO_INDEX ? NULL : machine_of(world, i, why);
+    uint32_t i = find_live_agent(world, entry->number, why);
+    const JoxMachine *machine = i == JOX_NO_INDEX ? NULL : get_machine(world, i, why);
     if (!machine)
         return false;
     int place = jox_place_find(world->model.places, world->model.scene_places, entry->names[0]);
@@ -144,9 +136,9 @@ bool jox_perform_goal(JoWorld *world, const JoxInputEntry *entry, JoxText *why) 
         uint32_t count = 0;
         for (uint32_t p = 0; p < world->model.scene_places && count < MOST_NAMES; p++)
             names[count++] = world->model.places[p].name;
-        return unknown("place", entry->names[0], names, count, why);
+        return jox_event_refuse_name("place", entry->names[0], names, count, why);
     }
-    tell_machines(world);
+    update_machines(world);
     a->goal[i] = place;
     for (uint32_t s = 0; s < machine->own_count; s++)
         if (machine->own[s].is_place && strcmp(machine->own[s].name, "goal") == 0)
@@ -155,15 +147,15 @@ bool jox_perform_goal(JoWorld *world, const JoxInputEntry *entry, JoxText *why) 
 }
 
 bool jox_perform_state(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    uint32_t i = find_agent(world, entry->number, why);
-    const JoxMachine *machine = i == JOX_NO_INDEX ? NULL : machine_of(world, i, why);
+    uint32_t i = find_live_agent(world, entry->number, why);
+    const JoxMachine *machine = i == JOX_NO_INDEX ? NULL : get_machine(world, i, why);
     if (!machine)
         return false;
     int state = jox_machine_state(machine, entry->names[0]);
     if (state >= 0) {
-        tell_machines(world);
+        update_machines(world);
         jox_machines_set_state(&world->machines, i, (uint16_t)state);
-        if (world->state.agents.removed[i]) /* a state in which people leave */
+        if (world->state.agents.removed[i]) /* a state in which agents leave */
             world->state.statistics.removed += jox_agents_compact(&world->state.agents);
         return true;
     }
@@ -174,13 +166,13 @@ bool jox_perform_state(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
     char kind[100];
     snprintf(kind, sizeof kind, "state of %.60s named", machine->name);
     return !is_renamed(machine, JOX_PART_STATE, entry->names[0], why) &&
-           unknown(kind, entry->names[0], names, count, why);
+           jox_event_refuse_name(kind, entry->names[0], names, count, why);
 }
 
 bool jox_perform_memory(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     const JoxAgents *a = &world->state.agents;
-    uint32_t i = find_agent(world, entry->number, why);
-    const JoxMachine *machine = i == JOX_NO_INDEX ? NULL : machine_of(world, i, why);
+    uint32_t i = find_live_agent(world, entry->number, why);
+    const JoxMachine *machine = i == JOX_NO_INDEX ? NULL : get_machine(world, i, why);
     if (!machine)
         return false;
     const char *names[MOST_NAMES];
@@ -203,12 +195,12 @@ bool jox_perform_memory(JoWorld *world, const JoxInputEntry *entry, JoxText *why
         return true;
     }
     return !is_renamed(machine, JOX_PART_MEMORY, entry->names[0], why) &&
-           unknown("memory named", entry->names[0], names, count, why);
+           jox_event_refuse_name("memory named", entry->names[0], names, count, why);
 }
 
 bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxAgents *a = &world->state.agents;
-    uint32_t i = find_agent(world, entry->number, why);
+    uint32_t i = find_live_agent(world, entry->number, why);
     if (i == JOX_NO_INDEX)
         return false;
     const int p = jox_parameter_find(entry->names[0]);
@@ -216,7 +208,7 @@ bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *
         const char *names[JOX_PARAM_COUNT];
         for (int n = 0; n < JOX_PARAM_COUNT; n++)
             names[n] = jox_parameters[n].name;
-        return unknown("parameter", entry->names[0], names, JOX_PARAM_COUNT, why);
+        return jox_event_refuse_name("parameter", entry->names[0], names, JOX_PARAM_COUNT, why);
     }
     const JoxParameterInfo *info = &jox_parameters[p];
     const double value = entry->numbers[0];
@@ -229,7 +221,7 @@ bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *
     jox_nav_end_births(world->scratch.nav); /* it may be wider now */
     if (a->machine[i] == JOX_NO_MACHINE)
         return true;
-    tell_machines(world);
+    update_machines(world);
     const JoxMachine *machine = world->model.machines.items[a->machine[i]];
     for (uint32_t s = 0; s < machine->own_count; s++)
         if (strcmp(machine->own[s].name, info->name) == 0)

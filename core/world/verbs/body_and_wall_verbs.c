@@ -1,4 +1,4 @@
-/* What verbs do to bodies and walls. */
+/* Verbs that act on bodies, walls and signals. */
 #include <math.h>
 #include <string.h>
 
@@ -18,7 +18,7 @@ bool jox_perform_box(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     return good;
 }
 
-static bool pull(JoWorld *world, const JoxInputEntry *entry, bool anew, JoxText *why) {
+static bool grab_body(JoWorld *world, const JoxInputEntry *entry, bool anew, JoxText *why) {
     const unsigned row = entry->number;
     switch (jox_world_grab(world, row, entry->numbers, anew)) {
     case JOX_GRAB_DONE:
@@ -40,11 +40,11 @@ static bool pull(JoWorld *world, const JoxInputEntry *entry, bool anew, JoxText 
 }
 
 bool jox_perform_grab(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    return pull(world, entry, true, why);
+    return grab_body(world, entry, true, why);
 }
 
 bool jox_perform_drag(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    return pull(world, entry, false, why);
+    return grab_body(world, entry, false, why);
 }
 
 bool jox_perform_release(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
@@ -66,16 +66,16 @@ bool jox_perform_signal(JoWorld *world, const JoxInputEntry *entry, JoxText *why
     return jox_event_signal(world, entry->names[0], why);
 }
 
-/* ---- bodies of programs ---- */
+/* ---- bodies, from programs ---- */
 
-static JoxV3 vector(const double v[3]) {
+static JoxV3 make_vector(const double v[3]) {
     return (JoxV3){(float)v[0], (float)v[1], (float)v[2]};
 }
 
-/* The body in the row of the entry; false with a sentence where there is none, or where it has to
-   move and is static. */
-static bool find_body(const JoWorld *world, const JoxInputEntry *entry, bool moves, JoxPose *pose,
-                      JoxText *why) {
+/* Reads the pose of the body in the row of an entry. Returns false with a sentence if there is
+   none, or if it is static and `moves` is true. */
+static bool read_body_pose(const JoWorld *world, const JoxInputEntry *entry, bool moves,
+                           JoxPose *pose, JoxText *why) {
     if (!jox_bodies_pose(world->state.bodies, entry->number, pose))
         jox_text_printf(why, "there is no body %u", entry->number);
     else if (moves && !pose->kinematic && !(pose->mass > 0.0f))
@@ -87,15 +87,16 @@ static bool find_body(const JoWorld *world, const JoxInputEntry *entry, bool mov
 
 bool jox_perform_impulse(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxPose pose;
-    if (!find_body(world, entry, true, &pose, why))
+    if (!read_body_pose(world, entry, true, &pose, why))
         return false;
     if (pose.kinematic) {
         jox_text_printf(why, "body %u is kinematic: nothing pushes it", entry->number);
         return false;
     }
     JoxImpulse impulse = {.object = entry->number,
-                          .impulse = vector(entry->numbers),
-                          .point = entry->given > 3 ? vector(entry->numbers + 3) : pose.centre};
+                          .impulse = make_vector(entry->numbers),
+                          .point =
+                              entry->given > 3 ? make_vector(entry->numbers + 3) : pose.centre};
     jox_bodies_impulses(world->state.bodies, &impulse, 1);
     return true;
 }
@@ -103,7 +104,7 @@ bool jox_perform_impulse(JoWorld *world, const JoxInputEntry *entry, JoxText *wh
 bool jox_perform_place(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxPose pose;
     const double *turn = entry->given > 3 ? entry->numbers + 3 : NULL;
-    if (!find_body(world, entry, false, &pose, why))
+    if (!read_body_pose(world, entry, false, &pose, why))
         return false;
     if (turn) {
         double length2 = 0.0;
@@ -122,24 +123,24 @@ bool jox_perform_place(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
 bool jox_perform_velocity(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxPose pose;
     const JoxV3 none = {0.0f, 0.0f, 0.0f};
-    if (!find_body(world, entry, true, &pose, why))
+    if (!read_body_pose(world, entry, true, &pose, why))
         return false;
-    jox_bodies_set_velocity(world->state.bodies, entry->number, vector(entry->numbers),
-                            entry->given > 3 ? vector(entry->numbers + 3) : none);
+    jox_bodies_set_velocity(world->state.bodies, entry->number, make_vector(entry->numbers),
+                            entry->given > 3 ? make_vector(entry->numbers + 3) : none);
     jox_bodies_objects(world->state.bodies, &world->scratch.objects);
     return true;
 }
 
 bool jox_perform_delete(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxPose pose;
-    if (!find_body(world, entry, false, &pose, why))
+    if (!read_body_pose(world, entry, false, &pose, why))
         return false;
     jox_bodies_remove(world->state.bodies, entry->number);
     jox_bodies_objects(world->state.bodies, &world->scratch.objects);
     return true;
 }
 
-/* ---- walls of programs ---- */
+/* ---- walls, from programs ---- */
 
 bool jox_perform_wall(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxV2 points[4];

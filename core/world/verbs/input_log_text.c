@@ -13,12 +13,12 @@ enum { LONGEST_LINE = 1200 };
 
 /* ---- words of a line ---- */
 
-/* A line that is read: what is wrong with it goes into `wrong`, and where into the columns. */
+/* Reads a line; errors go to `wrong`, their columns to `column` and `end_column`. */
 typedef struct Reader {
     const char *line, *at, *end;
     char word[JOX_INPUT_NAME + JOX_INPUT_PATH];
-    int number;             /* of the line */
-    int column, end_column; /* of the word, from 1 */
+    int number;             /* number of the line */
+    int column, end_column; /* of the present word, from 1 */
     bool quoted;
     JoxText *wrong, *hint;
 } Reader;
@@ -40,8 +40,8 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* The next word, into r->word; false where the line ends. A word that is too long or not closed, or
-   that holds control characters, is `wrong`. */
+/* Reads the next word into r->word; false at the end of the line, and for a word that is too long,
+   not closed or has control characters, which is an error. */
 static bool next_word(Reader *r) {
     size_t n = 0;
     bool closed = true;
@@ -94,7 +94,7 @@ static bool read_number(Reader *r, const JoxInputWord *word, double *out) {
     return true;
 }
 
-/* One word of the verb into the entry. */
+/* Reads one word of a verb into the entry. */
 static bool read_word(Reader *r, const JoxInputWord *word, JoxInputEntry *entry) {
     double value;
     uint32_t names = 0;
@@ -118,7 +118,7 @@ static bool read_word(Reader *r, const JoxInputWord *word, JoxInputEntry *entry)
     return true;
 }
 
-/* The verb and what it takes. */
+/* Reads a verb and its words. */
 static bool read_verb(Reader *r, JoxInputEntry *entry) {
     const JoxVerb *verb = NULL;
     const char *names[JOX_INPUT_MOST_VERBS];
@@ -146,7 +146,7 @@ static bool read_verb(Reader *r, JoxInputEntry *entry) {
     bool good = true;
     while (good && next_word(r)) {
         if (entry->verb == JOX_INPUT_THROW && got == 1 && !r->quoted && !strcmp(r->word, "here")) {
-            entry->here = true; /* in place of three numbers */
+            entry->here = true; /* replaces three numbers */
             entry->given = 3;
             got = 4;
             continue;
@@ -190,11 +190,11 @@ bool jox_input_read_line(const char *line, JoxInputEntry *entry, JoxText *wrong)
 typedef struct Parser {
     JoxInputLog *log;
     const char *file, *at, *end;
-    int number; /* of the line */
+    int number; /* number of the line */
     JoxDiagnostics *diagnostics;
 } Parser;
 
-/* The next line, without its end. */
+/* Returns a reader of the next line, without its end. */
 static Reader next_line(Parser *p, JoxText *wrong, JoxText *hint) {
     const char *newline = memchr(p->at, '\n', (size_t)(p->end - p->at));
     Reader r = {.line = p->at,
@@ -209,7 +209,7 @@ static Reader next_line(Parser *p, JoxText *wrong, JoxText *hint) {
     return r;
 }
 
-/* One file of a block: PATH BYTES, the bytes, the end of a line. */
+/* Reads one file of a block: PATH BYTES, the bytes, the end of a line. */
 static bool read_file(Parser *p, Reader *r, JoxInputFile *file) {
     static const JoxInputWord BYTES = {"BYTES", JOX_WORD_WHOLE, 0, 16777216, "bytes"};
     double bytes;
@@ -231,7 +231,7 @@ static bool read_file(Parser *p, Reader *r, JoxInputFile *file) {
         return refuse(r, NULL, "'%.40s' is one word too many: PATH BYTES", r->word);
     if (r->wrong->length)
         return false;
-    r->column = column; /* what is said next is about their number */
+    r->column = column; /* later errors are about the number of bytes */
     r->end_column = end_column;
     if ((size_t)bytes > JOX_INPUT_LARGEST || (size_t)bytes > (size_t)(p->end - p->at))
         return refuse(r, "Is the log cut off?", "only %zu bytes follow, not %.0f",
@@ -259,7 +259,7 @@ static bool read_files(Parser *p, Reader *r, JoxInputEntry *entry) {
     return good;
 }
 
-/* Reads an entry; *empty where the line holds none. */
+/* Reads an entry; *empty is true if the line has none. */
 static bool read_entry(Parser *p, Reader *r, uint32_t last, JoxInputEntry *entry, bool *empty) {
     static const JoxInputWord TICK = {"TICK", JOX_WORD_WHOLE, 0, UINT32_MAX - 1.0, "steps"};
     double tick;
@@ -278,7 +278,7 @@ static bool read_entry(Parser *p, Reader *r, uint32_t last, JoxInputEntry *entry
     if (!read_verb(r, entry) ||
         (jox_input_verbs[entry->verb].words[0].kind == JOX_WORD_FILES && !read_files(p, r, entry)))
         return false;
-    r->number = begin.number; /* what is said next is about the tick */
+    r->number = begin.number; /* later errors are about the tick */
     r->column = begin.column;
     r->end_column = begin.end_column;
     return entry->tick >= last ||
@@ -301,7 +301,7 @@ bool jox_input_parse(JoxInputLog *log, const char *file, const char *text, size_
             jox_input_add(log, entry);
             continue;
         }
-        bool cut = entry.files != NULL && !good; /* where the files end is not known */
+        bool cut = entry.files != NULL && !good; /* the end of its files is unknown */
         jox_input_entry_free(&entry);
         if (good)
             continue;
@@ -331,7 +331,7 @@ static void write_name(const char *name, JoxText *out) {
     jox_text_add(out, "\"");
 }
 
-/* The shortest text that reads back as the same number. */
+/* Writes the shortest text that reads back as the same number. */
 static void write_number(double number, JoxText *out) {
     char text[40];
     for (int digits = 6; digits <= 17; digits++) {

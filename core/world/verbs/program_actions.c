@@ -1,4 +1,5 @@
-/* What programs do to a world: entries of the input log, made by public calls. */
+/* Actions of programs: entries of the input log, made by the public calls of embed/action_calls.c.
+ */
 #include <stdio.h>
 #include <string.h>
 
@@ -18,8 +19,8 @@ bool jox_input_check_name(const char *what, const char *name, JoxText *why) {
     return good;
 }
 
-/* Whether names and numbers are such as a line of a log may have. */
-static bool check(const JoxInputEntry *entry, JoxText *why) {
+/* Checks names and numbers of an entry as the reader of a log does. */
+static bool check_words(const JoxInputEntry *entry, JoxText *why) {
     const JoxVerb *verb = &jox_input_verbs[entry->verb];
     uint32_t name = 0, number = 0;
     for (uint32_t w = 0; w < verb->most; w++) {
@@ -47,7 +48,7 @@ bool jox_input_perform(JoWorld *world, JoxInputEntry *entry, JoError *error) {
     JOX_ASSERT(entry->verb < jox_input_verb_count && jox_input_verbs[entry->verb].perform);
     if (world->failure[0])
         jox_text_add(&why, world->failure);
-    const bool good = !why.length && check(entry, &why) &&
+    const bool good = !why.length && check_words(entry, &why) &&
                       jox_input_verbs[entry->verb].perform(world, entry, &why);
     if (good && world->record)
         world->record(world->record_context, entry);

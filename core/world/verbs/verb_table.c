@@ -120,7 +120,7 @@ const uint32_t jox_input_verb_count = sizeof jox_input_verbs / sizeof *jox_input
 static_assert(sizeof jox_input_verbs / sizeof *jox_input_verbs <= JOX_INPUT_MOST_VERBS,
               "JOX_INPUT_MOST_VERBS");
 
-/* What a verb takes has room in an entry. */
+/* Checks that an entry has room for the words of a verb. */
 static void check_words(const JoxVerb *verb) {
     uint32_t numbers = 0, names = 0;
     JOX_ASSERT(verb->least <= verb->most);
@@ -141,7 +141,7 @@ void jox_input_append_usage(const JoxVerb *verb, JoxText *out) {
                         w >= verb->least && w + 1 == verb->most ? "]" : "");
 }
 
-/* Range and unit of each number, those that are alike once: "VX, VY: -20 to 20 m/s". */
+/* Appends range and unit of each number, equal ones once: "VX, VY: -20 to 20 m/s". */
 static void print_ranges(const JoxVerb *verb, JoxText *out) {
     const char *between = "";
     for (uint32_t w = 0; w < verb->most; w++) {

@@ -1,5 +1,5 @@
-/* The verbs of input lines, once: drives reading, writing, what is said of mistakes, and the page
-   that explains them. */
+/* The table of verbs of input logs. Reading, writing, error messages and the reference page use its
+   rows. */
 #ifndef JOX_WORLD_VERBS_H
 #define JOX_WORLD_VERBS_H
 
@@ -11,13 +11,13 @@ typedef struct JoWorld JoWorld;
 
 typedef enum JoxInputWordKind {
     JOX_WORD_NUMBER,
-    JOX_WORD_WHOLE, /* a number of a thing: an agent's id, a body's row */
+    JOX_WORD_WHOLE, /* id of an agent or row of a body */
     JOX_WORD_NAME,
     JOX_WORD_PATH,
     JOX_WORD_FILES /* how many files follow */
 } JoxInputWordKind;
 
-/* What stands behind a verb. */
+/* A word behind a verb: name, kind, range and unit. */
 typedef struct JoxInputWord {
     const char *name;
     JoxInputWordKind kind;
@@ -25,17 +25,18 @@ typedef struct JoxInputWord {
     const char *unit;
 } JoxInputWord;
 
-/* The tool of verbs that programs have, and no page. */
+/* The tool of verbs that only programs use. */
 #define JOX_VERB_PROGRAM "program"
 
 typedef struct JoxVerb {
     const char *name;
     JoxInputWord words[10];
-    uint32_t least, most; /* words that it takes: so many or so many */
+    uint32_t least, most; /* numbers of words that it takes: one of these two */
     const char *example, *meaning;
-    const char *tool; /* of the live page that people need for it, a name of view: {tools}, or
-                         JOX_VERB_PROGRAM; NULL: stands in logs alone */
-    /* Does it, before a step; false with a sentence in `why`. NULL: what a run does, or nothing. */
+    const char *tool; /* tool of the live page for it, a name of view: {tools}, or JOX_VERB_PROGRAM;
+                         NULL: in logs only */
+    /* Does it, before a step; returns false with a sentence in `why`. NULL: done by run, or nothing
+       to do. */
     bool (*perform)(JoWorld *world, const JoxInputEntry *entry, JoxText *why);
 } JoxVerb;
 
@@ -43,15 +44,15 @@ enum { JOX_INPUT_MOST_VERBS = 32 };
 extern const JoxVerb jox_input_verbs[];
 extern const uint32_t jox_input_verb_count;
 
-/* Does what a program wants, before a step: looks at names and numbers as the reader of a log does,
-   performs it and has it recorded (world->record). False with `error` (it may be NULL). */
+/* Performs an action of a program, before a step: checks names and numbers as the reader of a log
+   does, does it and records it (world->record). Returns false with `error`, which may be NULL. */
 bool jox_input_perform(JoWorld *world, JoxInputEntry *entry, JoError *error);
-/* Whether a line can hold the name; else a sentence in `why`. */
+/* Returns whether a line of a log can hold a name; else a sentence in `why`. */
 bool jox_input_check_name(const char *what, const char *name, JoxText *why);
 
-/* "push AGENT FX FY" */
+/* Appends a verb and its words: "push AGENT FX FY". */
 void jox_input_append_usage(const JoxVerb *verb, JoxText *out);
-/* The page of Markdown. */
+/* Appends the reference page of input logs, in Markdown. */
 void jox_input_append_reference(JoxText *out);
 
 #endif
