@@ -71,11 +71,13 @@ static bool is_tag_given(const JoxSceneSpec *spec, const char *name) {
     return false;
 }
 
-static bool is_tag_set(const JoxMachine *const *machines, uint32_t count, const char *name) {
+/* Whether one of `machines` sets the tag (`set`), or else asks for it. */
+static bool is_tag_used(const JoxMachine *const *machines, uint32_t count, const char *name,
+                        bool set) {
     for (uint32_t m = 0; m < count; m++)
         for (uint32_t n = 0; n < machines[m]->belonging_count; n++) {
             const JoxBelonging *b = &machines[m]->belongings[n];
-            if (b->is_set && !b->is_team && strcmp(b->name, name) == 0)
+            if ((set ? b->is_set : b->is_asked) && !b->is_team && strcmp(b->name, name) == 0)
                 return true;
         }
     return false;
@@ -103,16 +105,6 @@ static size_t collect_names(const JoxSceneSpec *spec, const JoxMachine *const *m
             if (machines[m]->belongings[k].is_set && !machines[m]->belongings[k].is_team)
                 names[n++] = machines[m]->belongings[k].name;
     return n;
-}
-
-static bool is_tag_read(const JoxMachine *const *machines, uint32_t count, const char *name) {
-    for (uint32_t m = 0; m < count; m++)
-        for (uint32_t n = 0; n < machines[m]->belonging_count; n++) {
-            const JoxBelonging *b = &machines[m]->belongings[n];
-            if (b->is_asked && !b->is_team && strcmp(b->name, name) == 0)
-                return true;
-        }
-    return false;
 }
 
 /* Warns of a name that is set and used nowhere else but resembles another: it may be misspelt. */
@@ -150,11 +142,11 @@ void jox_run_check_tags_and_teams(const JoScene *scene, const JoxMachine *machin
         }
         if (is_tag_given(spec, b->name))
             continue;
-        if (!is_tag_set(machines, count, b->name))
+        if (!is_tag_used(machines, count, b->name, true))
             jox_diag_error(
                 diagnostics, at, "unknown-tag", jox_did_you_mean(b->name, names, name_count, hint),
                 "nothing in the scene bears the tag '%s', and no state sets it", b->name);
-        else if (!is_tag_read(machines, count, b->name))
+        else if (!is_tag_used(machines, count, b->name, false))
             warn_of_new_name(b, at, others, other_count, diagnostics);
     }
 }
