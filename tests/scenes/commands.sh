@@ -242,7 +242,7 @@ grep -q 'Version 1 (reload 1) keeps running' "$work/watch"; verdict "an invalid 
 # The last lines of a run sum it up; troubles are reported when they occur.
 printf 'jostle: 1\ntitle: One\nduration: 12\nplaces: {yard: {polygon: [[0, 0], [4, 0], [4, 4], [0, 4]]}, out: {point: [9, 2], radius: 1}}\ngroups: {g: {behaviour: walker.lua, at: [[1, 1]], set: {goal: out}}}\nsinks: [{at: out}]\n' >"$work/one.yaml"
 expect "a run ends with a paragraph" 0 "One, 12.0 s: 1 person in all; 1 left (out 1), the last at" "$JOSTLE" run "$work/one.yaml" --data "$work/one"
-grep -qF "and nobody is inside. Files: tables" <(tr '\n' ' ' <"$work/out") && grep -q "1 agent$" "$work/out" && ! grep -q "1 agents" "$work/out"; verdict "the paragraph names the files, and says "1 agent"" $?
+grep -qF "and nobody is inside. Files: tables" <(tr '\n' ' ' <"$work/out") && grep -q "1 agent$" "$work/out" && ! grep -q "1 agents" "$work/out"; verdict "the paragraph names the files, and says '1 agent'" $?
 printf 'jostle: 1\ntitle: Shut\nduration: 45\nplaces: {lane: {polygon: [[0.5, 0.2], [9, 0.2], [9, 0.8], [0.5, 0.8]]}, street: {polygon: [[12, 0], [14, 0], [14, 1], [12, 1]]}}\nwalls:\n  - {line: [[11, 0], [0, 0], [0, 1], [11, 1]]}\n  - {line: [[10.5, 0], [10.5, 1]]GATE}\ngroups: {g: {behaviour: walker.lua, count: 14, fill: random, in: lane, set: {goal: street}}}\n' >"$work/lane.yaml"
 sed 's/GATE/, name: gate/' "$work/lane.yaml" >"$work/never.yaml"; { cat "$work/never.yaml"; echo 'events: [{at: 44.9, open: gate}]'; } >"$work/gate.yaml"; sed 's/GATE//; s/\[11, 0\], \[0, 0\]/[11, 1], [11, 0], [0, 0]/' "$work/lane.yaml" >"$work/shut.yaml"
 expect "a crowd that stands still is reported with its position" 0 "people who want to get on have stood still for 30 s, most of them about (" "$JOSTLE" run "$work/gate.yaml"
@@ -353,7 +353,7 @@ done >"$work/hints"
 sed "s/at: \[\[1, 1\]\]/at: [[1, 1], [1, 1], [1, 1]]/" "$work/one.yaml" >"$work/three.yaml"
 expect "people inside walls are reported before the first step" 0 "of the 3 people of group 'g' were placed at a wall or deep in others" "$JOSTLE" run "$work/three.yaml" --for 1
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: walker.lua, at: [[0, 0], [0, 0]], set: {goal: p}}}\nplaces: {p: {point: [9, 0], radius: 1}}\nevents: [{at: 0.5, signal: unheard}]\n' >"$work/warned.yaml"
-"$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning, 1 note$'; verdict "a check with warnings does not say "nothing wrong"" $?
+"$JOSTLE" check "$work/warned.yaml" >"$work/out" 2>&1; tail -1 "$work/out" | grep -q '^0 errors, 1 warning, 1 note$'; verdict "a check with warnings does not say 'nothing wrong'" $?
 # A behaviour that a scene names, too, is one file however it is reached.
 twice=$work/twice program=$(realpath "$JOSTLE")
 mkdir -p "$twice/lib"
