@@ -1,5 +1,6 @@
-/* What people and bodies do to each other in a step: impulses of pushes, contacts and kicks on
-   bodies, fast bodies that hit people, and bodies that they pick up, carry along and throw. */
+/* Exchange of momentum between agents and bodies in a step: impulses of pushes, contacts and kicks
+   on bodies, hits of fast bodies on agents, and force limits of driven bodies. The stage bodies
+   calls jox_stage_step_bodies. */
 #include <math.h>
 
 #include "base/assert.h"

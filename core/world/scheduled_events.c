@@ -180,7 +180,7 @@ static void push_people(JoWorld *world, const JoxEvent *event) {
     }
 }
 
-/* Pushes a body through its centre, so that it does not turn. */
+/* Pushes a body at its centre, without turning it. */
 static void push_body(JoWorld *world, const JoxEvent *event) {
     const uint32_t row = jox_bodies_find_name(world->state.bodies, event->name);
     const double dt = world->model.def.dt;

@@ -117,7 +117,7 @@ typedef struct JoxWorldScratch {
     JoxDepartures departures; /* agents that left in the last step */
     JoxDiscList discs;
     JoxHands hands;
-    JoxStepEvents step_events; /* of the last step */
+    JoxStepEvents step_events; /* events of the last step */
     struct {
         uint32_t *ids;
         uint32_t count, capacity;

@@ -35,7 +35,7 @@ static void keep(void *context, const char *text) {
     snprintf(told, sizeof told, "%.4000s", text);
 }
 
-/* One call and what follows of it. True if it did all that it was to do; else `error` says why. */
+/* A public call with what depends on it. Returns true on success; else `error` says why. */
 typedef bool Attempt(JoError *error);
 
 /* Lets the n-th allocation fail, and all after it, for n = 0, stride, 2 stride, ..., until the

@@ -59,14 +59,14 @@ static void defs_must_come_from_their_default(void **state) {
     JoSceneDef scene = {.path = "x.yaml"};
     assert_null(jo_scene_load(&scene, NULL));
     JoReportDef report = jo_default_report_def();
-    assert_null(jo_report(&report, NULL)); /* of no recording */
+    assert_null(jo_report(&report, NULL)); /* no recording is named */
     report.recording = "x";
     report.fps = -1;
     assert_null(jo_report(&report, NULL));
     assert_null(jo_report(&(JoReportDef){.recording = "x"}, NULL)); /* not of the default */
     assert_null(jo_report(NULL, NULL));
     JoRenderDef render = jo_default_render_def();
-    assert_false(jo_render(&render, NULL)); /* of nothing, to nowhere */
+    assert_false(jo_render(&render, NULL)); /* neither source nor target */
     render.recording = "x";
     assert_false(jo_render(&render, NULL));
     render.out = "x.svg";
@@ -91,7 +91,7 @@ static void defs_must_come_from_their_default(void **state) {
     render.at = INFINITY;
     assert_false(jo_render(&render, NULL));
     JoViewRecordingDef view = jo_default_view_recording_def();
-    assert_false(jo_view_recording(&view, NULL)); /* of no recording */
+    assert_false(jo_view_recording(&view, NULL)); /* no recording is named */
     view.recording = "x";
     view.fps = -1;
     assert_false(jo_view_recording(&view, NULL));
@@ -361,7 +361,7 @@ static void texts_that_are_missing_are_reported(void **state) {
     assert_int_equal(error.code, JO_USAGE);
 }
 
-/* What is dry has nobody. */
+/* A dry scene has no agents to step. */
 static void dry_scenes_do_not_run(void **state) {
     (void)state;
     JoSceneDef def = scene_def(quiet, NULL);

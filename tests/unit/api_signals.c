@@ -138,7 +138,7 @@ static int engine_threads(void) {
 static void threads_of_a_scene(void **state) {
     (void)state;
     JoError error = {0};
-    const int before = engine_threads(); /* of a sanitizer */
+    const int before = engine_threads(); /* a sanitizer may have some */
     JoSceneDef def = def_of_scene();
     JoScene *scene = jo_scene_load(&def, &error);
     assert_non_null(scene);

@@ -24,7 +24,7 @@ typedef struct Crowd {
     double lines[12][4]; /* m, walls */
 } Crowd;
 
-/* What a run comes to. */
+/* Results of a run. */
 typedef struct Outcome {
     int arrived;
     double time; /* s */

@@ -43,7 +43,7 @@ static double apart(double time_gap, double haste, bool by_name) {
     return gaps / 400;
 }
 
-static void who_keeps_a_time_gap_stays_farther_behind(void **state) {
+static void longer_time_gap_keeps_farther_behind(void **state) {
     (void)state;
     double orca = apart(0.0, 0.5, false), near = apart(0.8, 0.5, false),
            far = apart(1.6, 0.5, false);
@@ -63,7 +63,7 @@ static void parameters_by_name_do_the_same(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(who_keeps_a_time_gap_stays_farther_behind),
+        cmocka_unit_test(longer_time_gap_keeps_farther_behind),
         cmocka_unit_test(the_keen_follow_more_closely_than_the_calm),
         cmocka_unit_test(parameters_by_name_do_the_same),
     };

@@ -83,7 +83,7 @@ static void presses_with(const char *what, Lane lane, double force, double overl
     jo_world_free(lane.world);
 }
 
-static void a_piston_that_stands_presses_with_its_limit(void **state) {
+static void blocked_piston_presses_with_its_limit(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -94,7 +94,7 @@ static void a_piston_that_stands_presses_with_its_limit(void **state) {
                  JOX_DRIVE_FORCE, 0.2);
 }
 
-static void a_piston_goes_on_when_people_give_way(void **state) {
+static void piston_goes_on_when_people_give_way(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -113,7 +113,7 @@ static void a_piston_goes_on_when_people_give_way(void **state) {
 }
 
 /* A path is followed from where it was left: what is lost is not made up for. */
-static void a_path_is_so_much_later(void **state) {
+static void blocked_path_ends_later_by_the_time_lost(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -136,7 +136,7 @@ static void a_path_is_so_much_later(void **state) {
     jo_world_free(lane.world);
 }
 
-static void the_world_ends_at_a_limit_and_says_who(void **state) {
+static void world_ends_at_a_limit_and_names_agent(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -153,7 +153,7 @@ static void the_world_ends_at_a_limit_and_says_who(void **state) {
 }
 
 /* A bar that turns presses with its limit, too. */
-static void a_bar_that_turns_stops_at_its_limit(void **state) {
+static void turning_bar_stops_at_its_limit(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -185,11 +185,11 @@ static void a_bar_that_turns_stops_at_its_limit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_piston_that_stands_presses_with_its_limit),
-        cmocka_unit_test(a_piston_goes_on_when_people_give_way),
-        cmocka_unit_test(a_path_is_so_much_later),
-        cmocka_unit_test(the_world_ends_at_a_limit_and_says_who),
-        cmocka_unit_test(a_bar_that_turns_stops_at_its_limit),
+        cmocka_unit_test(blocked_piston_presses_with_its_limit),
+        cmocka_unit_test(piston_goes_on_when_people_give_way),
+        cmocka_unit_test(blocked_path_ends_later_by_the_time_lost),
+        cmocka_unit_test(world_ends_at_a_limit_and_names_agent),
+        cmocka_unit_test(turning_bar_stops_at_its_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

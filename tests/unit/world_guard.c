@@ -1,4 +1,5 @@
-/* Numbers that go wrong: who or what is named, and what becomes of it and of those beside it. */
+/* Agents and bodies with numbers that are not finite or too large: the message names the first; it
+   is removed or put back, and agents beside it continue. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -73,7 +74,7 @@ static void all_are_sound(const JoWorld *world) {
             fail_msg("agent %u at (%g, %g)", a->id[i], (double)a->x[i], (double)a->y[i]);
 }
 
-static void who_is_lost_is_named_and_taken_out(void **state) {
+static void lost_agent_is_named_and_removed(void **state) {
     (void)state;
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     for (int n = 0; n < 9; n++) {
@@ -102,7 +103,7 @@ static void who_is_lost_is_named_and_taken_out(void **state) {
     }
 }
 
-static void who_is_lost_is_put_back_at_rest(void **state) {
+static void lost_agent_is_put_back_at_rest(void **state) {
     (void)state;
     JoWorld *world = make(JO_LOST_STOP, JO_LOST_END);
     JoAgent row[10], runner = add(world, 9999.0, 50.0);
@@ -125,8 +126,8 @@ static void who_is_lost_is_put_back_at_rest(void **state) {
     jo_world_free(world);
 }
 
-/* Who has been nowhere cannot be put back there. */
-static void who_was_nowhere_is_taken_out(void **state) {
+/* An agent without a finite previous position cannot be put back, and is removed. */
+static void agent_without_previous_position_is_removed(void **state) {
     (void)state;
     JoWorld *world = make(JO_LOST_STOP, JO_LOST_END);
     JoAgent row[10];
@@ -139,7 +140,7 @@ static void who_was_nowhere_is_taken_out(void **state) {
     jo_world_free(world);
 }
 
-static void a_step_in_parts_ends_well_too(void **state) {
+static void divided_step_recovers_too(void **state) {
     (void)state;
     JoWorldDef def = jo_default_world_def();
     def.dt = 0.2; /* four substeps */
@@ -174,7 +175,7 @@ static JoBody throw_ball(JoWorld *world, double x, double z, double vx, double v
     return ball;
 }
 
-static void a_body_that_leaves_is_named(void **state) {
+static void body_that_leaves_is_named(void **state) {
     (void)state;
     const JoLost ways[] = {JO_LOST_END, JO_LOST_REMOVE, JO_LOST_STOP};
     for (int n = 0; n < 3; n++) {
@@ -231,11 +232,11 @@ static void no_body_passes_a_wall(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(who_is_lost_is_named_and_taken_out),
-        cmocka_unit_test(who_is_lost_is_put_back_at_rest),
-        cmocka_unit_test(who_was_nowhere_is_taken_out),
-        cmocka_unit_test(a_step_in_parts_ends_well_too),
-        cmocka_unit_test(a_body_that_leaves_is_named),
+        cmocka_unit_test(lost_agent_is_named_and_removed),
+        cmocka_unit_test(lost_agent_is_put_back_at_rest),
+        cmocka_unit_test(agent_without_previous_position_is_removed),
+        cmocka_unit_test(divided_step_recovers_too),
+        cmocka_unit_test(body_that_leaves_is_named),
         cmocka_unit_test(no_body_passes_a_wall),
         cmocka_unit_test(nobody_passes_a_wall_at_any_speed),
     };

@@ -138,7 +138,7 @@ static void each_example_is_right(void **state) {
     jox_text_free(&page);
 }
 
-static void what_is_written_reads_back(void **state) {
+static void written_entry_reads_back(void **state) {
     (void)state;
     JoxInputLog log = parse(ALL, sizeof ALL - 1);
     JoxText once = write_all(&log);
@@ -168,8 +168,8 @@ static void numbers_keep_every_bit(void **state) {
     }
 }
 
-/* One wrong line each: what is said, and where. */
-static void mistakes_have_their_places(void **state) {
+/* One wrong line each: its message and position. */
+static void errors_have_positions(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -217,7 +217,7 @@ static void mistakes_have_their_places(void **state) {
     }
 }
 
-static void one_line_by_itself(void **state) {
+static void single_line_is_read(void **state) {
     (void)state;
     static const char *const BAD[] = {"",         "   ",     "# only",    "0 open gate", "files 1",
                                       "before 1", "open",    "open a b",  "throw",       "set a b",
@@ -244,7 +244,7 @@ static void one_line_by_itself(void **state) {
 
 /* Texts with bytes put in, taken out, doubled or cut: they are read or refused, and what is read is
    written and read again. */
-static void no_text_does_harm(void **state) {
+static void random_text_does_no_harm(void **state) {
     (void)state;
     static const char BYTES[] = "0123456789-+.eE \t\r\n\"\\#abcfilesthrowhere\001\177\377\200";
     char text[2 * sizeof ALL];
@@ -298,10 +298,10 @@ static void no_text_does_harm(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_verb_is_read),          cmocka_unit_test(each_example_is_right),
-        cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(numbers_keep_every_bit),
-        cmocka_unit_test(mistakes_have_their_places), cmocka_unit_test(one_line_by_itself),
-        cmocka_unit_test(no_text_does_harm),
+        cmocka_unit_test(each_verb_is_read),        cmocka_unit_test(each_example_is_right),
+        cmocka_unit_test(written_entry_reads_back), cmocka_unit_test(numbers_keep_every_bit),
+        cmocka_unit_test(errors_have_positions),    cmocka_unit_test(single_line_is_read),
+        cmocka_unit_test(random_text_does_no_harm),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     jox_diag_free(&wrong);

@@ -47,7 +47,7 @@ static double gap(const Meeting *m) {
     return person.x - person.radius - jo_body_state(m->world, m->gate).x - 0.25;
 }
 
-static void who_stands_there_is_pushed_along(void **state) {
+static void standing_agent_is_pushed_along(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -83,7 +83,7 @@ static void people_make_way(void **state) {
     jo_world_free(m.world);
 }
 
-static void a_bar_that_turns_sweeps_people_along(void **state) {
+static void turning_bar_sweeps_people_along(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -235,9 +235,9 @@ static void a_door_feels_whom_it_squeezes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(who_stands_there_is_pushed_along),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(standing_agent_is_pushed_along),
                                        cmocka_unit_test(people_make_way),
-                                       cmocka_unit_test(a_bar_that_turns_sweeps_people_along),
+                                       cmocka_unit_test(turning_bar_sweeps_people_along),
                                        cmocka_unit_test(programs_drive_it),
                                        cmocka_unit_test(programs_give_it_a_path),
                                        cmocka_unit_test(a_door_feels_whom_it_squeezes)};

@@ -71,7 +71,7 @@ static void moves(const JoWorld *w, uint32_t id, double vx, double vy) {
     near_to(w->state.agents.vy[at(w, id)], vy);
 }
 
-/* What it feels in the next step of what was passed on in this one. */
+/* Checks the force that an agent inherits in the next step from those passed on in this one. */
 static void inherits(const JoWorld *w, uint32_t id, double x, double y) {
     near_to(w->state.agents.inferred_x[at(w, id)], x);
     near_to(w->state.agents.inferred_y[at(w, id)], y);
@@ -136,7 +136,8 @@ static void equation_3_halves_the_change(void **state) {
     w = two_who_would_meet(false, 0.05);
     set(w, 0, JOX_PARAM_yield, 1.0);
     jo_world_step(w, 1);
-    near_to(w->state.agents.next_x[at(w, 0)], -0.04); /* what is planned; feet take a while */
+    near_to(w->state.agents.next_x[at(w, 0)],
+            -0.04); /* the plan; the velocity follows it with a delay */
     near_to(w->state.agents.next_y[at(w, 0)], 1.03);
     jo_world_free(w);
 }

@@ -2,7 +2,7 @@
    within rounding, and no assertion is in the way. */
 #include "unit/world_meeting.h"
 
-/* A ball that hits somebody, and a box that somebody leans on. */
+/* Makes a world with a ball that hits an agent, and a box that an agent leans on. */
 static JoWorld *meet(double mass, double speed) {
     JoWorld *world = create_world();
     for (int n = 0; n < 2; n++) {
@@ -20,7 +20,7 @@ static JoWorld *meet(double mass, double speed) {
     return world;
 }
 
-static void heavy_bodies_take_what_they_give(void **state) {
+static void heavy_bodies_exchange_equal_impulses(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -32,7 +32,7 @@ static void heavy_bodies_take_what_they_give(void **state) {
             const JoxExchange *exchange = &world->state.statistics.exchange;
             const double rounding = 1e-5 * masses[m] * speeds[s] * (1 + exchange->contacts);
             assert_null(jo_world_failure(world));
-            if (masses[m] >= 1 && /* else what it is given is clamped, which counts */
+            if (masses[m] >= 1 && /* lighter bodies get clamped impulses, which count as residual */
                 !(exchange->residual <= 0.1 + 1e-3 * exchange->impulse + rounding))
                 fail_msg("%g kg at %g m/s: %g of %g N s", masses[m], speeds[s], exchange->residual,
                          exchange->impulse);
@@ -40,7 +40,7 @@ static void heavy_bodies_take_what_they_give(void **state) {
         }
 }
 
-static void what_is_too_light_is_refused(void **state) {
+static void too_light_bodies_are_refused(void **state) {
     (void)state;
     if (!jox_bodies_available())
         skip();
@@ -55,8 +55,8 @@ static void what_is_too_light_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(heavy_bodies_take_what_they_give),
-        cmocka_unit_test(what_is_too_light_is_refused),
+        cmocka_unit_test(heavy_bodies_exchange_equal_impulses),
+        cmocka_unit_test(too_light_bodies_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,7 +31,7 @@ static uint32_t count_of(JoxObject object) {
     return count;
 }
 
-static void what_is_in_the_way(void **state) {
+static void standing_and_large_bodies_are_obstacles(void **state) {
     (void)state;
     JoxObject wardrobe = box(1, 0, 0, 0.6f, 0.3f, 0.3), chair = box(2, 0, 0, 0.25f, 0.25f, 0.0);
     assert_int_equal(count_of(wardrobe), 1);
@@ -56,7 +56,7 @@ static void what_is_in_the_way(void **state) {
     assert_int_equal(count_of(pillar), 0);
 }
 
-static void what_counts_as_moved(void **state) {
+static void body_counts_as_moved_beyond_0_3_m(void **state) {
     (void)state;
     JoxObject rows[2] = {box(1, 0, 0, 1.5f, 0.1f, 0.0), box(2, 5, 0, 1.0f, 1.0f, 0.0)};
     JoxObjects objects = {.rows = rows, .count = 2};
@@ -85,7 +85,7 @@ static void what_counts_as_moved(void **state) {
     jox_obstacles_free(&obstacles);
 }
 
-static void they_become_solids(void **state) {
+static void obstacles_become_solids(void **state) {
     (void)state;
     JoxObject rows[2] = {box(1, 0, 0, 1.5f, 0.1f, 0.0),
                          {.id = 2, .live = true, .in_band = true, .round = 1.0f}};
@@ -109,9 +109,9 @@ static void they_become_solids(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_in_the_way),
-        cmocka_unit_test(what_counts_as_moved),
-        cmocka_unit_test(they_become_solids),
+        cmocka_unit_test(standing_and_large_bodies_are_obstacles),
+        cmocka_unit_test(body_counts_as_moved_beyond_0_3_m),
+        cmocka_unit_test(obstacles_become_solids),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* What people do hardly depends on the step of the world: the way that they go, when they plan, and
-   how who pushes gets past somebody straight ahead. */
+/* Behaviour hardly depends on the length of the world's step: ways, times of plans, and how an
+   agent that pushes passes another straight ahead. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -34,7 +34,7 @@ static void run(JoWorld *w, double seconds) {
 
 /* Feet approach 1.3 m/s with a time constant of 0.05 s, so whoever starts from rest is behind by
    1.3 * 0.05 m for good; and who stops goes on as far. */
-static void the_way_is_that_of_the_approach(void **state) {
+static void planned_way_does_not_depend_on_step(void **state) {
     (void)state;
     for (int k = 0; k < STEP_COUNT; k++) {
         JoWorld *w = make(STEPS[k], true);
@@ -49,8 +49,8 @@ static void the_way_is_that_of_the_approach(void **state) {
     }
 }
 
-/* Who stands steps aside by the same at any step: they plan as often. */
-static void who_stands_gives_way_alike(void **state) {
+/* Standing agents step aside equally far at any length of step, as they plan equally often. */
+static void standing_agents_give_way_alike(void **state) {
     (void)state;
     double aside[STEP_COUNT];
     for (int k = 0; k < STEP_COUNT; k++) {
@@ -68,7 +68,7 @@ static void who_stands_gives_way_alike(void **state) {
 
 /* Straight behind somebody who stands, who pushes gets past on the right and does not drive them
    along. */
-static void who_pushes_straight_on_gets_past(void **state) {
+static void agent_that_pushes_passes_one_ahead(void **state) {
     (void)state;
     for (int k = 0; k < STEP_COUNT; k++) {
         JoWorld *w = make(STEPS[k], true);
@@ -86,7 +86,7 @@ static void who_pushes_straight_on_gets_past(void **state) {
 
 /* Straight at a wall nobody is turned aside: what they are slowed down by presses them against the
    wall, and may not throw them along it. */
-static void who_walks_at_a_wall_stays_there(void **state) {
+static void agent_that_walks_at_wall_stays(void **state) {
     (void)state;
     static const double ends[] = {2, -20, 2, 20};
     for (int k = 0; k < 4 * STEP_COUNT; k++) {
@@ -108,10 +108,10 @@ static void who_walks_at_a_wall_stays_there(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_way_is_that_of_the_approach),
-        cmocka_unit_test(who_stands_gives_way_alike),
-        cmocka_unit_test(who_pushes_straight_on_gets_past),
-        cmocka_unit_test(who_walks_at_a_wall_stays_there),
+        cmocka_unit_test(planned_way_does_not_depend_on_step),
+        cmocka_unit_test(standing_agents_give_way_alike),
+        cmocka_unit_test(agent_that_pushes_passes_one_ahead),
+        cmocka_unit_test(agent_that_walks_at_wall_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 
 typedef struct JoxRoutes JoxRoutes;
 
-/* What routes are made of, and where they are stored; filled by jox_world_route_stage. */
+/* Context of routes: their inputs, and where they are stored; filled by jox_world_route_stage. */
 typedef struct JoxRouteStage {
     const JoxPlace *places;
     uint32_t place_count;
@@ -23,7 +23,7 @@ typedef struct JoxRouteStage {
     uint64_t tick;
     double dt;            /* s */
     double crowd_slowing; /* m2: parameter of the walking law */
-    JoIsa isa;            /* of the kernels of fields */
+    JoIsa isa;            /* instruction set of the kernels */
     JoxPool *pool;
     JoxMachineRun *machines; /* gets the fields; marks the wanted ones */
     JoxRoutes *routes;

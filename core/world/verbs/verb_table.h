@@ -31,7 +31,7 @@ typedef struct JoxInputWord {
 typedef struct JoxVerb {
     const char *name;
     JoxInputWord words[10];
-    uint32_t least, most; /* numbers of words that it takes: one of these two */
+    uint32_t least, most; /* it takes `least` or `most` words */
     const char *example, *meaning;
     const char *tool; /* tool of the live page for it, a name of view: {tools}, or JOX_VERB_PROGRAM;
                          NULL: in logs only */
