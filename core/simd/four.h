@@ -85,10 +85,4 @@ static inline void jox_interleave(void *records, const void *x, const void *y, c
             memcpy(to, columns[c] + i * sizeof(float), sizeof(float));
 }
 
-/* Returns the dot product of the first three elements. */
-static inline float jox_dot_four(JoxFour a, JoxFour b) {
-    const JoxFour p = a * b;
-    return p[0] + p[1] + p[2];
-}
-
 #endif

@@ -3,50 +3,31 @@
 #define JOX_SIMD_LANES_AVX512_H
 
 #include <immintrin.h>
-#include <stddef.h>
 #include <stdint.h>
 
 enum { JOX_WIDTH = 16 };
 #define JOX_WIDE(name) name##_avx512
 
+#define JOX_EACH(X)                                                                                \
+    X(0), X(1), X(2), X(3), X(4), X(5), X(6), X(7), X(8), X(9), X(10), X(11), X(12), X(13), X(14), \
+        X(15)
+#define JOX_MASK_REGISTERS
+
 typedef __m512 JoxFloats;
-typedef __m512i JoxInts;
+typedef int32_t JoxInts __attribute__((vector_size(64)));
 typedef __mmask16 JoxMask;
 
-static inline JoxFloats jf_set(float x) {
-    return _mm512_set1_ps(x);
-}
-static inline JoxFloats jf_load(const float *from) {
-    return _mm512_loadu_ps(from);
-}
-static inline void jf_store(float *to, JoxFloats a) {
-    _mm512_storeu_ps(to, a);
-}
-static inline JoxInts ji_set(int32_t x) {
-    return _mm512_set1_epi32(x);
-}
-static inline JoxInts ji_load(const uint32_t *from) {
-    return _mm512_loadu_si512(from);
-}
-static inline void ji_store(uint32_t *to, JoxInts a) {
-    _mm512_storeu_si512(to, a);
-}
+#include "simd/lanes_vector.h"
+
 static inline JoxInts ji_load_bytes(const uint8_t *from) {
-    return _mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)from));
+    return (JoxInts)_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)from));
 }
 static inline void ji_store_bytes(uint8_t *to, JoxInts a) {
-    _mm_storeu_si128((__m128i *)to, _mm512_cvtepi32_epi8(a));
-}
-static inline JoxInts ji_lane(void) {
-    return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    _mm_storeu_si128((__m128i *)to, _mm512_cvtepi32_epi8((__m512i)a));
 }
 
 static inline JoxFloats jf_sqrt(JoxFloats a) {
     return _mm512_sqrt_ps(a);
-}
-static inline JoxFloats jf_abs(JoxFloats a) {
-    return _mm512_castsi512_ps(
-        _mm512_and_si512(_mm512_castps_si512(a), _mm512_set1_epi32(INT32_MAX)));
 }
 static inline JoxFloats jf_min(JoxFloats a, JoxFloats b) {
     return _mm512_min_ps(a, b);
@@ -70,51 +51,25 @@ static inline JoxMask jf_le(JoxFloats a, JoxFloats b) {
     return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
 }
 
-static inline JoxInts ji_add(JoxInts a, JoxInts b) {
-    return _mm512_add_epi32(a, b);
-}
-static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
-    return _mm512_sub_epi32(a, b);
-}
-static inline JoxInts ji_and(JoxInts a, JoxInts b) {
-    return _mm512_and_si512(a, b);
-}
-static inline JoxInts ji_or(JoxInts a, JoxInts b) {
-    return _mm512_or_si512(a, b);
-}
-#define ji_shift_left(a, bits) _mm512_slli_epi32(a, bits)
-#define ji_shift_right(a, bits) _mm512_srli_epi32(a, bits)
 static inline JoxInts ji_opaque(JoxInts a) {
     __asm__("" : "+v"(a));
     return a;
 }
 static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
-    return _mm512_cmpeq_epi32_mask(a, b);
+    return _mm512_cmpeq_epi32_mask((__m512i)a, (__m512i)b);
 }
 static inline JoxMask ji_less(JoxInts a, JoxInts b) {
-    return _mm512_cmpgt_epi32_mask(b, a);
-}
-static inline JoxInts ji_select(JoxMask m, JoxInts a, JoxInts b) {
-    return _mm512_mask_blend_epi32(m, b, a);
+    return _mm512_cmpgt_epi32_mask((__m512i)b, (__m512i)a);
 }
 
 static inline JoxInts jf_to_ints(JoxFloats a) {
-    return _mm512_cvttps_epi32(a);
-}
-static inline JoxFloats ji_to_floats(JoxInts a) {
-    return _mm512_cvtepi32_ps(a);
-}
-static inline JoxInts jf_bits(JoxFloats a) {
-    return _mm512_castps_si512(a);
-}
-static inline JoxFloats ji_as_floats(JoxInts a) {
-    return _mm512_castsi512_ps(a);
+    return (JoxInts)_mm512_cvttps_epi32(a);
 }
 static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
-    return _mm512_i32gather_epi32(at, table, 4);
+    return (JoxInts)_mm512_i32gather_epi32((__m512i)at, table, 4);
 }
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
-    return _mm512_i32gather_ps(at, table, 4);
+    return _mm512_i32gather_ps((__m512i)at, table, 4);
 }
 static inline JoxFloats jf_pick_at(const float *table, const uint32_t *at) {
     return jf_pick(table, ji_load(at));
@@ -124,7 +79,7 @@ static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
     _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)bits, a));
 }
 static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, a));
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, (__m512i)a));
 }
 
 /* Loads the fours of lanes l, l + 4, l + 8 and l + 12 into one register; its quarters are then
@@ -135,7 +90,11 @@ static inline __m512 jf_four_fours_(const float *a, const float *b, const float 
         _mm512_insertf32x4(_mm512_castps128_ps512(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1);
     return _mm512_insertf32x4(_mm512_insertf32x4(ab, _mm_loadu_ps(c), 2), _mm_loadu_ps(d), 3);
 }
-static inline void jf_transpose_(const __m512 r[4], JoxFloats out[4]) {
+static inline void jf_transpose_rows_(const float *const row[16], JoxFloats out[4]) {
+    __m512 r[4];
+    JOX_UNROLL
+    for (int l = 0; l < 4; l++)
+        r[l] = jf_four_fours_(row[l], row[l + 4], row[l + 8], row[l + 12]);
     __m512 xy01 = _mm512_unpacklo_ps(r[0], r[1]), zw01 = _mm512_unpackhi_ps(r[0], r[1]);
     __m512 xy23 = _mm512_unpacklo_ps(r[2], r[3]), zw23 = _mm512_unpackhi_ps(r[2], r[3]);
     out[0] = _mm512_shuffle_ps(xy01, xy23, 0x44);
@@ -143,32 +102,7 @@ static inline void jf_transpose_(const __m512 r[4], JoxFloats out[4]) {
     out[2] = _mm512_shuffle_ps(zw01, zw23, 0x44);
     out[3] = _mm512_shuffle_ps(zw01, zw23, 0xee);
 }
-static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
-    __m512 r[4];
-    JOX_UNROLL
-    for (int l = 0; l < 4; l++)
-        r[l] = jf_four_fours_(records + (size_t)4 * at[l], records + (size_t)4 * at[l + 4],
-                              records + (size_t)4 * at[l + 8], records + (size_t)4 * at[l + 12]);
-    jf_transpose_(r, out);
-}
-static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
-    __m512 r[4];
-    JOX_UNROLL
-    for (size_t l = 0; l < 4; l++)
-        r[l] = jf_four_fours_(from + stride * l, from + stride * (l + 4), from + stride * (l + 8),
-                              from + stride * (l + 12));
-    jf_transpose_(r, out);
-}
 
-static inline JoxMask jm_and(JoxMask a, JoxMask b) {
-    return a & b;
-}
-static inline JoxMask jm_or(JoxMask a, JoxMask b) {
-    return a | b;
-}
-static inline JoxMask jm_without(JoxMask a, JoxMask b) {
-    return a & (JoxMask)~b;
-}
 static inline uint32_t jm_bits(JoxMask m) {
     return m;
 }

@@ -110,12 +110,16 @@ static void free_pile(Crowd *c, Pile *p) {
     close_crowd(c);
 }
 
+static float dot_of_three(JoxFour a, JoxFour b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 static float measure_axis_speed(const JoxForces *f, const JoxSupportWatch *w,
                                 const JoxSupportAxis *axis) {
     const JoxBodyMotion *one = &f->supports->motions[w->rows[0]],
                         *two = &f->supports->motions[w->rows[1]];
-    return jox_dot_four(axis->along, one->velocity - two->velocity) +
-           jox_dot_four(axis->lever[0], one->spin) - jox_dot_four(axis->lever[1], two->spin);
+    return dot_of_three(axis->along, one->velocity - two->velocity) +
+           dot_of_three(axis->lever[0], one->spin) - dot_of_three(axis->lever[1], two->spin);
 }
 
 /* Finds by how much the normal impulse of a support, and friction, would change if it were solved
