@@ -43,66 +43,19 @@ static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, v
     visit_special(a, visit, context);
 }
 
-/* The columns of a few agents, in whole packets, lie side by side in one block of memory, each on
-   its own cache lines. A step of a small world reads most of them, and the processor prefetches
-   consecutive lines. */
-enum { FEW = 64, LINE = 64, PACKET = JOX_AGENTS_PADDING };
-
-static size_t bytes_of_few(size_t capacity, size_t size) {
-    return (capacity * size + LINE - 1) / LINE * LINE;
-}
-
 typedef struct Growth {
     size_t old, new;
-    char *place; /* place of the next column in the block of a few; NULL: each column has its own
-                    block */
-    bool shared; /* the old columns lie in a block of a few */
 } Growth;
 
 /* Grows a column. New memory is zero and takes no room until it is written, so zero cells are not
    copied: many columns stay zero. */
 static void grow_column(void *context, void **column, size_t size) {
-    Growth *growth = context;
-    void *wider =
-        growth->place ? growth->place : jox_alloc_aligned(growth->new + JOX_AGENTS_PADDING, size);
-    if (growth->place)
-        growth->place += bytes_of_few(growth->new, size);
+    const Growth *growth = context;
+    void *wider = jox_alloc_aligned(growth->new + JOX_AGENTS_PADDING, size);
     if (!jox_mem_is(*column, 0, growth->old * size))
         memcpy(wider, *column, growth->old * size);
-    if (!growth->shared)
-        jox_free(*column);
+    jox_free(*column);
     *column = wider;
-}
-
-typedef struct Room {
-    size_t capacity, bytes;
-} Room;
-
-static void add_bytes(void *context, void **column, size_t size) {
-    Room *room = context;
-    (void)column;
-    room->bytes += bytes_of_few(room->capacity, size);
-}
-
-/* Grows the columns of the list, and the buffers `scratch` and `spare`, which swap places with
-   columns of 8 and of 4 bytes when these are permuted. */
-static void grow_common(JoxAgents *a, uint32_t capacity) {
-    void *few = NULL;
-    Room room = {.capacity = capacity};
-    if (capacity <= FEW) {
-        visit_common(a, COLUMN_SCRATCH, add_bytes, &room);
-        add_bytes(&room, &a->scratch, sizeof(uint64_t));
-        add_bytes(&room, &a->spare, sizeof(uint32_t));
-        few = jox_alloc_aligned(room.bytes + PACKET * sizeof(uint64_t), 1);
-    }
-    Growth growth = {a->count, capacity, few, a->few != NULL};
-    visit_common(a, COLUMN_SCRATCH, grow_column, &growth);
-    growth.old = 0;
-    grow_column(&growth, &a->scratch, sizeof(uint64_t));
-    grow_column(&growth, &a->spare, sizeof(uint32_t));
-    JOX_ASSERT(!few || growth.place == (char *)few + room.bytes);
-    jox_free(a->few);
-    a->few = few;
 }
 
 /* Grows the buffer for one row of memory, as rows are permuted in place. */
@@ -114,11 +67,11 @@ static void grow_row(JoxAgents *a) {
 void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
     if (capacity <= a->capacity)
         return;
-    if (capacity <= FEW)
-        capacity = (capacity + PACKET - 1) / PACKET * PACKET;
-    grow_common(a, capacity);
-    Growth growth = {.old = a->count, .new = capacity};
-    visit_special(a, grow_column, &growth);
+    Growth growth = {a->count, capacity};
+    visit_columns(a, COLUMN_SCRATCH, grow_column, &growth);
+    growth.old = 0;
+    grow_column(&growth, &a->scratch, sizeof(uint64_t));
+    grow_column(&growth, &a->spare, sizeof(uint32_t));
     a->capacity = capacity;
     jox_shared_create(a);
     grow_row(a);
@@ -183,7 +136,7 @@ static uint32_t take_slot(JoxAgents *a, uint32_t index) {
 
 uint32_t jox_agents_add_alike(JoxAgents *a) {
     if (a->count == a->capacity)
-        jox_agents_reserve(a, a->capacity ? 2 * a->capacity : PACKET);
+        jox_agents_reserve(a, a->capacity ? 2 * a->capacity : JOX_AGENTS_PADDING);
     uint32_t i = a->count++;
     visit_columns(a, COLUMN_SCRATCH, clear_row, &i);
     a->id[i] = a->rank_id[i] = a->next_id++; /* the greatest id: the last by rank */
@@ -216,13 +169,8 @@ typedef struct Gather {
     uint32_t count;
 } Gather;
 
-/* Makes a gathered buffer the column: swaps their pointers, or copies the buffer if columns lie in
-   the block of a few. */
-static void take_over(const Gather *gather, void **column, void **gathered, size_t size) {
-    if (gather->agents->few) {
-        memcpy(*column, *gathered, gather->count * size);
-        return;
-    }
+/* Makes a gathered buffer the column, and the column the next buffer. */
+static void swap_buffers(void **column, void **gathered) {
     void *before = *column;
     *column = *gathered;
     *gathered = before;
@@ -234,7 +182,7 @@ static void gather_words(const Gather *gather, void **column) {
     const uint32_t *from = *column;
     for (uint32_t i = 0; i < gather->count; i++)
         to[i] = from[gather->order[i]];
-    take_over(gather, column, &gather->agents->spare, sizeof *to);
+    swap_buffers(column, &gather->agents->spare);
 }
 
 static void gather_long_words(const Gather *gather, void **column) {
@@ -242,7 +190,7 @@ static void gather_long_words(const Gather *gather, void **column) {
     const uint64_t *from = *column;
     for (uint32_t i = 0; i < gather->count; i++)
         to[i] = from[gather->order[i]];
-    take_over(gather, column, &gather->agents->scratch, sizeof *to);
+    swap_buffers(column, &gather->agents->scratch);
 }
 
 /* Permutes a narrow column by way of the scratch buffer. */
@@ -428,12 +376,9 @@ static void free_column(void *context, void **column, size_t size) {
 }
 
 void jox_agents_free(JoxAgents *a) {
-    if (!a->few) {
-        visit_common(a, COLUMN_SCRATCH, free_column, NULL);
-        jox_free(a->scratch);
-        jox_free(a->spare);
-    }
-    jox_free(a->few);
+    visit_common(a, COLUMN_SCRATCH, free_column, NULL);
+    jox_free(a->scratch);
+    jox_free(a->spare);
     jox_free(a->memory);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         if (a->param[p].mask)

@@ -157,15 +157,13 @@ typedef struct JoxAgents {
     uint32_t next_id;
     /* Handles: slot -> index (JOX_NO_INDEX if free) and generation. */
     uint32_t *slot_index, *slot_generation, *free_slots;
-    uint32_t slot_count, slot_capacity, free_count, free_capacity;
+    uint32_t slot_count, slot_capacity, free_count;
     /* Tables by rank, that is, by ascending id: index and id. They have room for `capacity` agents,
        so they grow with the greatest number that lived at once, not with all ids given. */
     uint32_t *by_rank, *rank_id;
     /* Periodic edges: agents that leave at one side come in at the other. Origin and lengths of the
        period, m; 0 along an axis without. Positions stay within [origin, origin + period). */
     JoxV2 origin, period;
-    void *few; /* one block with all columns above `param` and the next two buffers, while there is
-                  room for a few agents only; NULL: each column has its own block */
     void *scratch, *spare; /* for permuting: columns of 8 and of 4 bytes per agent */
     void *row;             /* for permuting: one wider entry */
     uint32_t *order;

@@ -274,7 +274,6 @@ void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects);
 /* Bonds of a body of blocks. jox_bodies_bonds returns false, and all zero, for other bodies. */
 typedef struct JoxBodyBonds {
     uint32_t blocks, bonds; /* blocks of this body; bonds between them */
-    double load_ratio; /* force over strength of the bond nearest to breaking in the last step */
 } JoxBodyBonds;
 bool jox_bodies_bonds(const JoxBodies *bodies, uint32_t row, JoxBodyBonds *bonds);
 /* Visits the bodies' state (image.h) as sections, to hash, save, compare or restore it.

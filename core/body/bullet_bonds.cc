@@ -224,6 +224,6 @@ bool jox_bodies_bonds(const JoxBodies *b, uint32_t row, JoxBodyBonds *bonds) {
     if (row >= b->count || !b->rows[row].live || !b->rows[row].bonds)
         return false;
     const JoxBondGraph *g = b->rows[row].bonds;
-    *bonds = JoxBodyBonds{g->count, g->bond_count, g->peak_load};
+    *bonds = JoxBodyBonds{g->count, g->bond_count};
     return true;
 }

@@ -57,9 +57,6 @@ typedef struct JoxProbeDef {
     const JoxV2 *points;    /* m: corners of a line, two lines or a polygon; winding: the point;
                                displacement: the direction, if one is given */
     uint32_t count;
-    const JoxV2
-        *walkable; /* measure: cells end at this polygon's edge; NULL: at the cutoff alone */
-    uint32_t walkable_count;
     const JoxV2 *during;   /* measure: two ends of a line, or NULL */
     uint32_t during_count; /* 2, or 0 */
     double
