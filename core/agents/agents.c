@@ -250,7 +250,9 @@ static void check_shared(const void *cells, uint32_t mask, size_t size) {
     JOX_ASSERT(mask || jox_is_same_of_all(cells, size, JOX_AGENTS_PADDING));
 }
 
-void jox_agents_check(const JoxAgents *a) {
+/* Checks, through JOX_CHECK, that indices, ids, ranks and handles agree and shared cells are
+   equal. */
+static void check_agents(const JoxAgents *a) {
     JOX_ASSERT(a->count <= a->capacity && a->slot_count <= a->slot_capacity);
     JOX_ASSERT(a->count + a->free_count == a->slot_count); /* every slot is in use or free */
     for (uint32_t i = 0; i < a->count; i++) {
@@ -274,7 +276,7 @@ void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
     if (same < a->count)
         visit_columns(a, COLUMN_HINT, gather_column, &gather);
     rebuild_indices(a);
-    JOX_CHECK(jox_agents_check(a)); /* fails if the order is no permutation */
+    JOX_CHECK(check_agents(a)); /* fails if the order is no permutation */
 }
 
 static void release_slot(JoxAgents *a, uint32_t slot) {
@@ -343,7 +345,7 @@ uint32_t jox_agents_compact(JoxAgents *a) {
     a->count -= gone;
     note_moves(a, &leaving);
     rebuild_indices(a);
-    JOX_CHECK(jox_agents_check(a));
+    JOX_CHECK(check_agents(a));
     return gone;
 }
 

@@ -268,9 +268,6 @@ uint32_t jox_agents_find(const JoxAgents *agents, uint32_t id);
 void jox_agents_sections(JoxAgents *agents, JoxSections *sections);
 /* Overwrites the scratch columns (numbers with NaN), to prove that no later step reads them. */
 void jox_agents_forget(JoxAgents *agents);
-/* Checks, through JOX_CHECK, that indices, ids, ranks and handles agree and shared cells are
-   equal. */
-void jox_agents_check(const JoxAgents *agents);
 void jox_agents_free(JoxAgents *agents);
 
 /* Returns a point moved into the period, where edges are joined. */

@@ -1,6 +1,5 @@
 /* Sections of the agents' state, for hashing, saving and restoring; and overwriting their
    scratch. */
-#include <math.h>
 #include <string.h>
 
 #include "agents/agents.h"

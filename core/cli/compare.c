@@ -1,7 +1,6 @@
 /* The command `compare`: runs the scenes among its arguments, measures the recordings, and compares
    all sides by jo_compare. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,5 +1,4 @@
 /* Formats the help of commands and the manual page from the rows of their options. */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/text.h"

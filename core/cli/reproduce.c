@@ -1,5 +1,4 @@
 /* The command `reproduce`: checks the claims by jo_reproduce. */
-#include <stdio.h>
 #include <unistd.h>
 
 #include "base/text.h"

@@ -1,8 +1,6 @@
 /* The command `run`: simulates a scene once, with several seeds, or on the live page, and writes
    the outputs. */
-#include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 

@@ -6,19 +6,6 @@
 #include "base/format/json_writer.h"
 #include "run/run.h"
 
-/* inspect_graph.c: the value of a parameter and the place that set it. */
-typedef struct JoxLiveSetBy {
-    /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "program or page", "engine" */
-    JoxText where;
-    JoxText text;  /* the value as its file writes it */
-    double number; /* the value; NAN if it differs between agents or over time */
-    int line; /* in the file that sets it; 0: the engine's value, JOX_LINE_LIVE: set at run time */
-} JoxLiveSetBy;
-/* Looks up a parameter (an index of jox_parameters) of a state, or of the machine's defaults where
-   `state` is NULL or does not set it. The caller frees the result. */
-JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                             int parameter);
-void jox_live_set_by_free(JoxLiveSetBy *by);
 /* Adds the member `key`, an array of the scene's machines: name, path, version, reloads, start;
    defaults and states with their parameters; transitions with their conditions as written. */
 void jox_live_add_machines(const JoScene *scene, JoxJson *json, const char *key);

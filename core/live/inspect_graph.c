@@ -4,11 +4,19 @@
 #include <ctype.h>
 #include <math.h>
 
-#include "base/mem.h"
 #include "live/inspect.h"
 #include "run/set_parameter.h"
 
 /* ---- the place that set a value ---- */
+
+/* The value of a parameter and the place that set it. */
+typedef struct SetBy {
+    /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "program or page", "engine" */
+    JoxText where;
+    JoxText text;  /* the value as its file writes it */
+    double number; /* the value; NAN if it differs between agents or over time */
+    int line; /* in the file that sets it; 0: the engine's value, JOX_LINE_LIVE: set at run time */
+} SetBy;
 
 /* Appends "KIND FILE:LINE", or the mod that set the value. `kind` is "defaults" or "state
    Circle". */
@@ -19,9 +27,11 @@ static void print_written_place(const char *kind, const JoxWritten *written, Jox
         jox_text_printf(out, "%s %s:%d", kind, written->file, written->line);
 }
 
-JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                             int p) {
-    JoxLiveSetBy by = {0};
+/* Looks up a parameter (an index of jox_parameters) of a state, or of the machine's defaults where
+   `state` is NULL or does not set it. The caller frees the result. */
+static SetBy find_setter(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                         int p) {
+    SetBy by = {0};
     char path[256], kind[160] = "defaults";
     JoxWritten written = {0};
     const JoxValue *value = &machine->defaults[p];
@@ -61,7 +71,7 @@ JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, co
     return by;
 }
 
-void jox_live_set_by_free(JoxLiveSetBy *by) {
+static void free_setter(SetBy *by) {
     jox_text_free(&by->where);
     jox_text_free(&by->text);
 }
@@ -73,7 +83,7 @@ static void add_parameter_list(const JoScene *scene, const JoxMachine *machine,
     jox_json_array(json, key);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
-        JoxLiveSetBy by = jox_live_set_by(scene, machine, state, p);
+        SetBy by = find_setter(scene, machine, state, p);
         jox_json_object(json, NULL);
         jox_json_string(json, "name", info->name);
         jox_json_number(json, "value", by.number);
@@ -83,7 +93,7 @@ static void add_parameter_list(const JoScene *scene, const JoxMachine *machine,
         jox_json_number(json, "most", info->greatest);
         jox_json_string(json, "unit", info->unit);
         jox_json_end(json);
-        jox_live_set_by_free(&by);
+        free_setter(&by);
     }
     jox_json_end(json);
 }

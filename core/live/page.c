@@ -6,7 +6,6 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
 #include "world/world.h"
 
 static const double FRAME = 1.0 / 65.0; /* s, least time between frames */

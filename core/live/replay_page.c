@@ -5,7 +5,6 @@
 #include "base/assert.h"
 #include "base/clock.h"
 #include "base/guard.h"
-#include "base/mem.h"
 #include "live/replay_page.h"
 #include "run/messages.h"
 

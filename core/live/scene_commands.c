@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
 #include "live/inspect.h"
 #include "live/scene_page.h"
 #include "run/input_actions.h"

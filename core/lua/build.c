@@ -1,7 +1,6 @@
 /* Builds a JoxMachine from the table that a behaviour returns. Every error is reported, not only
    the first. The loader calls jox_build once the file has run and mods have changed the table. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -1,7 +1,6 @@
 /* Adds targets, names, own values, memory and expressions to the machine. Compiles expressions for
    a register machine: operand n of an operation is computed into register `to` + n, its result into
    `to`. */
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

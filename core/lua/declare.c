@@ -1,6 +1,5 @@
 /* Reads `own`, own values besides the parameters, and `public`, the memory that others may read, of
    a machine's table. Called by build.c. */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -290,7 +290,9 @@ static double estimate_hook_time(const JoxHook *hook) {
                               : 0.0);
 }
 
-double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls) {
+/* Returns the processor time of a machine's functions, s, estimated from the first 16 calls of each
+   function and one in 16 of the others; *calls is the number of calls. */
+static double measure_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls) {
     const JoxScript *script = jox_lua_script(lua, machine);
     double seconds = 0.0;
     *calls = 0;
@@ -307,7 +309,7 @@ JoxLuaTotal jox_lua_total(const JoxLua *lua, double stepped) {
     JoxLuaTotal total = {.stepping = stepped + lua->arriving, .cut = 1.0};
     for (uint32_t m = 0; m < set->count; m++) {
         uint64_t calls;
-        total.seconds += jox_lua_seconds(lua, set->items[m], &calls);
+        total.seconds += measure_seconds(lua, set->items[m], &calls);
         total.calls += calls;
     }
     if (total.seconds > total.stepping) {

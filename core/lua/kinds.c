@@ -5,7 +5,6 @@
 
 #include <string.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
@@ -133,19 +132,14 @@ static JoxKind infer_method(const JoxSyntax *s, int32_t tree) {
 
 /* ---- names and fields ---- */
 
-static bool is_same_token_text(const JoxToken *a, const JoxToken *b) {
-    return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
-}
-
 /* Returns whether a table key may equal `name`: written as a name, as a string in brackets, or
    computed in brackets. Keys of list items never do. */
 static bool may_equal_key(const JoxSyntax *s, const JoxTree *t, int32_t in_brackets,
                           const JoxToken *name) {
     if (t->named)
-        return is_same_token_text(&s->source->tokens[t->at], name);
-    return in_brackets != JOX_NO_TREE &&
-           (s->trees[in_brackets].kind != JOX_TREE_CONSTANT ||
-            is_same_token_text(jox_syntax_token(s, in_brackets), name));
+        return jox_token_equals(&s->source->tokens[t->at], name);
+    return in_brackets != JOX_NO_TREE && (s->trees[in_brackets].kind != JOX_TREE_CONSTANT ||
+                                          jox_token_equals(jox_syntax_token(s, in_brackets), name));
 }
 
 /* Returns the kind of a field of a table constructor, with all assignments to it; `name` NULL: of

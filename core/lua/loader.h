@@ -116,9 +116,6 @@ void jox_lua_bracket_hooks(void *lua, bool begins);
 void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *sections);
 /* Returns whether the time of a function's call number `call`, from 0, is measured. */
 bool jox_lua_is_timed(uint64_t call);
-/* Returns the processor time of a machine's functions, s, estimated from the first 16 calls of each
-   function and one in 16 of the others; *calls is the number of calls. */
-double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
 /* Cost of all functions of a run. The time is estimated; if it exceeds that of the steps it is cut
    to that, and `cut` is the factor by which each function's time must be multiplied, else 1. */
 typedef struct JoxLuaTotal {

@@ -58,10 +58,6 @@ static bool uses_left(const Search *f, const JoxTree *t) {
     return false;
 }
 
-static bool is_equal_text(const JoxToken *a, const JoxToken *b) {
-    return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
-}
-
 /* Returns the name or field that a value is assigned to, `x = ...` or `{ x = ... }`; NULL if there
    is none. */
 static const JoxToken *find_assigned_name(const Search *f, int32_t tree) {
@@ -79,7 +75,7 @@ static bool is_default(const Search *f, int32_t tree) {
     const JoxTree *left = get_bare_tree(f, f->s->trees[tree].a);
     const JoxToken *target = find_assigned_name(f, tree);
     const bool name = left->kind == JOX_TREE_NAME || (left->kind == JOX_TREE_INDEX && left->named);
-    return target && name && is_equal_text(target, &f->s->source->tokens[left->at]);
+    return target && name && jox_token_equals(target, &f->s->source->tokens[left->at]);
 }
 
 /* Returns whether a node is the binary operator `sign`. */
@@ -278,8 +274,7 @@ static void report_doubled_keys(JoxBuild *b, const JoxSyntax *s, const JoxTree *
         for (int32_t o = table->items; key && o != f && looked++ < MOST_KEYS;
              o = s->trees[o].next) {
             const JoxToken *other = find_key_token(s, &s->trees[o]);
-            if (!other || other->length != key->length ||
-                memcmp(other->text, key->text, key->length) != 0)
+            if (!other || !jox_token_equals(other, key))
                 continue;
             jox_build_error(b,
                             (JoxPosition){s->source->path, key->line, key->column, key->end_column},

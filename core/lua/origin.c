@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
 #include "lua/kinds.h"
 #include "lua/read.h"
 

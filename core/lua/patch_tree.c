@@ -6,7 +6,6 @@
 
 #include "base/assert.h"
 #include "base/sort.h"
-#include "lua/language/vocabulary.h"
 #include "lua/patch_tree.h"
 #include "lua/read.h"
 

@@ -4,9 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
 #include "lua/kinds.h"
-#include "lua/language/vocabulary.h"
 #include "lua/loader.h"
 
 enum { LONGEST = 400 }; /* bytes of a value that are shown */

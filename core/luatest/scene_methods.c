@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/mem.h"
 #include "luatest/history.h"
 
 static const char SCENE[] = "jostle scene";

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/format/json_writer.h"
-#include "base/mem.h"
 #include "luatest/internal.h"
 
 enum { DEEPEST = 16, LONGEST = 4 << 20 };

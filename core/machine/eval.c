@@ -1,7 +1,6 @@
 /* Evaluates expressions over batches: one dispatch per instruction for up to JOX_BATCH agents.
    Arithmetic and the agents' columns are left to the kernel (eval_wide.c); words on the
    surroundings are evaluated here, agent by agent. */
-#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"

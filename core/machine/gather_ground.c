@@ -1,8 +1,6 @@
 /* The ground of places in which agents wait, and the spots on it, both kept from step to step.
    Called by steering/gather.c. */
-#include <math.h>
 
-#include "base/assert.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"

@@ -3,7 +3,6 @@
    agent is reported, once per line of source. */
 #include <math.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 

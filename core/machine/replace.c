@@ -1,7 +1,6 @@
 /* Replaces a machine by a new version while agents are in it (a reload). A plan with all
    comparisons by name is prepared beforehand on any thread; the swap then touches an agent only
    where something differs. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,5 @@
 /* Sections of the machines' state, for hashing, saving and restoring; and overwriting the
    scratch. */
-#include <math.h>
 #include <string.h>
 
 #include "machine/internal.h"

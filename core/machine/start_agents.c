@@ -2,8 +2,6 @@
    another machine. */
 #include "machine/run.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

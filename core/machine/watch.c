@@ -1,7 +1,6 @@
 /* Records for watched agents: the last transition, and what wrote their values. No step reads
    them. */
 #include <stdio.h>
-#include <string.h>
 
 #include "base/mem.h"
 #include "machine/internal.h"

@@ -1,6 +1,5 @@
 /* Outlines of bodies from above, part by part, for worlds and for recordings. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "body/footprint.h"
 

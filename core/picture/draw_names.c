@@ -1,7 +1,6 @@
 /* Probes on the map, and the names of gates, places, exits and probes, placed so that none
    covers another. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "picture/draw_parts.h"

@@ -45,7 +45,8 @@ void jox_html_argument(FILE *out, const char *argument) {
     jox_text_free(&quoted);
 }
 
-void jox_html_link(FILE *out, const char *path) {
+/* Writes the path of a link, encoded by jox_quote_url. */
+static void put_link(FILE *out, const char *path) {
     jox_quote_put(out, jox_quote_url, path);
 }
 
@@ -176,9 +177,9 @@ static bool is_readable_in(const char *folder, const char *file) {
 static void put_picture(FILE *out, const char *file, const char *link, const char *caption,
                         bool wide) {
     fputs(wide ? "<figure class=wide><a href=\"" : "<figure><a href=\"", out);
-    jox_html_link(out, link ? link : file);
+    put_link(out, link ? link : file);
     fputs("\"><img src=\"", out);
-    jox_html_link(out, file);
+    put_link(out, file);
     fputs("\" alt=\"", out);
     jox_html_text(out, caption);
     fputs("\"></a><figcaption>", out);

@@ -15,8 +15,6 @@ void jox_html_end(FILE *out);
 void jox_html_text(FILE *out, const char *text);
 /* Writes an argument of a command line, quoted as a shell needs it. */
 void jox_html_argument(FILE *out, const char *argument);
-/* Writes the path of a link, encoded by jox_quote_url. */
-void jox_html_link(FILE *out, const char *path);
 /* Writes a number with four significant digits, or all digits before the point; a dash if it is
    not finite. */
 void jox_html_number(FILE *out, double value);

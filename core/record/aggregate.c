@@ -3,8 +3,6 @@
 #include "record/aggregate.h"
 
 #include <fnmatch.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/format/json.h"

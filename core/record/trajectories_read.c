@@ -1,6 +1,5 @@
 /* Reads a whole recording into memory: a text file, or all frames of an SQLite file by the
    trajectory reader. */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

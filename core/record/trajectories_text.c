@@ -7,7 +7,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/mem.h"
 #include "record/trajectories.h"
 
 enum { ID, FRAME, X, Y, VX, VY, TIME, COLUMNS, MOST_FIELDS = 64, LONGEST_NAME = 64 };

@@ -1,7 +1,6 @@
 /* Adds rows to a recording in memory, returns its frames, and frees it. */
 #include "record/trajectories.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -1,7 +1,6 @@
 /* Reads walls, or the outlines of the walkable area, and groups from a recording in the JuPedSim
    format. Versions 1 and 2 store the area differently; both have its text in `geometry.wkt`. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -55,8 +55,5 @@ void jox_render_widen_area(JoxRender *render);
 /* Returns the picture of the current frame, which holds until the next call on the render. */
 const JoxPicture *jox_render_picture(JoxRender *render);
 void jox_render_free(JoxRender *render);
-/* Chooses the quantities that colours show, from the def's options or by the crowd. Returns
-   false with `error` if the crowd does not have them. */
-bool jox_render_choose_colours(JoxRender *render, JoError *error);
 
 #endif

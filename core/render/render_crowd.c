@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/assert.h"
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "render/render.h"
@@ -179,7 +178,9 @@ static JoxShow choose_default_colour(const JoxRender *r) {
     return strcmp(name, "service") == 0 ? JOX_SHOW_DENSITY : JOX_SHOW_SPEED;
 }
 
-bool jox_render_choose_colours(JoxRender *r, JoError *error) {
+/* Chooses the quantities that colours show, from the def's options or by the crowd. Returns
+   false with `error` if the crowd does not have them. */
+static bool choose_colours(JoxRender *r, JoError *error) {
     const JoRenderDef *def = r->def;
     JoxPicture *p = &r->picture;
     if (def->field && !parse_show_option("field", def->field, "density or pressure", &p->floor,
@@ -473,7 +474,7 @@ bool jox_render_load(JoxRender *r, JoError *error) {
     }
     choose_map_area(r);
     take_frame(r);
-    if (!jox_render_choose_colours(r, error))
+    if (!choose_colours(r, error))
         return false;
     create_fields(r);
     if (r->danger)

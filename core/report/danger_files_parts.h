@@ -5,9 +5,6 @@
 #include "record/danger/danger_parts.h"
 #include "report/danger_files.h"
 
-/* Returns a measure's mean in a cell, in its unit: over all samples, or for forces on people,
-   over the samples of the people who stood there. NAN where crowd pressure was never measured. */
-double jox_danger_cell_mean(const JoxDanger *danger, int measure, size_t cell);
 /* Returns a measure's greatest value in a cell; NAN where crowd pressure was never measured. */
 double jox_danger_cell_greatest(const JoxDanger *danger, int measure, size_t cell);
 /* Writes danger.csv and danger-*.csv; those of unknown quantities are not written. Returns false

@@ -55,7 +55,9 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
     return jox_plot_close(out, "danger.csv", error);
 }
 
-double jox_danger_cell_mean(const JoxDanger *d, int measure, size_t cell) {
+/* Returns a measure's mean in a cell, in its unit: over all samples, or for forces on people,
+   over the samples of the people who stood there. NAN where crowd pressure was never measured. */
+static double compute_cell_mean(const JoxDanger *d, int measure, size_t cell) {
     double n = measure >= JOX_DANGER_FIRST_BORNE ? d->stood[cell]
                : measure == JOX_DANGER_PRESSURE  ? d->measured[cell]
                                                  : d->samples;
@@ -78,7 +80,7 @@ static void put_map_cells(const JoxDanger *d, int measure, uint32_t column, uint
     for (uint32_t r = row; r < row + skip && r < g->rows; r++)
         for (uint32_t c = column; c < column + skip && c < g->columns; c++)
             most = fmax(most, jox_danger_cell_greatest(d, measure, (size_t)r * g->columns + c));
-    fprintf(out, ",%.4g,%.9g", jox_danger_cell_mean(d, measure, (size_t)row * g->columns + column),
+    fprintf(out, ",%.4g,%.9g", compute_cell_mean(d, measure, (size_t)row * g->columns + column),
             most);
 }
 

@@ -1,7 +1,6 @@
 /* jo_report: measures a recording with a scene's probes, or default ones, and writes tables,
    pictures and a page. `jostle report` is the caller. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -2,7 +2,6 @@
    at the end: CSV files of probes, danger and sources, and for the first also plots, maps and
    snapshots. */
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 
 #include "base/assert.h"

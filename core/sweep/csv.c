@@ -136,7 +136,8 @@ static bool write_run_rows(const JoxSweepStore *store, FILE *out, const Names *p
     return good;
 }
 
-bool jox_sweep_write_csv(const JoxSweepStore *store, FILE *out, JoError *error) {
+/* Writes a row for each run, with a column for each setting and figure. */
+static bool write_csv(const JoxSweepStore *store, FILE *out, JoError *error) {
     Names paths = {0}, figures = {0};
     bool good = find_columns(store, &paths, &figures, error);
     if (good)
@@ -157,7 +158,7 @@ bool jo_sweep_csv(const char *sweep, const char *csv, JoError *error) {
     FILE *out = !good ? NULL : prints ? stdout : jox_file_replace(csv);
     if (good && !out)
         jox_error(error, JO_FAILED, "cannot write '%.300s': %s", csv, jox_file_error_text(errno));
-    good = out && jox_sweep_write_csv(&store, out, error);
+    good = out && write_csv(&store, out, error);
     if (out && !prints && (good ? jox_file_close(out) : jox_file_drop(out)) != 0 && good) {
         jox_error(error, JO_FAILED, "cannot write '%.300s': %s", csv, strerror(errno));
         good = false;

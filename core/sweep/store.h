@@ -67,7 +67,4 @@ bool jox_sweep_put_failure(const JoxSweepStore *store, int64_t variant, uint64_t
 bool jox_sweep_keep_seeds(const JoxSweepStore *store, uint64_t first, uint32_t count,
                           JoError *error);
 
-/* csv.c: writes a row for each run, with a column for each setting and figure. */
-bool jox_sweep_write_csv(const JoxSweepStore *store, FILE *out, JoError *error);
-
 #endif

@@ -2,7 +2,6 @@
    file, which calls read_claim. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/format/path.h"

@@ -1,6 +1,5 @@
 /* Finds the parameters that scenes and behaviours of the claims set to other values than the
    engine's defaults, for a table on the page. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* Draws the plots of claims with gnuplot: figures as measured beside what their sources say. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/format/path.h"

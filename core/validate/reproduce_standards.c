@@ -1,13 +1,11 @@
 /* Writes standards.html, for authorities: each test of a standard with its source, plan,
    criterion, figures and verdict. */
 #include <fcntl.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/mem.h"
 #include "picture/html.h"
 #include "picture/plot.h"
 #include "validate/reproduce.h"

@@ -6,7 +6,6 @@
 #include "base/assert.h"
 #include "base/format/path.h"
 #include "base/mem.h"
-#include "base/text.h"
 
 enum { MOST_CHANGES = 4096 };
 

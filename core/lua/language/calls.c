@@ -6,7 +6,8 @@
 
 enum { MOST_FACTS = 512 };
 
-uint8_t jox_kind_of(lua_State *L, int index) {
+/* Returns the kind of the value at a stack index, JOX_KIND_... */
+static uint8_t get_kind_of(lua_State *L, int index) {
     const JoxNode *node = jox_node_get(L, index);
     if (node)
         return node->kind == JOX_NODE_ERROR       ? JOX_KIND_UNKNOWN
@@ -59,7 +60,7 @@ static JoxCallFact *find_or_add_fact(JoxScript *script, lua_State *L, lua_Debug 
 /* Adds the kind of a local variable or returned value with this number. */
 static void add_kind(lua_State *L, const lua_Debug *about, int number, uint8_t *kinds) {
     if (lua_getlocal(L, about, number)) {
-        *kinds |= jox_kind_of(L, -1);
+        *kinds |= get_kind_of(L, -1);
         lua_pop(L, 1);
     }
 }

@@ -1,7 +1,5 @@
 /* Nodes: expressions of the language as Lua sees them, a userdata of one type that points to a
    JoxNode. The script owns the nodes. */
-#include <assert.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
 #include "lua/language/script.h"
 
 /* Pushes an operation on one or two nodes (`b` NULL: one). */

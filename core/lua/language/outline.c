@@ -73,7 +73,8 @@ static bool begins_patch(const JoxSource *source, size_t i) {
            t[1].kind == JOX_TOKEN_STRING && jox_token_is(&t[2], "{");
 }
 
-void jox_outline_read(JoxSource *source) {
+/* Makes the outline of a source from its tokens. */
+static void read_outline(JoxSource *source) {
     JOX_ASSERT(!source->outline);
     JoxOutline *outline = source->outline = jox_alloc(1, sizeof *outline);
     for (size_t i = source->token_count; i-- > 0;) /* backwards, as the file ends with it */
@@ -134,6 +135,6 @@ JoxSource *jox_script_read(JoxScript *script, const char *path, const char *text
     const size_t before = script->vm.source_count;
     JoxSource *source = jox_vm_read(&script->vm, path, text, length, from, script->diagnostics);
     for (size_t s = before; s < script->vm.source_count; s++) /* also of a file that was refused */
-        jox_outline_read(script->vm.sources[s]);
+        read_outline(script->vm.sources[s]);
     return source;
 }

@@ -35,8 +35,7 @@ static inline JoxOutline *jox_outline_of(const JoxSource *source) {
     JOX_ASSERT(source->outline);
     return source->outline;
 }
-/* Makes the outline of a source from its tokens; jox_outline_free frees it. */
-void jox_outline_read(JoxSource *source);
+/* Frees the outline of a source. */
 void jox_outline_free(JoxSource *source);
 /* Returns the position of a path's key, or of the nearest enclosing key that the file writes out.
  */
@@ -258,8 +257,6 @@ void jox_script_set_words(lua_State *L);
 int32_t jox_script_tag_or_team(JoxScript *script, const char *name, bool is_team, bool is_set,
                                JoxPosition at);
 
-/* Returns the kind of the value at a stack index, JOX_KIND_... */
-uint8_t jox_kind_of(lua_State *L, int index);
 /* Debug hook of Lua for calls and returns while a file loads: records kinds of arguments and
    results. */
 void jox_calls_watch(lua_State *L, lua_Debug *about);

@@ -1,7 +1,6 @@
 /* Words with a syntax of their own: distributions, orbits, memory, now, own, settings, the
    machine's table and the patches of mods. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

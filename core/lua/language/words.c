@@ -5,7 +5,6 @@
 
 #include "base/assert.h"
 #include "base/format/plurals.h"
-#include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
 static const char WORDS[] = "jostle words"; /* registry key of the table of words */

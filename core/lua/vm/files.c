@@ -2,7 +2,6 @@
    `require` and mods for further files. */
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 

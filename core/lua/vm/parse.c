@@ -97,7 +97,7 @@ int32_t jox_parse_used(JoxParser *p, uint32_t at) {
     int32_t name = jox_parse_add(p, JOX_TREE_NAME, at);
     for (size_t v = p->visible_count; v-- > 0; p->looks++) {
         const JoxToken *declared = &p->tokens[p->tree->variables[p->visible[v]].at];
-        if (declared->length != t->length || memcmp(declared->text, t->text, t->length) != 0)
+        if (!jox_token_equals(declared, t))
             continue;
         jox_parse_tree(p, name)->variable = p->visible[v];
         break;

@@ -41,6 +41,11 @@ static inline bool jox_token_says(const JoxToken *token, const char *text) {
     return __builtin_strlen(text) == n && __builtin_memcmp(token->text, text, n) == 0;
 }
 
+/* Returns whether two tokens have the same text. */
+static inline bool jox_token_equals(const JoxToken *a, const JoxToken *b) {
+    return a->length == b->length && __builtin_memcmp(a->text, b->text, a->length) == 0;
+}
+
 /* Returns whether a token other than a string has this text. */
 static inline bool jox_token_is(const JoxToken *token, const char *text) {
     return token->kind != JOX_TOKEN_STRING && jox_token_says(token, text);

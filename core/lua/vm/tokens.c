@@ -1,6 +1,5 @@
 /* Splits Lua source into tokens, to know columns, as Lua reports lines only. */
 #include <ctype.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -2,7 +2,6 @@
    instructions decide what a function may do, so that runs are equal on all machines; the clock
    ends only a load, or a run that counts cannot explain. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -1,8 +1,6 @@
 /* Moves agents that gather to their spots, and keeps them apart there. Called by gather.c. */
 #include <math.h>
 
-#include "base/assert.h"
-#include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "machine/gather.h"
 

@@ -1,7 +1,6 @@
 /* Steering terms that are computed agent by agent. prefer.c calls them through jox_steer_word. */
 #include <math.h>
 
-#include "base/assert.h"
 #include "base/number/elementary.h"
 #include "base/number/pi.h"
 #include "machine/kernels.h"

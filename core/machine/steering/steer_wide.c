@@ -1,6 +1,5 @@
 /* The kernels of the stage prefer; each lane is an agent of a batch. */
 #include "agents/param_lanes.h"
-#include "base/assert.h"
 #include "machine/kernels.h"
 #include "simd/vectors.h"
 

@@ -3,7 +3,6 @@
 #include "record/danger/danger.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"

@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "geom/polygon.h"

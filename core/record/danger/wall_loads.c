@@ -2,7 +2,6 @@
 #include "record/danger/wall_loads.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mem.h"
 

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/assert.h"
 #include "base/mem.h"
 #include "record/fields/density_parts.h"
 

@@ -3,7 +3,6 @@
 #include "record/fields/pressure.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 #include "base/mem.h"

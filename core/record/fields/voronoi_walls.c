@@ -2,7 +2,6 @@
    person. Between two adjacent directions, to end points and crossings of edges, a single straight
    edge bounds it, of the cell or of a wall; so it is a fan of triangles. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "record/fields/voronoi.h"
 

@@ -4,7 +4,6 @@
    person who steps back over the line revokes the last passage. Probe `measure` uses a flow, too
    (jox_flow_*). */
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/mem.h"
 #include "base/number/statistics.h"

@@ -2,7 +2,6 @@
 #include "record/probes/probe.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/format/plurals.h"

@@ -124,8 +124,6 @@ bool jox_side_draw_begin(JoxSideDrawn *drawn, const JoxSide *side, const char *f
 void jox_side_draw_end(JoxSideDrawn *drawn);
 /* Returns the greatest plausible value of a field (below 1000). */
 double jox_side_field_max(const JoxSide *side, JoxSideFieldKind kind);
-/* Returns the time, s, at which the longest curve ends. */
-double jox_side_end_time(const JoxSide *side);
 
 /* ---- figures in words ---- */
 
@@ -228,9 +226,7 @@ bool jox_seeds_write_page(const JoxComparison *c, JoxText *why);
 enum { JOX_COMPARE_CURVES = 24 }; /* most curves that are drawn */
 /* Returns the n-th curve to draw, taken from the first side that has it; NULL after the last. */
 const JoxSideCurve *jox_compare_curve(const JoxComparison *c, uint32_t n);
-/* Returns whether effects.svg shows a figure of a side: key figures with an interval and a base
-   that is not 0. jox_compare_count_effect_rows counts the figures that are shown for any side. */
-bool jox_compare_is_drawn(const JoxComparison *c, uint32_t figure, uint32_t side);
+/* Returns how many figures effects.svg shows for any side. */
 uint32_t jox_compare_count_effect_rows(const JoxComparison *c);
 
 #endif

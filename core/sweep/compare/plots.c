@@ -107,7 +107,9 @@ static void draw_curve(const JoxComparison *c, uint32_t n, FILE *script) {
 
 /* ---- effects ---- */
 
-bool jox_compare_is_drawn(const JoxComparison *c, uint32_t f, uint32_t s) {
+/* Returns whether effects.svg shows a figure of a side: key figures with an interval and a base
+   that is not 0. */
+static bool is_drawn(const JoxComparison *c, uint32_t f, uint32_t s) {
     const JoxCompared *figure = &c->figures[f];
     const JoxDifference *d = &figure->sides[s];
     return s != c->base && figure->words.is_key && figure->varies && isfinite(d->effect.low) &&
@@ -116,7 +118,7 @@ bool jox_compare_is_drawn(const JoxComparison *c, uint32_t f, uint32_t s) {
 
 static bool is_row(const JoxComparison *c, uint32_t f) {
     for (uint32_t s = 0; s < c->sides.count; s++)
-        if (jox_compare_is_drawn(c, f, s))
+        if (is_drawn(c, f, s))
             return true;
     return false;
 }
@@ -134,7 +136,7 @@ static double get_effect_range(const JoxComparison *c) {
     double most = 0;
     for (uint32_t f = 0; f < c->count; f++)
         for (uint32_t s = 0; s < c->sides.count; s++)
-            if (jox_compare_is_drawn(c, f, s)) {
+            if (is_drawn(c, f, s)) {
                 const JoxDifference *d = &c->figures[f].sides[s];
                 const double change = 100 * fabs(d->effect.difference / d->base.mean);
                 most = change <= 100 ? fmax(most, change) : most;
@@ -157,7 +159,7 @@ static bool write_effects(const JoxComparison *c, JoxText *why) {
             if (!is_row(c, f))
                 continue;
             row++;
-            if (!jox_compare_is_drawn(c, f, s))
+            if (!is_drawn(c, f, s))
                 continue;
             const JoxDifference *d = &c->figures[f].sides[s];
             const double part = 100 / fabs(d->base.mean);
@@ -188,7 +190,7 @@ static void label_cut_effects(const JoxComparison *c, FILE *script) {
             const double change = 100 * d->effect.difference / fabs(d->base.mean);
             if (s == c->base)
                 continue;
-            if (jox_compare_is_drawn(c, f, s) && fabs(change) > get_effect_range(c))
+            if (is_drawn(c, f, s) && fabs(change) > get_effect_range(c))
                 fprintf(
                     script,
                     "set label '%+.0f %% (%+.0f to %+.0f)' at graph %s, first %.3f %s tc '%s'\n",

@@ -2,7 +2,6 @@
    far they differ. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/format/plurals.h"

@@ -8,7 +8,8 @@
 #include "report/maps.h"
 #include "sweep/compare/compare.h"
 
-double jox_side_end_time(const JoxSide *side) {
+/* Returns the time, s, at which the longest curve ends. */
+static double get_end_time(const JoxSide *side) {
     double end = 0;
     for (uint32_t k = 0; k < side->curve_count; k++)
         if (side->curves[k].count)
@@ -56,7 +57,7 @@ bool jox_side_draw_begin(JoxSideDrawn *drawn, const JoxSide *side, const char *f
                                   .probes = (const JoxProbe *const *)p->probes,
                                   .probe_count = p->probe_count,
                                   .bodies = &p->bodies,
-                                  .until = jox_side_end_time(side),
+                                  .until = get_end_time(side),
                                   .simulated = !side->recorded};
     return true;
 }
