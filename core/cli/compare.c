@@ -164,10 +164,9 @@ static int sweep_scene(Compare *compare, const char *given, char **out) {
         sweep.seconds = compare->seconds;
     if (!compare->quiet)
         fprintf(stderr, "%s:\n", path);
-    const JoxOverlay *before = compare->trusted ? NULL : jox_overlay_use(&compare->files);
+    const JoxOverlay *before = jox_overlay_use(&compare->files);
     const bool good = jo_sweep(&sweep, &counts, NULL, &error);
-    if (!compare->trusted)
-        jox_overlay_use(before);
+    jox_overlay_use(before);
     jox_overlay_free(&compare->files);
     *out = keeps.data;
     return good ? JO_OK : cli_report_error(&cli_compare, &error, false);

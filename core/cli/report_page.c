@@ -13,11 +13,9 @@
 static const double LEAST_DT = 0.001; /* s */
 
 static JoScene *load_half_step(const CliReportPage *page, JoError *error) {
-    const bool vetted = page->files && page->files->sealed;
-    const JoxOverlay *before = vetted ? jox_overlay_use(page->files) : NULL;
+    const JoxOverlay *before = jox_overlay_use(page->files);
     JoScene *half = jo_scene_half_step(page->def, page->scene, error);
-    if (vetted)
-        jox_overlay_use(before);
+    jox_overlay_use(before);
     return half;
 }
 

@@ -111,10 +111,9 @@ static int print_run_error(const JoError *error, bool already) {
 
 /* Loads the scene from the files that were vetted. */
 static JoScene *load_vetted_scene(const Run *run, JoError *error) {
-    const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
+    const JoxOverlay *before = jox_overlay_use(&run->files);
     JoScene *scene = jo_scene_load(&run->def, error);
-    if (run->files.sealed)
-        jox_overlay_use(before);
+    jox_overlay_use(before);
     return scene;
 }
 
@@ -250,10 +249,9 @@ static int run_on_page(Run *run, char **summary) {
     live->begun_context = run;
     live->summary = run->summary ? summary : NULL;
     live->seconds = run->has_seconds ? run->seconds : 0.0;
-    const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
+    const JoxOverlay *before = jox_overlay_use(&run->files);
     const bool shown = jo_view(live, &error);
-    if (run->files.sealed)
-        jox_overlay_use(before);
+    jox_overlay_use(before);
     if (shown)
         return JO_OK;
     return print_run_error(&error, error.code == JO_INPUT);
@@ -281,11 +279,10 @@ static int run_seeds(Run *run, char **summary) {
         def.out = kept.data;
         def.renew = true;
     }
-    const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
+    const JoxOverlay *before = jox_overlay_use(&run->files);
     const bool good =
         jo_sweep(&def, &counts, run->report && !run->summary ? NULL : summary, &error);
-    if (run->files.sealed)
-        jox_overlay_use(before);
+    jox_overlay_use(before);
     int status = JO_OK; /* also after a signal, which sets the exit status later */
     if (!cli_signal) {
         run->troubled |= counts.troubled > 0;

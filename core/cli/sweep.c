@@ -182,10 +182,9 @@ static int run_variants(Sweep *sweep) {
     sweep->def.stop = &cli_signal;
     sweep->def.vet = sweep->trusted ? NULL : vet_variant;
     sweep->def.vet_context = sweep;
-    const JoxOverlay *before = sweep->trusted ? NULL : jox_overlay_use(&sweep->files);
+    const JoxOverlay *before = jox_overlay_use(&sweep->files);
     const bool good = jo_sweep(&sweep->def, &counts, NULL, &error);
-    if (!sweep->trusted)
-        jox_overlay_use(before);
+    jox_overlay_use(before);
     if (cli_signal && !good) {
         cli_report_error(&cli_sweep, &error, false);
         return cli_add_signal_status(JO_OK);

@@ -165,8 +165,8 @@ void jox_live_pack_field(const struct JoxDensity *grid, const float *values, Jox
                          JoxBytes *out);
 void jox_live_free_grid(JoxLiveGrid *grid);
 
-/* Adds the member "walls" of a scene message, an array of chains. `height`, m: of walls without. */
-void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json);
+/* Adds the member "walls" of a scene message, an array of chains. */
+void jox_live_add_walls(const JoxWalls *walls, JoxJson *json);
 /* Adds the member "walls" of a status, an object: for each name of a wall, whether it is open. */
 void jox_live_add_gates(const JoxWalls *walls, JoxJson *json);
 /* Adds the member "colours", an object: unit and greatest value by name of a colour. */

@@ -44,7 +44,7 @@ static void add_floats(JoxJson *json, const char *key, const float *values, int 
 
 /* ---- walls, places, regions ---- */
 
-void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json) {
+void jox_live_add_walls(const JoxWalls *walls, JoxJson *json) {
     jox_json_array(json, "walls");
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
@@ -54,8 +54,8 @@ void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json) {
         add_optional_name(json, ring->name);
         jox_json_bool(json, "solid", ring->solid);
         jox_json_bool(json, "open", ring->open);
-        jox_json_digits(json, "height", (double)(isfinite(ring->height) ? ring->height : height),
-                        DIGITS);
+        jox_json_digits(json, "height",
+                        (double)(isfinite(ring->height) ? ring->height : JOX_WALL_HEIGHT), DIGITS);
         jox_json_array(json, "points");
         for (uint32_t i = 0; i < n + twin; i++) /* a closed line repeats its first point */
             add_position(json, walls->vertices[ring->first + i % n].point);
@@ -304,7 +304,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
-    jox_live_add_walls(&world->model.all_walls, JOX_WALL_HEIGHT, &json);
+    jox_live_add_walls(&world->model.all_walls, &json);
     jox_live_add_places(world->model.places, scene->world->model.scene_places, &json);
     jox_live_add_regions(spec->regions, spec->region_count, &json);
     add_scene_groups(&json, spec);

@@ -47,9 +47,8 @@ void jox_live_page_run(JoxLivePage *page, const volatile int *stop);
    scene or run from now on. */
 void jox_live_page_begin(JoxLivePage *page);
 
-/* Sends {"type": "say", ...} to a client or JOX_VIEW_ALL; `level` is "info", "warning" or
-   "error". */
-void jox_live_say(JoxLivePage *page, uint32_t client, const char *level, const char *text);
+/* Sends {"type": "say", ...} to all clients; `level` is "info", "warning" or "error". */
+void jox_live_say(JoxLivePage *page, const char *level, const char *text);
 /* Answers a command that cannot be carried out by {"type": "refused", ...}. */
 void jox_live_refuse(const JoxLiveRequest *request, const char *why);
 

@@ -16,8 +16,8 @@ static void send_texts(JoxView *server, uint32_t client, const char *type,
     jox_text_free(&text);
 }
 
-void jox_live_say(JoxLivePage *page, uint32_t client, const char *level, const char *text) {
-    send_texts(page->server, client, "say",
+void jox_live_say(JoxLivePage *page, const char *level, const char *text) {
+    send_texts(page->server, JOX_VIEW_ALL, "say",
                (const char *const[2][2]){{"level", level}, {"text", text}});
 }
 

@@ -114,7 +114,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
-    jox_live_add_walls(jox_replay_walls(r), JOX_WALL_HEIGHT, &json);
+    jox_live_add_walls(jox_replay_walls(r), &json);
     jox_live_add_places(spec ? spec->places : NULL, spec ? spec->place_count : 0, &json);
     jox_live_add_regions(spec ? spec->regions : NULL, spec ? spec->region_count : 0, &json);
     jox_json_bool(&json, "periodic", r->period.x > 0.0f || r->period.y > 0.0f);

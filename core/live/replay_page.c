@@ -34,7 +34,7 @@ static void show_present(JoxReplayPage *p) {
     if (!jox_replay_show(p->replay, frame, &why)) {
         p->page.session.jumps++;
         jox_text_printf(&text, "The recording is damaged at %.2f s: %s.", p->at, why.data);
-        jox_live_say(&p->page, JOX_VIEW_ALL, "error", text.data);
+        jox_live_say(&p->page, "error", text.data);
         jox_text_free(&text);
         pause_recording(p, true);
     }

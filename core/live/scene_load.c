@@ -17,7 +17,7 @@ static void forward_scene_message(void *context, const char *text) {
         return;
     size_t n = strlen(text);
     char *line = jox_strndup(text, n && text[n - 1] == '\n' ? n - 1 : n);
-    jox_live_say(&s->page, JOX_VIEW_ALL, strstr(text, "warning: ") ? "warning" : "info", line);
+    jox_live_say(&s->page, strstr(text, "warning: ") ? "warning" : "info", line);
     jox_free(line);
 }
 
@@ -71,14 +71,14 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
         return false;
     JoError ending = {0};
     if (!jox_scene_page_end(s, &ending))
-        jox_live_say(&s->page, JOX_VIEW_ALL, "error", ending.text);
+        jox_live_say(&s->page, "error", ending.text);
     s->scene = next;
     jo_scene_vet(next, s->def->vetter);
     s->failed = false;
     s->page.session.paused = s->failed = !begin_outputs(s, error);
     if (s->failed) {
         snprintf(s->failure, sizeof s->failure, "%s", error->text);
-        jox_live_say(&s->page, JOX_VIEW_ALL, "error", error->text);
+        jox_live_say(&s->page, "error", error->text);
     }
     s->steps = 0;
     s->until = s->def->seconds > 0.0 ? s->def->seconds : jo_scene_duration(next);

@@ -41,7 +41,7 @@ static void step_page_scene(JoxScenePage *s) {
         snprintf(s->failure, sizeof s->failure, "%s", error.text);
         s->steps = 0;
         jox_run_say(s->scene, "%s\n", error.text);
-        jox_live_say(&s->page, JOX_VIEW_ALL, "error", error.text);
+        jox_live_say(&s->page, "error", error.text);
     }
     s->page.changed = true;
 }
