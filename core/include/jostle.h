@@ -102,7 +102,7 @@ JO_API bool jo_isa_find(const char *name, JoIsa *isa, JoError *error);
    machine uses. */
 JO_API const char *jo_isa_name(JoIsa isa);
 
-/* What a world does about a lost agent or body. One is lost when one of its numbers is not finite
+/* Reaction of a world to a lost agent or body. One is lost when one of its numbers is not finite
    or it is farther than 10 km from the origin; a body also when it falls through the ground or
    passes a wall. */
 typedef enum JoLost {
@@ -116,7 +116,7 @@ struct JoFile;
 
 typedef struct JoWorldDef {
     double dt;        /* s, 0.001 to 0.2; default 0.05 */
-    uint64_t seed;    /* of all random numbers; default 1 */
+    uint64_t seed;    /* seed of all random numbers; default 1 */
     uint32_t threads; /* 1 to 64, default 1; 0: all processors that the process may use. Never
                          changes a result; threads start at the first step that has work for them */
     JoIsa isa;        /* default: the widest */
@@ -198,7 +198,7 @@ JO_API void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, dou
 JO_API void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy);
 
 typedef enum JoShape { JO_SPHERE, JO_BOX, JO_CYLINDER } JoShape;
-/* What a body does at the last point of its path: it stays; it returns along the path and keeps
+/* Action of a body at the last point of its path: it stays; it returns along the path and keeps
    going to and fro; or it goes straight to the first point and starts the next round. */
 typedef enum JoPathEnd { JO_PATH_STAY, JO_PATH_BACK, JO_PATH_ROUND } JoPathEnd;
 /* Path of a kinematic body: straight from its initial position through 1 to 255 points of x, y,

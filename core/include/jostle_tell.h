@@ -65,7 +65,7 @@ JO_API JoTable *jo_scene_probe_table(const JoScene *scene, uint32_t n);
 
 /* ---- troubles and costs ------------------------------------------------------------------ */
 
-/* What went wrong in a run without ending it. */
+/* Kinds of faults in a run that did not end it. */
 typedef enum JoTroubleKind {
     JO_TROUBLE_SUSPENDED, /* a function of a behaviour failed too often and is no longer called */
     JO_TROUBLE_LOST,      /* people were lost (JoLost) */
@@ -171,7 +171,7 @@ JO_API JoMods *jo_mods_list(const JoSceneDef *def);
    when these change, the mod is off until it is turned on again. False with `error`. */
 JO_API bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error);
 
-/* What set a value. */
+/* Kind of file or call that set a value. */
 typedef enum JoSetBy {
     JO_SET_DEFAULT,   /* the default, set by no file */
     JO_SET_BEHAVIOUR, /* the file of a behaviour, or a module that it requires */

@@ -220,7 +220,7 @@ typedef struct JoRenderDef {
                    steps or recorded frames, but at most 30 */
     uint32_t width, height; /* pixels, 320 to 8192, even for a video; 0: chosen by the area */
     const double *area;     /* part to draw: x0, y0, x1, y1, m; NULL: all */
-    const char *colour;     /* what colours people: "state", "group", "speed", "force",
+    const char *colour;     /* quantity that colours people: "state", "group", "speed", "force",
                                "compression", "load", "density", "direction" or "none". "speed:1.5"
                                also sets the value at the end of the colour bar. NULL: as the
                                scene's `view` says */
@@ -302,7 +302,7 @@ JO_API JoSweepDef jo_default_sweep_def(void);
 typedef struct JoSweepCounts {
     uint32_t runs, done; /* all runs (with `only` 1); those with figures */
     uint32_t kept;       /* done and failed runs that the file held before this call */
-    uint32_t troubled;   /* of the done runs, those with troubles (jo_scene_troubles) */
+    uint32_t troubled;   /* done runs with troubles (jo_scene_troubles) */
     uint32_t failed;     /* runs that ended without figures; the file holds the reason */
     uint32_t missing;    /* runs that were not done, as the sweep was stopped */
 } JoSweepCounts;
