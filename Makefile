@@ -48,10 +48,10 @@ SRC_CC  := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.cc)))
 ifeq ($(BULLET),0)
 SRC_CC  :=
 else
-SRC_C   := $(filter-out core/body/none.c,$(SRC_C))
+SRC_C   := $(filter-out core/body/no_bullet.c,$(SRC_C))
 endif
 SRC_C   := $(filter-out core/picture/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
-SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/none.c),$(SRC_C))
+SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/no_server.c),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c core/cli/bench/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api load),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
 TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c tests/unit/live_replay_page.c),$(TESTS))

@@ -127,7 +127,7 @@ static void fill_worker_filter(Filter *filter, const JoxConfines *confines) {
         ADD(filter, FAILS((unsigned)FORBIDDEN[f]));
     if (!confines->programs)
         ADD(filter, DIES(execve), DIES(execveat));
-    if (!confines->program) /* a worker with a program must be able to end it */
+    if (!confines->program) /* a worker that runs another program must be allowed to kill it */
         ADD(filter, FAILS(SYS_kill));
     if (confines->serves) /* stream sockets alone, and sendto without an address */
         ADD(filter, FAILS_UNLESS(socket, 1, 0xf, SOCK_STREAM),

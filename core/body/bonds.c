@@ -1,4 +1,5 @@
-/* Graph of blocks and bonds: creates, searches, splits it. bond_forces.c computes the loads. */
+/* Graph of blocks and bonds: creates, searches, splits it. bond_loads_and_breaks.c computes the
+ * loads. */
 #include "body/bonds.h"
 
 #include <math.h>

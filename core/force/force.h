@@ -49,7 +49,8 @@ typedef struct JoxForceTotals {
     uint32_t passed;  /* forces that the last infer passed on */
     uint32_t passes;  /* over the contacts */
     float residual;   /* N: greatest change of a contact force in the last pass */
-    /* N s: momentum of the step's pushes that came from the ground; zero with `react` */
+    /* N s: momentum of the step's pushes, whose reaction the ground takes; zero with the option
+       `react`, as pushers then take it */
     double ground_x, ground_y;
     /* N s: given to moving bodies by pushes; given to agents by contacts with such bodies, and the
        sum of the magnitudes of that. */

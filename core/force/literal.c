@@ -1,5 +1,5 @@
 /* Literal mode: the terms of the net force as the paper prints them, for the stages push, sum and
-   infer; contact/literal.c has contacts. */
+   infer; contact/literal_contacts.c has contacts. */
 #include "base/assert.h"
 #include "force/equations.h"
 #include "force/forces.h"

@@ -1,13 +1,13 @@
 /* Reads the actions of states and transitions: setting memory, signals, kicking, taking and
    throwing bodies, becoming another machine; and `counts`, memory that counts by itself. Called by
-   state.c and build.c. */
+   read_state.c and build.c. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 /* Reads the value that a slot of memory is set to; pops it. */
 static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {

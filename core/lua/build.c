@@ -6,9 +6,9 @@
 #include "base/assert.h"
 #include "base/format/name.h"
 #include "base/mem.h"
-#include "lua/kinds.h"
+#include "lua/infer_kinds.h"
 #include "lua/language/vocabulary.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 /* Reads `defaults`. Every parameter gets an own value of its name, so that a group of the scene can
    set it. */

@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, const char *hint,
                      const char *format, ...) {

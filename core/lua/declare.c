@@ -3,9 +3,10 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
-/* Returns the place that a string names, as a constant distribution; -1 if the scene is not known.
+/* Returns the place that a string names, as a distribution of one value, its index; the value
+   -1 if the script is read without a scene. An unknown name is an error.
  */
 static JoxDist read_own_place(JoxBuild *b, const char *path) {
     lua_State *L = b->script->vm.L;

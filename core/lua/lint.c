@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 static void add_warning(JoxBuild *b, const char *path, const char *code, const char *hint,
                         const char *text) {

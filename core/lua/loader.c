@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/loader.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 /* Returns the token of this text on a line at which Lua's parser stopped; NULL if none or too many
    have the text. */

@@ -1,15 +1,15 @@
 /* Finds Lua operators and tests on values of the language: `and`, `or`, `not`, `==`, `~=`, `if` and
    `while` decide at once by whether there is a value, and a condition always is one. Reports only
-   expressions that kinds.c shows to be a value of the language and nothing else, in functions too.
-   Nothing is reported if the code shows that the value may be absent: a parameter, a field of a
-   table of options, the result of a function that may return nothing. Called by build.c. */
+   expressions that infer_kinds.c shows to be a value of the language and nothing else, in functions
+   too. Nothing is reported if the code shows that the value may be absent: a parameter, a field of
+   a table of options, the result of a function that may return nothing. Called by build.c. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/kinds.h"
-#include "lua/read.h"
+#include "lua/infer_kinds.h"
+#include "lua/read_table.h"
 
 /* A search through one source. */
 typedef struct Search {

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "lua/kinds.h"
-#include "lua/read.h"
+#include "lua/infer_kinds.h"
+#include "lua/read_table.h"
 
 void jox_origin_keep(JoxScript *script, const char *path, const char *number,
                      const char *canonical) {

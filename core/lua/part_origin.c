@@ -1,10 +1,10 @@
 /* Finds where a part of a machine is written if its file does not write it out in one table: in a
    local, by an assignment, or in a function or library that builds it. Follows the machine from the
-   file's `return` through the syntax trees. Called by why.c and origin.c. */
+   file's `return` through the syntax trees. Called by value_sources.c and origin.c. */
 #include <stdio.h>
 #include <string.h>
 
-#include "lua/kinds.h"
+#include "lua/infer_kinds.h"
 
 enum { DEEPEST_PART = 24, MOST_STEPS = 20000, MOST_STEPS_IN_ALL = 4000000 };
 

@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "lua/loader.h"
 #include "lua/patch_tree.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 bool jox_lua_patch_target(const char *text, size_t length, char target[128], bool *replaces,
                           int *line, int *column) {

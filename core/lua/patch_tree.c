@@ -7,7 +7,7 @@
 #include "base/assert.h"
 #include "base/sort.h"
 #include "lua/patch_tree.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 int jox_nodes_push_value(JoxLuaNodes *n, void *node) {
     JOX_ASSERT((intptr_t)node >= 1 && (intptr_t)node <= n->count);

@@ -1,7 +1,7 @@
 /* The table that tests get for an agent: a copy of its state. */
 #include <math.h>
 
-#include "luatest/internal.h"
+#include "luatest/luatest_parts.h"
 
 double jox_test_speed(const JoxAgents *a, uint32_t i) {
     return sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);

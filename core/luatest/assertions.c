@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "lua/vm/library.h"
-#include "luatest/internal.h"
+#include "luatest/luatest_parts.h"
 
 static int word_equal(lua_State *L) {
     luaL_checkany(L, 2);

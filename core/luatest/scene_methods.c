@@ -1,6 +1,6 @@
 /* The functions of tests that concern scenes: `scene` and `refused`, and the methods of a scene,
    which step it, read it and assert. Scenes are reached through the driver (test_file.h). */
-#include "luatest/internal.h"
+#include "luatest/luatest_parts.h"
 
 #include <math.h>
 #include <stdio.h>

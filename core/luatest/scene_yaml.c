@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/format/json_writer.h"
-#include "luatest/internal.h"
+#include "luatest/luatest_parts.h"
 
 enum { DEEPEST = 16, LONGEST = 4 << 20 };
 

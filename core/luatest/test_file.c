@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/mem.h"
-#include "luatest/internal.h"
+#include "luatest/luatest_parts.h"
 
 enum { MOST_TESTS = 1000 };
 static const uint64_t BUDGET = 1000000000; /* instructions of Lua that a test may execute */

@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
 

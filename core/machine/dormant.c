@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 const char *jox_name_before(const JoxMachine *old, const JoxMachine *next, JoxPart part,
                             const char *name) {

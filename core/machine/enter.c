@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Draws a member of a set as the agent's goal, if a target of the state is "one of" a set. */
 static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,

@@ -2,7 +2,7 @@
    value of each word. */
 #include <math.h>
 
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 static const char *const OPS[] = {
 #define X(name) #name,

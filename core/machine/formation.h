@@ -3,7 +3,7 @@
 #ifndef JOX_MACHINE_FORMATION_H
 #define JOX_MACHINE_FORMATION_H
 
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* One agent in a row. */
 typedef struct JoxRowEntry {

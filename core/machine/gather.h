@@ -4,7 +4,7 @@
 #define JOX_MACHINE_GATHER_H
 
 #include "geom/ground/lattice.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* One agent that gathers in a place. */
 typedef struct JoxGathering {

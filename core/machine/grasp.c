@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 static const float REACH = 0.5f;     /* m: greatest gap over which an agent takes hold */
 static const float SLIPS = 1.0f;     /* m: gap at which the hold is lost */

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 bool jox_is_odd(int parameter, double value) {
     return !isfinite(value) ||

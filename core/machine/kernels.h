@@ -3,7 +3,7 @@
 #ifndef JOX_MACHINE_KERNELS_H
 #define JOX_MACHINE_KERNELS_H
 
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 #include "simd/isa.h"
 
 /* Steering of one batch. Kernels read and write the arrays in whole packets. */

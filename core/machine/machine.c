@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 int jox_machine_state(const JoxMachine *machine, const char *name) {
     for (uint32_t s = 0; s < machine->state_count; s++)

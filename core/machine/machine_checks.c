@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Returns whether an index is -1 or below `count`. */
 static bool is_index(int64_t index, uint32_t count) {

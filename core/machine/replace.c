@@ -7,7 +7,7 @@
 #include "base/assert.h"
 #include "base/format/plurals.h"
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 enum { AHEAD = 12 }; /* agents ahead whose draws are prefetched */
 

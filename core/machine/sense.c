@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "geom/walls.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Orders signals by name, x, agent. */
 static bool is_signal_before(const JoxSignal *a, const JoxSignal *b) {

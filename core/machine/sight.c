@@ -4,7 +4,7 @@
 
 #include "geom/polygon.h"
 #include "geom/wall_grid.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Returns whether the bounding box of a segment and that of an edge are disjoint. */
 static bool misses_box(JoxV2 from, JoxV2 to, JoxV2 a, JoxV2 b) {

@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Returns the cell of a name in the hash table, or the empty cell where it belongs. */
 static size_t find_name_cell(const JoxMachineSet *set, const char *name) {

@@ -6,7 +6,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Assigns the numbers of names, unique in the set, and of transitions, unique in the machine. */
 static void assign_numbers(JoxMachineRun *run, JoxMachine *machine) {

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Returns the index of a place if it is valid, else -1. */
 static inline int32_t keep_valid_place(const JoxMachineRun *run, int32_t place) {

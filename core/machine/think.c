@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "base/number/pi.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Returns the angle from a to b, rad. Steps turn little, where the series is exact to 1e-10. */
 static double find_angle(JoxV2 a, JoxV2 b) {

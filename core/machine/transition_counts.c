@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine, uint32_t tick) {
     uint32_t count = 0;

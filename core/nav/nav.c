@@ -3,7 +3,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 
 /* m: more than radii, time gaps and speeds together amount to */
 static const float MOST_WALL_REACH = 1e4f;

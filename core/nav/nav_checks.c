@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 
 void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *a) {
     const uint32_t cells = nav->rows * nav->columns;

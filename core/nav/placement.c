@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 
 static const float STANDING = 0.7f; /* radii: agents nearer than this to a new edge are moved; the
                                        next step pushes the others out */

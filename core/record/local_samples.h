@@ -10,7 +10,7 @@
 #include "record/fields/density.h"
 #include "record/fields/pressure.h"
 #include "record/frame.h"
-#include "record/track.h"
+#include "record/frame_track.h"
 
 typedef struct JoxLocal {
     /* 1/m2: `now` is the last sample, `most` the greatest of any place and time */

@@ -11,7 +11,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/mem.h"
-#include "record/recorder_file.h"
+#include "record/recorder_schema.h"
 #include "task/thread.h"
 
 enum { FRAMES = 4, COLUMNS = 12, BATCH = 50 }; /* BATCH: rows that one statement writes */

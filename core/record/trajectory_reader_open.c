@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
-#include "record/recorder_file.h"
+#include "record/recorder_schema.h"
 #include "record/trajectory_reader_parts.h"
 
 enum { MOST_FRAMES = 10000000, NEWEST = 2 /* newest version of the format that is read */ };

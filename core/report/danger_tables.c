@@ -5,7 +5,7 @@
 
 #include "base/format/quote.h"
 #include "picture/plot.h"
-#include "report/danger_files_parts.h"
+#include "report/danger_output_parts.h"
 
 enum { MOST_CELLS_DRAWN = 250000 };
 static const double WORTH = 0.01; /* least dose that is listed */

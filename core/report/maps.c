@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
-#include "report/danger_files_parts.h"
+#include "report/danger_output_parts.h"
 #include "report/maps.h"
 
 enum { MOST_AS_SVG = 5000 /* people; pictures with more have no SVG */ };

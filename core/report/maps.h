@@ -1,4 +1,4 @@
-/* The plan and the maps of a report. maps.c and moments.c draw with them, as does sweep for
+/* The plan and the maps of a report. maps.c and snapshots.c draw with them, as does sweep for
    comparisons; all panels of a page have one size. */
 #ifndef JOX_REPORT_MAPS_H
 #define JOX_REPORT_MAPS_H

@@ -8,7 +8,7 @@
 #include "base/mem.h"
 #include "picture/plot.h"
 #include "picture/probe_files.h"
-#include "report/danger_files.h"
+#include "report/danger_outputs.h"
 #include "report/report.h"
 #include "run/messages.h"
 #include "task/children.h"

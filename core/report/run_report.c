@@ -13,7 +13,7 @@
 #include "picture/paths.h"
 #include "picture/plot.h"
 #include "picture/probe_files.h"
-#include "report/danger_files.h"
+#include "report/danger_outputs.h"
 #include "report/run_subject.h"
 #include "run/figure_listeners.h"
 #include "run/present_frame.h"

@@ -1,5 +1,5 @@
 /* The moments of a crowd that a report shows: where people stood, and the density. Runs and
-   reports add a sample at each measurement of density; moments.c draws the moments kept. */
+   reports add a sample at each measurement of density; snapshots.c draws the moments kept. */
 #ifndef JOX_REPORT_STORY_H
 #define JOX_REPORT_STORY_H
 

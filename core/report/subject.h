@@ -29,14 +29,15 @@ typedef struct JoxSubject {
     double overlap_p99;
 } JoxSubject;
 
-/* where.c: appends a point in words, as "(18.1, 0.6) m, 0.6 m from the line south, in hall". */
+/* describe_point.c: appends a point in words, as "(18.1, 0.6) m, 0.6 m from the line south, in
+ * hall". */
 void jox_describe_point(const JoxSubject *subject, JoxV2 at, JoxText *out);
 
 /* summary.c: writes sentences, as HTML paragraphs, on when people left, where it was dangerous
    and for how long, and at which levels of service people were. */
 void jox_summary_crowd(FILE *out, const JoxSubject *subject);
 
-/* Draw the plan and maps (maps.c), and snapshots (moments.c), into the folder. Return false with
+/* Draw the plan and maps (maps.c), and snapshots (snapshots.c), into the folder. Return false with
    a sentence in `error`. */
 bool jox_draw_maps(const JoxSubject *subject, JoxText *error);
 bool jox_draw_snapshots(const JoxSubject *subject, JoxText *error);

@@ -167,8 +167,9 @@ static bool has_gate_at_goal(const JoScene *scene, uint32_t place) {
     return jox_hindrance_find_gate(&stage, place) != UINT32_MAX;
 }
 
-/* Reports the people whom something that never moves keeps from a place. False if a way leads
-   there for agent `first`, or will. */
+/* Reports people who cannot get to a place because of walls or bodies that never move. Returns
+   false, and reports nothing, if agent `first` of them has a way there, or a gate on it opens
+   later. */
 static bool report_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t first) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = &scene->world->state.agents;

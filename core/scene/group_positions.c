@@ -8,7 +8,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "base/number/pi.h"
-#include "geom/fill.h"
+#include "geom/start_positions.h"
 #include "geom/wall_images.h"
 #include "scene/scene_draft.h"
 

@@ -2,8 +2,8 @@
    makes the draft and walks the table (key_table.c), which calls jox_key_read_... for keys,
    jox_finish_... and jox_resolve_... for owners (see JoxKey and JoxOwner in format/keys.h). Each
    stands in the file of its subject, named below. */
-#ifndef JOX_SCENE_DRAFT_H
-#define JOX_SCENE_DRAFT_H
+#ifndef JOX_SCENE_SCENE_DRAFT_H
+#define JOX_SCENE_SCENE_DRAFT_H
 
 #include "scene/format/keys.h"
 #include "scene/scene.h"

@@ -6,7 +6,7 @@
 #include <libwebsockets.h>
 #include <pthread.h>
 
-#include "view/internal.h"
+#include "view/view_threads.h"
 
 enum { JOX_VIEW_UNKNOWN = 48 }; /* most connections without a valid token */
 

@@ -5,7 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "view/command.h"
-#include "view/internal.h"
+#include "view/view_threads.h"
 
 static JoxClient *find_client(JoxView *view, uint32_t id) {
     for (uint32_t c = 0; c < JOX_VIEW_CLIENTS; c++)

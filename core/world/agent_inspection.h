@@ -1,7 +1,7 @@
 /* Inspection of agents for display: their half-planes, the parts of their net force, their
    transitions. The stages write it for up to JOX_MOST_INSPECTED agents; no step reads it. */
-#ifndef JOX_WORLD_INSPECTED_H
-#define JOX_WORLD_INSPECTED_H
+#ifndef JOX_WORLD_AGENT_INSPECTION_H
+#define JOX_WORLD_AGENT_INSPECTION_H
 
 #include "force/force.h"
 #include "machine/run.h"

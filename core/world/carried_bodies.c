@@ -3,7 +3,8 @@
 #include "world/world.h"
 
 static const float APART = 0.02f; /* m: gap between a carrier and its body */
-static const float ABOUT = 0.05f; /* m: more than geom/hands.c enlarges the outline of a body by */
+static const float ABOUT =
+    0.05f; /* m: more than geom/hand_reach.c enlarges the outline of a body by */
 
 /* Finds where agent i can hold the body in a row: in front, clear of its disc, or as near to that
    as walls and fixed bodies allow. Returns false if there is no room. */

@@ -1,7 +1,7 @@
 /* Boxes that people at the live page threw in, and bodies that they drag: state of a world, written
    by the verbs box, grab, drag and release. */
-#ifndef JOX_WORLD_DRAG_H
-#define JOX_WORLD_DRAG_H
+#ifndef JOX_WORLD_DRAGGED_BODIES_H
+#define JOX_WORLD_DRAGGED_BODIES_H
 
 #include "base/sections.h"
 #include "base/vec.h"

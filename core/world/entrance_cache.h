@@ -1,7 +1,7 @@
 /* Entrances of a world's places, made at first use: the floors on which agents of sources come in.
  */
-#ifndef JOX_WORLD_ENTRANCES_H
-#define JOX_WORLD_ENTRANCES_H
+#ifndef JOX_WORLD_ENTRANCE_CACHE_H
+#define JOX_WORLD_ENTRANCE_CACHE_H
 
 #include "geom/entrance.h"
 

@@ -7,7 +7,7 @@
 #include "base/format/diag.h"
 #include "base/number/distribution.h"
 #include "base/sections.h"
-#include "geom/fill.h"
+#include "geom/start_positions.h"
 #include "machine/run.h"
 #include "nav/nav.h"
 

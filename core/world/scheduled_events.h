@@ -1,7 +1,7 @@
 /* Events of a scene at given times: gates open and close, bodies are thrown or driven, signals are
    sent, agents and bodies are pushed for a while. */
-#ifndef JOX_WORLD_EVENTS_H
-#define JOX_WORLD_EVENTS_H
+#ifndef JOX_WORLD_SCHEDULED_EVENTS_H
+#define JOX_WORLD_SCHEDULED_EVENTS_H
 
 #include <stdint.h>
 

@@ -7,7 +7,7 @@
 #include "agents/step.h"
 #include "body/body.h"
 #include "force/force.h"
-#include "geom/hands.h"
+#include "geom/hand_reach.h"
 #include "machine/run.h"
 #include "nav/nav.h"
 #include "world/agent_inspection.h"

@@ -11,7 +11,7 @@
 
 #include "base/number/elementary.h"
 #include "base/number/random.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 #include "world/world.h"
 
 enum { PEOPLE = 400 };

@@ -12,7 +12,7 @@
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "geom/polygon.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 #include "unit/nav_plain.h"
 
 enum { OTHERS = 9, EDGES = 3, DIRECTIONS = 11, PACKETS = 3000 };

@@ -245,7 +245,8 @@ static void recording_ends_while_another_reads(void **state) {
     assert_true(jox_recorder_close(r, &message));
     assert_non_null(strstr(message.data, "is whole, but another program has it open"));
     jox_text_free(&message);
-    /* The other program would delete the log of the next run. */
+    /* Refused: a program that still reads the recording would delete the next run's log at its end.
+     */
     JoxRecorder *next = jox_recorder_open(path, 20, WKT, &message);
     assert_null(next);
     assert_non_null(strstr(message.data, "another program reads the recording"));

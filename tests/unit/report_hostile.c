@@ -23,7 +23,7 @@
 #include "picture/paths.h"
 #include "picture/plot.h"
 #include "picture/probe_files.h"
-#include "report/danger_files.h"
+#include "report/danger_outputs.h"
 
 /* Names that would create a file "pwned..." if a program interpreted them. */
 static const char *const HOSTILE[] = {

@@ -1,7 +1,7 @@
 /* Tests of walls at joined (periodic) edges of a world: they act on both sides. */
 #include <math.h>
 
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 #include "unit/gate_ball_scene.h"
 
 #define EAST                                                                                       \

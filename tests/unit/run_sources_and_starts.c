@@ -3,7 +3,7 @@
 #include "unit/gate_ball_scene.h"
 
 #include "jostle_tools.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 
 /* People come from two sources in parties of three and walk through a gate to an exit; others cross
  * a circle to the opposite side. */

@@ -34,7 +34,7 @@ static inline void add_wall(JoWorld *world, const double *points, uint32_t count
         fail_msg("%s", error.text);
 }
 
-/* Adds an agent with this push, N, at a point, m. */
+/* Adds an agent at a point, m, that pushes those in its way with `push` newtons. */
 static inline JoAgent add_person(JoWorld *world, double x, double y, double push) {
     JoError error = {0};
     JoAgentDef def = jo_default_agent_def();

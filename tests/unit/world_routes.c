@@ -72,7 +72,7 @@ static void body_counts_as_moved_beyond_0_3_m(void **state) {
     rows[0] = box(1, 0.32f, 0, 1.5f, 0.1f, 0.0); /* along itself */
     jox_obstacles_update(&obstacles, &objects);
     assert_int_equal(obstacles.version, first + 1);
-    rows[0] = box(1, 0.32f, 0, 1.5f, 0.1f, 0.25); /* round itself: its middle stays */
+    rows[0] = box(1, 0.32f, 0, 1.5f, 0.1f, 0.25); /* turned about its centre, which stays */
     jox_obstacles_update(&obstacles, &objects);
     assert_int_equal(obstacles.version, first + 2);
     rows[1].live = false;

@@ -3,8 +3,8 @@
 #ifndef JOX_FORCE_CONTACT_BODIES_H
 #define JOX_FORCE_CONTACT_BODIES_H
 
+#include "force/body_touch.h"
 #include "force/forces.h"
-#include "force/touch.h"
 
 /* Zero-initialise; it owns its arrays. */
 typedef struct JoxTouches {

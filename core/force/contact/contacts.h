@@ -35,7 +35,8 @@ struct JoxContacts {
 
 /* solve.c: solves all impulses. */
 void jox_contacts_solve(JoxForces *forces);
-/* literal.c: equations 6 and 7 as printed: solves all pairs and touches, each by itself. */
+/* literal_contacts.c: equations 6 and 7 as printed: solves all pairs and touches, each by itself.
+ */
 void jox_literal_contacts(JoxForces *forces);
 /* crush_load.c: measures compression and load of one agent from the impulses. */
 void jox_load_measure(JoxForces *forces, uint32_t agent);

@@ -71,7 +71,8 @@ static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane
         JoxV2 forced = {f->step.agents->forced_x[i], f->step.agents->forced_y[i]};
         float speed = jox_minf(jox_touch_speed_after(f, t), jox_dot(forced, t->normal));
         float least = speed;
-        if (speed > 0.0f && f->step.objects->rows[t->object].moves) /* else nothing brakes it */
+        if (speed > 0.0f &&
+            f->step.objects->rows[t->object].moves) /* a fixed body does not brake */
             least -= find_braking(&f->step, i, speed, decay);
         least -= jox_maxf(t->gap, 0.0f) / time + SLACK;
         out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};

@@ -15,7 +15,7 @@ typedef struct Pass {
     JoxForces *forces;
     uint32_t first;   /* first contact of the colour */
     float *residuals; /* per chunk: greatest change of an impulse, N s */
-    uint32_t chunk;   /* index of the part's first chunk */
+    uint32_t chunk;   /* index in `residuals` of the first chunk of the pass's part */
 } Pass;
 
 static inline void add_along(JoxV2 *velocity, JoxV2 normal, float change) {

@@ -1,8 +1,8 @@
 /* The stage push, equation 5: deliberate pushes on agents and bodies ahead. */
 #include "base/assert.h"
 #include "base/mem.h"
+#include "force/body_touch.h"
 #include "force/push/pushes.h"
-#include "force/touch.h"
 
 typedef struct Target {
     bool is_body;

@@ -4,8 +4,8 @@
 #ifndef JOX_FORCE_SUPPORT_SUPPORTS_H
 #define JOX_FORCE_SUPPORT_SUPPORTS_H
 
+#include "force/body_touch.h"
 #include "force/forces.h"
-#include "force/touch.h"
 #include "simd/four.h"
 
 /* One direction of a contact between two bodies: lever and effect on each body of an impulse along

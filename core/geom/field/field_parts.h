@@ -187,8 +187,8 @@ static inline JoxFieldAbout jox_field_about(const JoxFieldWork *w, const JoxFiel
 /* field_sight.c: decides which cells are interpolated or have a patch, and computes all of patches
    that does not depend on the goal: visibility from samples, and directions out of solids. */
 void jox_field_look_about(JoxFieldWork *work);
-/* field_marks.c: recall uses the cache if it is of the same edges and grid, else returns false.
-   Remember fills it; the cache then owns w->walled. */
+/* field_walls_cache.c: recall uses the cache if it is of the same edges and grid, else returns
+   false. Remember fills it; the cache then owns w->walled. */
 bool jox_field_recall(JoxFieldWork *work, const JoxFieldMarks *marks);
 void jox_field_remember(const JoxFieldWork *work, JoxFieldMarks **marks);
 /* Adds slowness where people are held up; NULL: nobody is. */

@@ -1,5 +1,6 @@
 /* Records the kinds of arguments and results of functions while a file loads, by Lua's debug hook.
-   kinds.c asks, as only the calls show whether a parameter of a library function is a condition. */
+   infer_kinds.c asks, as only the calls show whether a parameter of a library function is a
+   condition. */
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/script.h"

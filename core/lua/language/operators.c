@@ -46,7 +46,8 @@ static JoxNode *push_scaled_steer(lua_State *L, JoxNode *steer, JoxNode *by) {
     return node;
 }
 
-/* Computes a number, or a sum or product of steerings, from the operands; pushes one value. */
+/* Computes a number, or a steering (what an agent steers by) from two added ones or one times a
+   number; pushes one value. */
 static int apply_arithmetic(lua_State *L, int op, const char *sign) {
     if (jox_node_is_error(L, 1) || jox_node_is_error(L, 2))
         return jox_node_push_error(L);

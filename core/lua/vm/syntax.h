@@ -1,5 +1,6 @@
 /* The syntax tree of a Lua file, with every name resolved to its variable. Built from the tokens of
-   a file that Lua has compiled; misuse.c, kinds.c, part_origin.c and language/assigned.c search it.
+   a file that Lua has compiled; misuse.c, infer_kinds.c, part_origin.c and
+   language/outer_assignments.c search it.
  */
 #ifndef JOX_LUA_VM_SYNTAX_H
 #define JOX_LUA_VM_SYNTAX_H

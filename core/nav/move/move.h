@@ -3,7 +3,7 @@
 #ifndef JOX_NAV_MOVE_MOVE_H
 #define JOX_NAV_MOVE_MOVE_H
 
-#include "nav/state.h"
+#include "nav/nav_state.h"
 #include "simd/isa.h"
 
 typedef struct JoxMove {

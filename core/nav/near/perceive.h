@@ -4,7 +4,7 @@
 #define JOX_NAV_NEAR_PERCEIVE_H
 
 #include "base/number/pi.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 #include "simd/isa.h"
 
 typedef struct JoxPerceive {

@@ -4,7 +4,7 @@
 #define JOX_NAV_ORCA_SOLVE_H
 
 #include "base/number/random.h"
-#include "nav/state.h"
+#include "nav/nav_state.h"
 #include "simd/isa.h"
 
 /* How far an agent that stands before others turns its preferred velocity aside, as shares of its

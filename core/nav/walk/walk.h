@@ -3,7 +3,7 @@
 #ifndef JOX_NAV_WALK_WALK_H
 #define JOX_NAV_WALK_WALK_H
 
-#include "nav/state.h"
+#include "nav/nav_state.h"
 #include "simd/isa.h"
 
 /* Inputs of the walking law in a step (core/walking.md). */

@@ -22,7 +22,7 @@
 #include "base/sections.h"
 #include "base/vec.h"
 #include "record/danger/levels.h"
-#include "record/track.h"
+#include "record/frame_track.h"
 
 #define JOX_STOP_FLOW 0.8 /* 1/(m s) */
 extern const char jox_stop_and_go_source[];

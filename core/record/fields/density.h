@@ -25,7 +25,8 @@
 #include "geom/walls.h"
 #include "simd/isa.h"
 
-#define JOX_DENSITY_KERNEL 0.70710678f /* m: R / sqrt 2, the standard deviation of the Gaussian */
+#define JOX_DENSITY_KERNEL                                                                         \
+    0.70710678f /* m: standard deviation of the Gaussian exp(-(d/R)2), R = 1 m */
 #define JOX_DENSITY_BY "(Gaussian, R = 1 m)" /* its description in titles */
 #define JOX_DENSITY_CELL 0.2f                /* m: side of a cell */
 enum { JOX_DENSITY_FIELDS = 3 };             /* most fields sampled at once */

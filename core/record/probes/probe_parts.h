@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "record/frame_track.h"
 #include "record/probes/probe.h"
-#include "record/track.h"
 
 /* Frames that a kind takes: ten per second, all, or one in each `every` seconds of its
    definition. */

@@ -173,7 +173,7 @@ const char *jox_side_find_note(const JoxSide *side, const char *key);
 
 /* ---- differences ---- */
 
-/* The difference of one figure between a side and the base. */
+/* The difference of one figure: a side (one of the variants compared) minus the base. */
 typedef struct JoxDifference {
     JoxEffect effect;
     JoxMoments base, other;

@@ -1,7 +1,7 @@
 /* Checks of arguments that public calls share. Each returns false with an error that names the
    field and what it may be. */
-#ifndef JOX_WORLD_EMBED_ARGUMENT_CHECKS_H
-#define JOX_WORLD_EMBED_ARGUMENT_CHECKS_H
+#ifndef JOX_WORLD_ARGUMENT_CHECKS_H
+#define JOX_WORLD_ARGUMENT_CHECKS_H
 
 #include "jostle.h"
 

@@ -3,8 +3,8 @@
    world/verbs; '#' starts a comment; a name with blanks stands in double quotes, where \" and
    \\ are a quote and a backslash. Ticks count steps from 0 and never decrease. Behind `before N`
    and `files N` follow N files: a line PATH BYTES, the bytes, the end of a line. */
-#ifndef JOX_WORLD_INPUT_H
-#define JOX_WORLD_INPUT_H
+#ifndef JOX_WORLD_INPUT_ENTRIES_H
+#define JOX_WORLD_INPUT_ENTRIES_H
 
 #include "base/format/diag.h"
 #include "machine/run.h"

@@ -1,6 +1,6 @@
 /* Bodies that ways lead round, as they were when routes last examined them. */
-#ifndef JOX_WORLD_OBSTACLES_H
-#define JOX_WORLD_OBSTACLES_H
+#ifndef JOX_WORLD_BODY_OBSTACLES_H
+#define JOX_WORLD_BODY_OBSTACLES_H
 
 #include "base/sections.h"
 #include "geom/objects.h"

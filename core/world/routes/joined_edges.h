@@ -1,7 +1,7 @@
 /* Routes over joined (periodic) edges. A distance field knows no joined edges: it is made over the
    bounds and as much again beyond each joined edge, with images of all walls and of the goal. */
-#ifndef JOX_WORLD_OVER_EDGES_H
-#define JOX_WORLD_OVER_EDGES_H
+#ifndef JOX_WORLD_JOINED_EDGES_H
+#define JOX_WORLD_JOINED_EDGES_H
 
 #include "agents/agents.h"
 #include "geom/field/field.h"

@@ -1,7 +1,7 @@
 /* Functions that carry out verbs, for verb_table.c, before a step; false with a sentence in
    `why` where it cannot be. */
-#ifndef JOX_WORLD_VERBS_VERB_FUNCTIONS_H
-#define JOX_WORLD_VERBS_VERB_FUNCTIONS_H
+#ifndef JOX_WORLD_VERB_FUNCTIONS_H
+#define JOX_WORLD_VERB_FUNCTIONS_H
 
 #include "base/text.h"
 #include "world/input/input_entries.h"

@@ -1,7 +1,7 @@
 /* The table of verbs of input logs. Reading, writing, error messages and the reference page use its
    rows. */
-#ifndef JOX_WORLD_VERBS_H
-#define JOX_WORLD_VERBS_H
+#ifndef JOX_WORLD_VERB_TABLE_H
+#define JOX_WORLD_VERB_TABLE_H
 
 #include "base/text.h"
 #include "jostle.h"

@@ -1,8 +1,9 @@
-/* Types and calls shared by the server's two threads: the stepping thread (hub.c), which creates
-   the messages, and the serving thread (serving.c, lws_*.c), which sends them and owns the clients.
-   Messages are handed over by atomic exchanges, so that neither thread waits for the other. */
-#ifndef JOX_VIEW_INTERNAL_H
-#define JOX_VIEW_INTERNAL_H
+/* Types and calls shared by the server's two threads: the stepping thread (publish.c), which
+   creates the messages, and the serving thread (serving.c, lws_*.c), which sends them and owns the
+   clients. Messages are handed over by atomic exchanges, so that neither thread waits for the
+   other. */
+#ifndef JOX_VIEW_VIEW_THREADS_H
+#define JOX_VIEW_VIEW_THREADS_H
 
 #include <stdatomic.h>
 
@@ -86,7 +87,7 @@ struct JoxView {
     char address[320];
 };
 
-/* hub.c */
+/* publish.c */
 JoxView *jox_view_create(void);
 void jox_view_free(JoxView *view);
 JoxMessage *jox_message_create(const JoxView *view, size_t length);

@@ -1,8 +1,8 @@
 /* Functions that build a machine, shared by the files of lua/. The loader calls jox_patch_behaviour
-   and jox_build; build.c reads the machine and calls state.c, actions.c and declare.c, which use
-   read.c and compile.c. */
-#ifndef JOX_LUA_READ_H
-#define JOX_LUA_READ_H
+   and jox_build; build.c reads the machine and calls read_state.c, actions.c and declare.c, which
+   use read_table.c and compile.c. */
+#ifndef JOX_LUA_READ_TABLE_H
+#define JOX_LUA_READ_TABLE_H
 
 #include "lua/language/script.h"
 

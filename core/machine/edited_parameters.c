@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 /* Returns the own slot from which a machine's default of a parameter is drawn, or -1. */
 static int32_t find_own_slot(const JoxMachine *machine, int32_t state, int parameter) {

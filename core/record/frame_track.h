@@ -1,8 +1,8 @@
 /* Displacement of each person from one frame to the next, and crossings of lines. Probes, danger
    and local densities each keep a JoxTrack and call jox_track_reserve, then jox_track_step for each
    person, in every frame that they read. */
-#ifndef JOX_RECORD_TRACK_H
-#define JOX_RECORD_TRACK_H
+#ifndef JOX_RECORD_FRAME_TRACK_H
+#define JOX_RECORD_FRAME_TRACK_H
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 /* Reads the weight of a steering term: a number, or an expression computed in each step. */
 static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) {

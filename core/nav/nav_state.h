@@ -1,7 +1,7 @@
 /* The state of navigation, its grid of cells, and the checks that the sub-folders of nav share; no
    other folder includes it. */
-#ifndef JOX_NAV_STATE_H
-#define JOX_NAV_STATE_H
+#ifndef JOX_NAV_NAV_STATE_H
+#define JOX_NAV_NAV_STATE_H
 
 #include "base/assert.h"
 #include "geom/wall_grid.h"

@@ -290,7 +290,7 @@ static int me_newindex(lua_State *L) {
         double value = check_memory(L, &script->machine->memory[slot], 3);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
         record_write(L, machines, i, true, slot);
-    } else if (parameter >= 0) { /* the own values begin with the parameters */
+    } else if (parameter >= 0) { /* an agent's own values begin with its parameters */
         const JoxParameterInfo *info = &jox_parameters[parameter];
         double value = lua_type(L, 3) == LUA_TNUMBER ? lua_tonumber(L, 3) : NAN;
         if (!(value >= info->least && value <= info->greatest))

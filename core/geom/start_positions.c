@@ -1,5 +1,5 @@
 /* Fills areas with agents: lattices, and random sequential placement. */
-#include "geom/fill.h"
+#include "geom/start_positions.h"
 
 #include <math.h>
 

@@ -10,9 +10,9 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "geom/fill.h"
 #include "geom/place_kinds.h"
 #include "geom/polygon.h"
+#include "geom/start_positions.h"
 #include "geom/wall_grid.h"
 
 static void counts_and_spacing_are_kept(void **state) {

@@ -1,7 +1,7 @@
 /* A contact of an agent with a body ("touch"). contact/bodies_*.c find and solve touches; support/
    reads which bodies they press on. */
-#ifndef JOX_FORCE_TOUCH_H
-#define JOX_FORCE_TOUCH_H
+#ifndef JOX_FORCE_BODY_TOUCH_H
+#define JOX_FORCE_BODY_TOUCH_H
 
 #include "geom/objects.h"
 

@@ -1,5 +1,5 @@
 /* Claims, replaces and closes the file of a recording, and holds its schema. */
-#include "record/recorder_file.h"
+#include "record/recorder_schema.h"
 
 #include <errno.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 /* Replaces the server in builds without libwebsockets (VIEW=0): opening it fails with the
    reason. */
-#include "view/internal.h"
+#include "view/view_threads.h"
 
 JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     (void)options;

@@ -1,7 +1,7 @@
 /* Files of danger measures: tables, and plots over time. Runs' reports (run_report.c) and
    recordings' (report.c) write them at their end. */
-#ifndef JOX_REPORT_DANGER_FILES_H
-#define JOX_REPORT_DANGER_FILES_H
+#ifndef JOX_REPORT_DANGER_OUTPUTS_H
+#define JOX_REPORT_DANGER_OUTPUTS_H
 
 #include "record/danger/danger.h"
 

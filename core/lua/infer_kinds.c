@@ -1,7 +1,7 @@
 /* Infers the kind of each expression of a script, by passes over the syntax trees of all its files
    until nothing changes. A variable holds the union of all values assigned to it, in any order; a
    parameter those it was passed while the file loaded. */
-#include "lua/kinds.h"
+#include "lua/infer_kinds.h"
 
 #include <string.h>
 

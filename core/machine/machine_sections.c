@@ -2,7 +2,7 @@
    scratch. */
 #include <string.h>
 
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 static void hash_text(JoxHash *hash, const char *text) {
     jox_hash_add(hash, text, strlen(text) + 1);

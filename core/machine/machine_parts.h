@@ -1,8 +1,8 @@
 /* Declarations shared by the files of machine/ and machine/steering/, and by nothing above them. */
-#ifndef JOX_MACHINE_INTERNAL_H
-#define JOX_MACHINE_INTERNAL_H
+#ifndef JOX_MACHINE_MACHINE_PARTS_H
+#define JOX_MACHINE_MACHINE_PARTS_H
 
-#include "geom/hands.h"
+#include "geom/hand_reach.h"
 #include "machine/run.h"
 
 enum { JOX_BATCH = 256 };
@@ -279,7 +279,7 @@ void jox_odd_note(JoxMachineRun *run, uint32_t agent, int parameter, double valu
 void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
 /* Forgets the parameters that people set for a machine, and frees the copy. */
 void jox_edits_end(JoxMachineRun *run, uint32_t machine);
-/* watch.c: record a transition and the values that actions wrote, of watched agents. */
+/* watched_agents.c: record a transition and the values that actions wrote, of watched agents. */
 void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken);
 void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
                        uint32_t agent);

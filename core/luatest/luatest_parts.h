@@ -1,7 +1,7 @@
 /* Shared by the files of luatest: the running test file, and the functions that make its tables and
    texts. test_file.c owns a JoxTestRun; the functions of tests find it by jox_test_run_of. */
-#ifndef JOX_LUATEST_INTERNAL_H
-#define JOX_LUATEST_INTERNAL_H
+#ifndef JOX_LUATEST_LUATEST_PARTS_H
+#define JOX_LUATEST_LUATEST_PARTS_H
 
 #include "lua/language/script.h"
 #include "luatest/test_file.h"

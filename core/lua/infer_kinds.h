@@ -1,8 +1,8 @@
 /* Kinds of the expressions of a script's files, inferred from its syntax trees and from the calls
    while it loaded. misuse.c asks where Lua's operators meet values of the language; part_origin.c
    follows tables and functions. */
-#ifndef JOX_LUA_KINDS_H
-#define JOX_LUA_KINDS_H
+#ifndef JOX_LUA_INFER_KINDS_H
+#define JOX_LUA_INFER_KINDS_H
 
 #include "lua/language/script.h"
 

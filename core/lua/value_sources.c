@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "lua/kinds.h"
+#include "lua/infer_kinds.h"
 #include "lua/loader.h"
 
 enum { LONGEST = 400 }; /* bytes of a value that are shown */

@@ -1,7 +1,7 @@
 /* Where hands can hold a body: not across a wall or a fixed body. Machine asks for picking up,
    world for carrying. */
-#ifndef JOX_GEOM_HANDS_H
-#define JOX_GEOM_HANDS_H
+#ifndef JOX_GEOM_HAND_REACH_H
+#define JOX_GEOM_HAND_REACH_H
 
 #include "geom/objects.h"
 #include "geom/walls.h"

@@ -1,6 +1,6 @@
 /* Positions of a group's agents at the start: lattices and random points in an area. */
-#ifndef JOX_GEOM_FILL_H
-#define JOX_GEOM_FILL_H
+#ifndef JOX_GEOM_START_POSITIONS_H
+#define JOX_GEOM_START_POSITIONS_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* The file on disk that a recording is written to: claiming its path, the schema, and closing it.
    recorder.c calls it; readers use the list of tables and the queries. */
-#ifndef JOX_RECORD_RECORDER_FILE_H
-#define JOX_RECORD_RECORDER_FILE_H
+#ifndef JOX_RECORD_RECORDER_SCHEMA_H
+#define JOX_RECORD_RECORDER_SCHEMA_H
 
 #include <stdbool.h>
 #include <stdio.h>

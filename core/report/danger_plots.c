@@ -7,7 +7,7 @@
 #include "base/format/quote.h"
 #include "picture/palette.h"
 #include "picture/plot.h"
-#include "report/danger_files_parts.h"
+#include "report/danger_output_parts.h"
 
 enum { WIDE = 1300, STRIP = 270 /* px: width of a plot, height of a strip */ };
 static const int LEFT = 10, RIGHT = 29; /* margins in characters, equal in all strips */

@@ -1,5 +1,5 @@
 /* Positions of people in the last frame, and crossings of lines by the path since then. */
-#include "record/track.h"
+#include "record/frame_track.h"
 
 #include <math.h>
 

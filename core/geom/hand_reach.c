@@ -1,4 +1,4 @@
-#include "geom/hands.h"
+#include "geom/hand_reach.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
-#include "lua/read.h"
+#include "lua/read_table.h"
 
 enum { KEYS_MOST = 64 };
 

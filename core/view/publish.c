@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "view/internal.h"
+#include "view/view_threads.h"
 
 void jox_post_put(JoxPost *post, JoxMessage *message) {
     JoxMessage *newest = atomic_load_explicit(&post->newest, memory_order_relaxed);

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "base/mem.h"
-#include "machine/internal.h"
+#include "machine/machine_parts.h"
 
 void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken) {
     const JoxMachine *machine = run->set->items[taken->machine];
