@@ -1,6 +1,6 @@
 /* A crowd for pictures, run as a scene or read from a recording, moment by moment. Shared by
-   render.c, which writes the files, and render_crowd.c, which implements these functions;
-   private to render*.c. */
+   render.c, which writes the files, and render_crowd.c, which implements these functions but for
+   trails; private to this folder. */
 #ifndef JOX_RENDER_RENDER_H
 #define JOX_RENDER_RENDER_H
 
@@ -55,5 +55,9 @@ void jox_render_widen_area(JoxRender *render);
 /* Returns the picture of the current frame, which holds until the next call on the render. */
 const JoxPicture *jox_render_picture(JoxRender *render);
 void jox_render_free(JoxRender *render);
+
+/* trails.c: extend the trails by the people, and by a scene's bodies, of the current frame. */
+void jox_render_extend_people_trails(JoxRender *render);
+void jox_render_extend_body_trails(JoxRender *render);
 
 #endif
