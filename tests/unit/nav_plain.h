@@ -384,7 +384,7 @@ static inline bool plain_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfP
         relaxed = relaxed && !plain_meets(half_planes, made->walls, velocity);
     }
     bool still; /* ignored: whether a wall gives way was settled above */
-    if ((made->contacts || made->force) &&
+    if (!s->nav->literal && (made->contacts || made->force) &&
         plain_keep_within_reach(s, i, made, half_planes, wanted, velocity))
         plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &still);
     if (made->contacts && plain_is_as_forced(a, i, velocity))

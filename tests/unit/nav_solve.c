@@ -174,7 +174,7 @@ static JoxHalfPlaneCounts list_half_planes(const JoxSolve *s, uint32_t i, JoxHal
 }
 
 /* Returns the preferred velocity, turned to the right for an agent that stands before others or
-   pushes one straight ahead. */
+   pushes one straight ahead, except in literal mode. */
 static JoxV2 find_plain_wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others,
                              uint32_t count) {
     const JoxAgents *a = s->step.agents;
@@ -182,7 +182,8 @@ static JoxV2 find_plain_wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *
     if (jox_solve_walks(s, i))
         return (JoxV2){a->walk_x[i], a->walk_y[i]};
     bool gets_on = jox_dot(velocity, wanted) > 0.2f * jox_length2(wanted);
-    if (jox_stands(a, i) || (gets_on && !(jox_param(a, JOX_PARAM_push, i) > 0.0f)))
+    if (s->nav->literal || jox_stands(a, i) ||
+        (gets_on && !(jox_param(a, JOX_PARAM_push, i) > 0.0f)))
         return wanted;
     for (uint32_t k = 0; k < count; k++) {
         float against = -jox_dot(others[k].normal, wanted);

@@ -318,14 +318,15 @@ static inline void jox_put_neighbours(JoxPacket *p) {
         JOX_PUT_LANE_BY_LANE(p, alone, p->hard, jox_solve_neighbours, agents);
 }
 
-/* Appends the row of the forces' half-planes, and sets `pressed`. */
+/* Appends the row of the forces' half-planes, and sets `pressed`: no lane in literal mode, whose
+   velocities nothing bounds but the half-planes and the speed limit. */
 static inline void jox_put_force(JoxPacket *p) {
     const JoxAgents *a = p->s->step.agents;
     const JoxFloats zero = jf_set(0.0f);
     JoxFloats x = jf_load(a->half_plane_x + p->first), y = jf_load(a->half_plane_y + p->first);
     JoxMask there = jm_and(jf_lt(zero, jf_max(jf_abs(x), jf_abs(y))), jm_of_bits(p->lanes));
     const uint32_t row = p->count, forced = jm_bits(there);
-    p->pressed = p->touching | forced;
+    p->pressed = p->s->nav->literal ? 0 : p->touching | forced;
     if (!forced)
         return;
     jox_rows_open(p, row + 1);

@@ -116,7 +116,7 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
         contacts[k] = r->contacts[k] - first;
         failed_at[k] = r->failed_at[k] - first;
         touching |= (r->made[k].contacts > 0) << k;
-        pressed |= (r->made[k].contacts > 0 || r->made[k].force) << k;
+        pressed |= (!s->nav->literal && (r->made[k].contacts > 0 || r->made[k].force)) << k;
     }
     l->contacts = ji_load(contacts);
     l->failed_at = ji_load(failed_at);

@@ -146,7 +146,7 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
 static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                                const JoxHalfPlane *planes) {
     const JoxAgents *a = s->step.agents;
-    const JoxWish wish = jox_wish_of(a, i);
+    const JoxWish wish = jox_wish_of(s, i);
     JoxVector wanted = wish.preferred;
     bool kept_off = false;
     if (jox_solve_walks(s, i))

@@ -30,10 +30,10 @@ typedef struct JoxSolve {
 
 /* Returns how far an agent that stands before others turns aside, 0 to 1: zero for the first second
    without moving JOX_STILL_REACH, then drawn anew each second from a range that widens for four
-   more seconds. Always zero in literal mode. */
+   more seconds. */
 static inline float jox_turn_aside(const JoxSolve *s, uint32_t i) {
     const float stood = 0.25f * (s->step.agents->still[i] - 1.0f);
-    if (!(stood > 0.0f) || s->nav->literal)
+    if (!(stood > 0.0f))
         return 0.0f;
     const uint64_t bits = jox_random_of(s->stream, s->step.agents->id[i], 0, s->moment);
     return jox_minf(stood, 1.0f) * (float)jox_random_share(bits);

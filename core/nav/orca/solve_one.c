@@ -81,14 +81,15 @@ static bool meets_walls(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocit
 }
 
 /* Returns the forces on agent i and the velocity that it wants, at width 1. */
-static JoxPressed find_pressed(const JoxAgents *a, uint32_t i, const JoxHalfPlaneCounts *made,
+static JoxPressed find_pressed(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                                JoxV2 wanted) {
+    const JoxAgents *a = s->step.agents;
     const bool touching = made->contacts > 0;
     return (JoxPressed){{wanted.x, wanted.y},
                         {a->forced_x[i], a->forced_y[i]},
                         {a->half_plane_x[i], a->half_plane_y[i], a->half_plane_offset[i]},
                         touching,
-                        touching || made->force};
+                        !s->nav->literal && (touching || made->force)};
 }
 
 bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
@@ -106,7 +107,7 @@ bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made
                                  &relaxed);
         relaxed = relaxed && !meets_walls(half_planes, made->walls, velocity);
     }
-    const JoxPressed pressed = find_pressed(a, i, made, wanted);
+    const JoxPressed pressed = find_pressed(s, i, made, wanted);
     bool still; /* ignored: whether a wall gives way was settled above */
     if (keep_within_reach(s, i, made, half_planes, &pressed, velocity))
         jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,

@@ -31,7 +31,7 @@ static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
    chosen by jox_nav_walk. */
 static JoxVector find_wanted_lanes(const JoxPacket *p) {
     const JoxAgents *a = p->s->step.agents;
-    const JoxWish wish = jox_wish_of(a, p->first);
+    const JoxWish wish = jox_wish_of(p->s, p->first);
     JoxVector wanted = wish.preferred;
     uint32_t aside = p->lanes & jm_bits(wish.may_turn);
     if (aside)

@@ -17,16 +17,19 @@ typedef struct JoxWish {
     JoxMask may_turn;    /* turns aside if a half-plane keeps it off */
 } JoxWish;
 
-/* Makes the wishes of the agents from `first` on. */
-static inline JoxWish jox_wish_of(const JoxAgents *a, uint32_t first) {
+/* Makes the wishes of the agents from `first` on. No equation of the paper turns a preferred
+   velocity, so in literal mode no agent turns aside. */
+static inline JoxWish jox_wish_of(const JoxSolve *s, uint32_t first) {
     const float slow = 0.2f;
+    const JoxAgents *a = s->step.agents;
     const JoxVector w = jv_load(a->pref_x, a->pref_y, first);
     const JoxFloats along = jv_dot(jv_load(a->vx, a->vy, first), w), length2 = jv_dot(w, w);
     const JoxMask gets_on = jf_lt(slow * length2, along);
     const JoxMask pushes = jf_lt(jf_set(0.0f), jox_param_lanes(a, JOX_PARAM_push, first));
     const JoxMask stands = jf_lt(length2, jf_set(JOX_STANDS * JOX_STANDS));
     const JoxMask stays = jm_or(jm_without(gets_on, pushes), stands);
-    return (JoxWish){w, gets_on, jm_without(jm_of_bits(JOX_ALL_LANES), stays)};
+    return (JoxWish){w, gets_on,
+                     jm_without(jm_of_bits(s->nav->literal ? 0 : JOX_ALL_LANES), stays)};
 }
 
 /* Returns whether a half-plane keeps an agent from its preferred velocity: any that forbids it, or,
