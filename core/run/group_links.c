@@ -16,12 +16,35 @@ static int32_t find_slot(const JoxMachine *machine, const char *name, bool memor
     return slot < JOX_MOST_GIVEN ? slot : -1;
 }
 
-/* Finds the slots of values in all machines: an agent may become any of them. */
+/* Whether a slot of own values takes a place where the value is a number, or the reverse. */
+static bool has_other_type(const JoxMachine *machine, int32_t slot, const JoxGroupValue *value) {
+    return machine->own[slot].is_place != (value->kind != JOX_SET_NUMBER);
+}
+
+/* Finds the slots of values in all machines: an agent may become any of them. A slot of another
+   type does not count. */
 static void link_values(const JoxMachineSet *set, JoxGroupValue *values, uint32_t count,
                         bool memory) {
     for (uint32_t v = 0; v < count; v++)
-        for (uint32_t m = 0; m < set->count; m++)
-            values[v].slots[m] = (uint16_t)(find_slot(set->items[m], values[v].name, memory) + 1);
+        for (uint32_t m = 0; m < set->count; m++) {
+            int32_t slot = find_slot(set->items[m], values[v].name, memory);
+            if (slot >= 0 && !memory && has_other_type(set->items[m], slot, &values[v]))
+                slot = -1;
+            values[v].slots[m] = (uint16_t)(slot + 1);
+        }
+}
+
+/* Reports each value that a machine has as another type. */
+static void check_types(const JoxMachine *machine, const JoxGroupValue *values, uint32_t count,
+                        JoxSeverity severity, JoxDiagnostics *diagnostics) {
+    for (uint32_t v = 0; v < count; v++) {
+        const int32_t slot = find_slot(machine, values[v].name, false);
+        if (slot >= 0 && has_other_type(machine, slot, &values[v]))
+            jox_diag_add(diagnostics, severity, values[v].position, "bad-type", NULL, NULL, NULL,
+                         "'%.60s' of behaviour %s is a %s%s", values[v].name, machine->name,
+                         machine->own[slot].is_place ? "place" : "number",
+                         severity == JOX_SEVERITY_ERROR ? "" : ": nobody is given this value");
+    }
 }
 
 /* Adds the error of a value that a machine has no slot for. */
@@ -51,16 +74,11 @@ static void check_values(const JoxMachineSet *set, const JoxGroup *group,
                          JoxDiagnostics *diagnostics) {
     for (uint32_t m = 0; m < group->mix_count; m++) {
         const JoxMachine *machine = set->items[group->mix[m].machine];
-        for (uint32_t v = 0; v < count; v++) {
-            const uint16_t slot = values[v].slots[group->mix[m].machine];
-            const bool place = values[v].kind != JOX_SET_NUMBER;
-            if (slot == 0)
+        for (uint32_t v = 0; v < count; v++)
+            if (find_slot(machine, values[v].name, memory) < 0)
                 report_unknown(machine, &values[v], memory, diagnostics);
-            else if (!memory && machine->own[slot - 1].is_place != place)
-                jox_diag_error(diagnostics, values[v].position, "bad-type", NULL,
-                               "'%.60s' of behaviour %s is a %s", values[v].name, machine->name,
-                               place ? "number" : "place");
-        }
+        if (!memory)
+            check_types(machine, values, count, JOX_SEVERITY_ERROR, diagnostics);
     }
 }
 
@@ -99,4 +117,28 @@ void jox_run_link_groups(JoScene *scene, JoxSceneSpec *spec, JoxDiagnostics *dia
     for (uint32_t s = 0; s < spec->source_count; s++)
         link_and_check(set, &spec->groups[spec->sources[s].like], spec->sources[s].memory,
                        spec->sources[s].memory_count, true, diagnostics);
+}
+
+static const JoxMachine *find_loaded(const JoxMachine *const *machines, uint32_t count,
+                                     const char *path) {
+    for (uint32_t m = 0; m < count; m++)
+        if (strcmp(machines[m]->path, path) == 0)
+            return machines[m];
+    return NULL;
+}
+
+void jox_run_check_value_types(const JoxSceneSpec *spec, const JoxMachine *const *machines,
+                               uint32_t count, JoxSeverity severity, JoxDiagnostics *diagnostics) {
+    for (uint32_t g = 0; g < spec->group_count; g++) {
+        const JoxGroup *group = &spec->groups[g];
+        for (uint32_t m = 0; m < group->mix_count; m++) {
+            const JoxMachine *machine = find_loaded(machines, count, group->mix[m].behaviour);
+            if (!machine)
+                continue;
+            check_types(machine, group->set, group->set_count, severity, diagnostics);
+            for (uint32_t p = 0; p < group->profile_count; p++)
+                check_types(machine, group->profiles[p].set, group->profiles[p].set_count, severity,
+                            diagnostics);
+        }
+    }
 }

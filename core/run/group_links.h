@@ -12,5 +12,10 @@
    error for each value that a machine of the group's mix has no slot for, unless `diagnostics` is
    NULL. */
 void jox_run_link_groups(JoScene *scene, JoxSceneSpec *spec, JoxDiagnostics *diagnostics);
+/* Reports each value that groups set and that one of the machines of their mix has as another type,
+   a place for a number or the reverse. Machines are found by path; those that are missing are
+   passed over. */
+void jox_run_check_value_types(const JoxSceneSpec *spec, const JoxMachine *const *machines,
+                               uint32_t count, JoxSeverity severity, JoxDiagnostics *diagnostics);
 
 #endif

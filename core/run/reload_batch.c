@@ -8,6 +8,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
+#include "run/group_links.h"
 #include "run/machine_names.h"
 #include "run/read_scene.h"
 #include "run/reload_batch.h"
@@ -260,8 +261,9 @@ bool jo_scene_try(JoScene *scene, const JoVetting *what) {
     return true;
 }
 
-/* Checks the tags that new versions ask for against all machines as they will be after the swap. */
-static void check_batch_tags(JoScene *scene, JoxBatch *batch) {
+/* Checks the tags that new versions ask for, and the types of the values that groups set, against
+   all machines as they will be after the swap. */
+static void check_batch_names(JoScene *scene, JoxBatch *batch) {
     const JoxMachineSet *set = &scene->world->model.machines;
     const JoxMachine *machines[2 * JOX_MOST_MACHINES];
     uint32_t count = 0;
@@ -280,6 +282,10 @@ static void check_batch_tags(JoScene *scene, JoxBatch *batch) {
         jox_run_check_tags_and_teams(scene, jox_loaded_machine(batch->changes[c].loaded), files,
                                      file_count, machines, count, &batch->diagnostics);
     }
+    /* A behaviour may take a value as another type before the scene gives it so. */
+    jox_run_check_value_types(batch->spec ? batch->spec : scene->spec, machines, count,
+                              batch->spec ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
+                              &batch->diagnostics);
 }
 
 /* Loads the next parts whose files have changed, in the order in which they were noticed. */
@@ -303,7 +309,7 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
     else
         load_parts(r, batch);
     if (!batch->failed)
-        check_batch_tags(scene, batch);
+        check_batch_names(scene, batch);
     if (batch->diagnostics.errors)
         batch->failed = true;
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)

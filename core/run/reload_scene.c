@@ -152,6 +152,11 @@ static bool replace_group_values(SceneReload *r) {
         add_to_list(&r->later, "groups (other names or order)");
         return false;
     }
+    for (uint32_t g = 0; g < r->new->group_count; g++)
+        if (!same_behaviours(&r->old->groups[g], &r->new->groups[g])) {
+            jox_scene_copy_behaviours(&r->old->groups[g], r->new, g); /* others are not loaded */
+            behaviours = true;
+        }
     jox_run_link_groups(r->scene, r->new, NULL);
     for (uint32_t g = 0; g < r->new->group_count; g++) {
         const JoxGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
@@ -160,7 +165,6 @@ static bool replace_group_values(SceneReload *r) {
         starts |= !same_points(was->positions, was->positions ? was->count : 0, is->positions,
                                is->positions ? is->count : 0) ||
                   !same_starts(was, is);
-        behaviours |= !same_behaviours(was, is);
         for (uint32_t s = 0; s < is->set_count; s++) {
             const JoxGroupValue *set = &is->set[s], *before = NULL;
             for (uint32_t o = 0; o < was->set_count; o++)

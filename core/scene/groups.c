@@ -72,6 +72,18 @@ void jox_key_read_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map,
         group->mix[i].weight /= sum;
 }
 
+void jox_scene_copy_behaviours(const JoxGroup *from, JoxSceneSpec *to, uint32_t group) {
+    JoxGroup *copy = &to->groups[group];
+    copy->mix_count = from->mix_count;
+    copy->mix = jox_arena_take(to->memory, from->mix_count, sizeof *copy->mix);
+    for (uint32_t m = 0; m < from->mix_count; m++) {
+        copy->mix[m] = from->mix[m];
+        copy->mix[m].behaviour = jox_arena_text(to->memory, from->mix[m].behaviour);
+        copy->mix[m].text = jox_arena_text(to->memory, from->mix[m].text);
+        copy->mix[m].position = copy->position;
+    }
+}
+
 /* Reads a direction in deg and stores it in rad; NAN if it is missing. */
 void jox_key_read_facing(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     *JOX_MEMBER(float, item, key->offset) = (float)(jox_key_read_number(r, key, node) * JOX_DEGREE);

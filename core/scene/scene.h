@@ -169,6 +169,9 @@ JoxSceneSpec *jox_scene_read_text(const char *name, const char *text, size_t len
 void jox_scene_free(JoxSceneSpec *scene);
 /* Whether two versions of a scene have different values of a top-level key. */
 bool jox_scene_differs(const JoxSceneSpec *a, const JoxSceneSpec *b, const char *key);
+/* Gives a group of a specification the behaviours of a group of another version, with their shares
+   and texts. */
+void jox_scene_copy_behaviours(const JoxGroup *from, JoxSceneSpec *to, uint32_t group);
 /* Appends the top-level keys that differ and that a reload cannot apply, each with the reason:
    "seed (...), ...". */
 void jox_scene_list_restart_keys(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);
