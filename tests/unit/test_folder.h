@@ -1,8 +1,10 @@
-/* A temporary folder for the files of one test program: made by the setup of its group of tests,
-   removed by the teardown with all that the tests left in it. */
+/* A temporary folder for the files of one test program: made by the setup of its group of tests in
+   the folder that TMPDIR names, else in /tmp, removed by the teardown with all that the tests left
+   in it. */
 #ifndef JOX_TESTS_TEST_FOLDER_H
 #define JOX_TESTS_TEST_FOLDER_H
 
+#include <errno.h>
 #include <ftw.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +18,7 @@
 
 #include <cmocka.h>
 
-static char test_folder[] = "/tmp/jostle-test-XXXXXX";
+static char test_folder[64];
 
 /* Path of a file in the folder; it holds until the 16th call after this. */
 static inline const char *test_path(const char *name) {
@@ -44,7 +46,13 @@ static inline const char *write_test_file(const char *name, const char *text) {
 
 static inline int make_test_folder(void **state) {
     (void)state;
-    return mkdtemp(test_folder) ? 0 : -1;
+    const char *outer = getenv("TMPDIR");
+    snprintf(test_folder, sizeof test_folder, "%s/jostle-test-XXXXXX",
+             outer && *outer == '/' && strlen(outer) <= 40 ? outer : "/tmp");
+    if (mkdtemp(test_folder))
+        return 0;
+    print_error("cannot make %s: %s\n", test_folder, strerror(errno));
+    return -1;
 }
 
 static inline int remove_found_file(const char *path, const struct stat *info, int kind,
@@ -57,7 +65,10 @@ static inline int remove_found_file(const char *path, const struct stat *info, i
 
 static inline int remove_test_folder(void **state) {
     (void)state;
-    return nftw(test_folder, remove_found_file, 16, FTW_DEPTH | FTW_PHYS);
+    if (nftw(test_folder, remove_found_file, 16, FTW_DEPTH | FTW_PHYS) == 0)
+        return 0;
+    print_error("cannot remove %s, or it was removed before: %s\n", test_folder, strerror(errno));
+    return -1;
 }
 
 #endif
