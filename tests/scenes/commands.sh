@@ -269,7 +269,7 @@ grep -q '"kept": \[ *{"from": "street", "cause": "gate", "by": "gate", "people":
 expect "  and the status is 1 if nothing opens the gate" 1 "nobody can reach 'street': gate 'gate' is closed at (10.5, 0.5) m, and nothing opens it; 14 people of group 'g'" "$JOSTLE" run "$work/never.yaml" --for 6 --quiet
 # A doorway that a body fills, that is too narrow for some, or that a driven door shuts for a while.
 way() { # NAME GAP BODIES GROUP EVENTS...
-    printf 'jostle: 1\nduration: 20\nwalls:\n  - {line: [[0, 0], [10, 0], [10, 4], [0, 4]], closed: true}\n  - {line: [[6, 0], [6, %s]]}\n  - {line: [[6, 4], [6, %s]]}\nplaces: {hall: {polygon: [[1, 1], [5, 1], [5, 3], [1, 3]]}, out: {point: [8, 2], radius: 0.5}}\n%sgroups: {g: {at: [[4, 1.2], [3, 2.8]], %s journey: [{exit: out}]}}\n%s' $2 "$3" "$4" "${5:-}" >"$work/$1.yaml"
+    printf 'jostle: 1\ntitle: Way\nduration: 20\nwalls:\n  - {line: [[0, 0], [10, 0], [10, 4], [0, 4]], closed: true}\n  - {line: [[6, 0], [6, %s]]}\n  - {line: [[6, 4], [6, %s]]}\nplaces: {hall: {polygon: [[1, 1], [5, 1], [5, 3], [1, 3]]}, out: {point: [8, 2], radius: 0.5}}\n%sgroups: {g: {at: [[4, 1.2], [3, 2.8]], %s journey: [{exit: out}]}}\n%s' $2 "$3" "$4" "${5:-}" >"$work/$1.yaml"
 }
 crate='bodies: [{name: crate, shape: {box: {size: [1, 1.6, 1.9]}}, mass: 0, at: [6, 2, 0.95]}]\n'
 door='bodies: [{name: door, shape: {box: {size: [0.2, 1.6, 1.9]}}, kinematic: true, at: [6, 2, 0.95]}]\n'
