@@ -102,8 +102,8 @@ static void triggers_and_views_of_a_file_never_run(void **state) {
     (void)state;
     static const char *const CASES[] = {
         "CREATE INDEX i ON t(a); CREATE INDEX j ON t(a + 1) WHERE a > 0; CREATE TABLE other(a)",
-        "CREATE TABLE u(a PRIMARY KEY) WITHOUT ROWID; CREATE TRIGGER g AFTER INSERT ON t BEGIN "
-        "DELETE FROM t; END",
+        ("CREATE TABLE u(a PRIMARY KEY) WITHOUT ROWID; CREATE TRIGGER g AFTER INSERT ON t BEGIN "
+         "DELETE FROM t; END"),
         "CREATE VIEW u AS SELECT * FROM t; CREATE TABLE c(a, b AS (a + 1)); ANALYZE",
         "CREATE VIRTUAL TABLE notes USING fts5(x); INSERT INTO notes VALUES('here')",
         "CREATE VIRTUAL TABLE boxes USING rtree(id, low, high)",

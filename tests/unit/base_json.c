@@ -69,8 +69,9 @@ static void outer_levels_have_lines(void **state) {
 static bool list_item(void *context, const JoxJsonItem *item) {
     JoxText *list = context;
     jox_text_printf(list, "%d%d:%s=", (int)item->kind, item->depth, item->path);
-    jox_text_printf(list, item->text ? "%s;" : "", item->text ? item->text : "");
-    if (!item->text)
+    if (item->text)
+        jox_text_printf(list, "%s;", item->text);
+    else
         jox_text_printf(list, "%g;", item->number);
     return strcmp(item->path, "stop") != 0;
 }
