@@ -123,8 +123,8 @@ static int push_runs(lua_State *L) {
     return 2;
 }
 
-bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double *values,
-                       JoxText *why) {
+bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, bool whole,
+                       double *values, JoxText *why) {
     JoxScript *script = claim->code->script;
     lua_State *L = script->vm.L;
     const char *message = NULL;
@@ -145,7 +145,7 @@ bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double
         lua_pushstring(L, claim->figures[f].name);
         if (lua_rawget(L, -2) == LUA_TNUMBER)
             values[f] = lua_tonumber(L, -1);
-        else if (!claim->figures[f].reported)
+        else if (whole && !claim->figures[f].reported)
             jox_text_printf(why, "%s%s: measure returned no number '%s'", why->length ? "\n" : "",
                             claim->path, claim->figures[f].name);
         lua_pop(L, 1);
@@ -216,12 +216,17 @@ JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnosti
     return NULL;
 }
 
+static void add_run_sets(JoxClaimRun *run, const char *const *sets, size_t count) {
+    run->sets = jox_realloc(run->sets, run->set_count + count, sizeof *run->sets);
+    for (size_t s = 0; s < count; s++)
+        run->sets[run->set_count++] = jox_strdup(sets[s]);
+}
+
 void jox_claim_add_sets(JoxClaim *claim, const char *const *sets, size_t count) {
     for (uint32_t r = 0; r < claim->run_count && count > 0; r++) {
-        JoxClaimRun *run = &claim->runs[r];
-        run->sets = jox_realloc(run->sets, run->set_count + count, sizeof *run->sets);
-        for (size_t s = 0; s < count; s++)
-            run->sets[run->set_count++] = jox_strdup(sets[s]);
+        add_run_sets(&claim->runs[r], sets, count);
+        if (claim->null_runs)
+            add_run_sets(&claim->null_runs[r], sets, count);
     }
 }
 
@@ -231,6 +236,8 @@ void jox_claim_free(JoxClaim *claim) {
     for (uint32_t r = 0; r < claim->run_count; r++) {
         jox_free(claim->runs[r].name);
         jox_claim_free_run(&claim->runs[r]);
+        if (claim->null_runs)
+            jox_claim_free_run(&claim->null_runs[r]);
     }
     for (uint32_t f = 0; f < claim->figure_count; f++) {
         jox_free(claim->figures[f].name);
@@ -246,10 +253,10 @@ void jox_claim_free(JoxClaim *claim) {
         jox_free(claim->tried[t]);
     jox_claim_free_plots(claim);
     jox_claim_free_run(&claim->spare);
-    void *owned[] = {claim->runs,       claim->figures,  claim->pictures, claim->path,
-                     claim->id,         claim->also,     claim->title,    claim->level,
-                     claim->calibrated, claim->held_out, claim->source,   claim->text,
-                     claim->tried};
+    void *owned[] = {claim->null_runs, claim->null_text, claim->runs,       claim->figures,
+                     claim->pictures,  claim->path,      claim->id,         claim->also,
+                     claim->title,     claim->level,     claim->calibrated, claim->held_out,
+                     claim->source,    claim->text,      claim->tried};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++)
         jox_free(owned[k]);
     jox_script_free(claim->code->script);

@@ -1,5 +1,5 @@
 /* Claims: results that scenes are expected to show, as Lua files. A claim file returns claim {
-   id, title, source, text, runs, quick, measure, expect, plots, pictures, tried }; see
+   id, title, source, text, runs, quick, null, measure, expect, plots, pictures, tried }; see
    scenes/claims/README.md. Its function `measure` computes figures from what the runs left
    (summary, CSV files of probes) and never sees the expected values. reproduce.c runs and
    measures claims, check.c only loads them. */
@@ -64,13 +64,17 @@ typedef struct JoxClaim {
     /* data that constants were chosen with, or that were held out from it; at most one is not "" */
     char *calibrated, *held_out;
     JoxClaimRun *runs;
+    /* The null: the same runs with the cause of the result taken out, or with a wrong input, which
+       must miss the band of some figure. null_runs[r] belongs to runs[r]; both NULL: no null. */
+    char *null_text;
+    JoxClaimRun *null_runs;
     JoxClaimFigure *figures;
     JoxClaimPicture *pictures;
     JoxClaimPlot *plots;
     char **tried; /* sentences on what was tried, for a claim that misses its band */
     uint32_t run_count, figure_count, picture_count, plot_count, tried_count;
     bool too_long;     /* `quick = false`: no smaller run would show the result */
-    JoxClaimRun spare; /* the run of `quick` that is being read */
+    JoxClaimRun spare; /* the run of `quick` or `null` that is being read */
     struct JoxClaimCode *code;
 } JoxClaim;
 
@@ -79,9 +83,9 @@ typedef struct JoxClaim {
 JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnostics);
 /* Calls `measure` once. folders[r] is the folder in which run r left summary.json and its CSV
    files. Sets values[f] of each figure, NAN if it was not returned. Returns false with a
-   sentence in `why`. */
-bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double *values,
-                       JoxText *why);
+   sentence in `why`; with `whole` also if a figure with a band was not returned. */
+bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, bool whole,
+                       double *values, JoxText *why);
 /* Appends settings ("PATH=VALUE") to all runs of the claim. */
 void jox_claim_add_sets(JoxClaim *claim, const char *const *sets, size_t count);
 void jox_claim_free(JoxClaim *claim);

@@ -173,6 +173,57 @@ static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
     lua_settop(L, top);
 }
 
+/* Reads the null's version of a run: with what `runs` of the table `null` on top says of it, else
+   with the table's own `set`. */
+static void read_null_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *run,
+                          JoxClaimRun *null) {
+    int top = lua_gettop(L);
+    null->name = run->name;
+    if (lua_getfield(L, top, "runs") != LUA_TTABLE ||
+        lua_getfield(L, -1, run->name) != LUA_TTABLE) {
+        lua_newtable(L);
+        lua_getfield(L, top, "set");
+        lua_setfield(L, -2, "set");
+    }
+    read_run(L, claim, run, null);
+    lua_settop(L, top);
+}
+
+/* Checks that `runs` of the table `null` on top names runs of the claim. */
+static void check_null_names(lua_State *L, const JoxClaim *claim) {
+    int top = lua_gettop(L);
+    uint32_t count = 0;
+    const char **names =
+        lua_getfield(L, top, "runs") == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
+    for (uint32_t n = 0; n < count; n++)
+        find_run(L, claim, "null", names[n]);
+    lua_settop(L, top);
+}
+
+/* Reads `null`: what each run is without the cause of the result. */
+static void read_null(lua_State *L, JoxClaim *claim, bool quick) {
+    static const char *const KEYS[] = {"text", "set", "runs", "seeds"};
+    int top = lua_gettop(L), type = lua_getfield(L, -1, "null");
+    if (type == LUA_TNIL) {
+        lua_settop(L, top);
+        return;
+    }
+    if (type != LUA_TTABLE)
+        luaL_error(L, "null = { text = \"forces off\", set = { [\"forces.enabled\"] = false } }");
+    jox_claim_check_keys(L, "null", KEYS, sizeof KEYS / sizeof *KEYS);
+    claim->null_text = jox_claim_read_text(L, "null", "text", true);
+    const double seeds = jox_claim_read_number(L, "null", "seeds", FEW_SEEDS);
+    claim->null_runs = jox_alloc(claim->run_count, sizeof *claim->null_runs);
+    check_null_names(L, claim);
+    for (uint32_t r = 0; r < claim->run_count; r++) {
+        JoxClaimRun *null = &claim->null_runs[r];
+        read_null_run(L, claim, &claim->runs[r], null);
+        if (quick || null->seeds > seeds)
+            null->seeds = quick || seeds < 1.0 ? 1 : (uint32_t)seeds;
+    }
+    lua_settop(L, top);
+}
+
 /* Reads an element of `expect` on top of the stack. */
 static void read_figure(lua_State *L, JoxClaimFigure *figure) {
     static const char *const KEYS[] = {"unit", "source", "band", "what", "reported"};
@@ -277,9 +328,9 @@ static void read_level_and_calibration(lua_State *L, JoxClaim *claim) {
 
 /* The Lua function claim { ... }: reads the table and keeps only the function `measure`. */
 static int read_claim(lua_State *L) {
-    static const char *const KEYS[] = {"id",      "also",       "title",    "source",   "text",
-                                       "level",   "calibrated", "held_out", "runs",     "quick",
-                                       "measure", "expect",     "plots",    "pictures", "tried"};
+    static const char *const KEYS[] = {
+        "id",   "also",  "title", "source",  "text",   "level", "calibrated", "held_out",
+        "runs", "quick", "null",  "measure", "expect", "plots", "pictures",   "tried"};
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle claim");
     JoxClaim *claim = lua_touserdata(L, -1);
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle quick");
@@ -298,6 +349,7 @@ static int read_claim(lua_State *L) {
     read_level_and_calibration(L, claim);
     read_claim_runs(L, claim);
     read_quick(L, claim, quick);
+    read_null(L, claim, quick);
     read_claim_figures(L, claim);
     jox_claim_read_plots(L, claim);
     read_pictures(L, claim);

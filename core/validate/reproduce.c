@@ -163,10 +163,9 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
 /* ---- runs ---- */
 
 /* Returns the index of the job of a run and seed, which is added unless there is an equal one.
-   Only the first seed of a claim with pictures writes a report, since collecting one takes time. */
-static uint32_t add_run_job(JoxReproduction *all, const JoxClaim *claim, const JoxClaimRun *run,
-                            uint64_t seed) {
-    bool pictures = seed == run->first_seed && claim->picture_count > 0;
+   `pictures`: it writes a report, which takes time. */
+static uint32_t add_run_job(JoxReproduction *all, const JoxClaimRun *run, uint64_t seed,
+                            bool pictures) {
     JoxText key = {0}, folder = {0};
     char hash[65];
     jox_text_printf(&key, "%s\n%s\nseed %llu\ndt %.9g\nduration %.9g\npictures %d\n",
@@ -199,70 +198,93 @@ static void choose_seeds(const JoxReproduction *all, JoxClaimRun *run) {
     run->seeds = run->seeds > 1 ? all->seeds : 1;
 }
 
+/* Creates the jobs of a claim's runs, or of its null's. */
+static void plan_claim_runs(JoxReproduction *all, const JoxClaim *claim, bool pictures,
+                            JoxMeasured *m) {
+    m->jobs = jox_alloc(claim->run_count, sizeof *m->jobs);
+    m->verdicts = jox_alloc(claim->figure_count, sizeof *m->verdicts);
+    for (uint32_t r = 0; r < claim->run_count; r++) {
+        JoxClaimRun *run = &m->runs[r];
+        choose_seeds(all, run);
+        m->seeds = run->seeds > m->seeds ? run->seeds : m->seeds;
+        m->jobs[r] = jox_alloc(run->seeds, sizeof **m->jobs);
+        for (uint32_t s = 0; s < run->seeds; s++)
+            m->jobs[r][s] = add_run_job(all, run, run->first_seed + s, pictures && s == 0);
+    }
+}
+
 /* Creates the jobs of all claims. */
 static void plan_runs(JoxReproduction *all) {
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         JoxOutcome *outcome = &all->outcomes[o];
         JoxClaim *claim = outcome->claim;
-        outcome->jobs = jox_alloc(claim->run_count, sizeof *outcome->jobs);
-        outcome->verdicts = jox_alloc(claim->figure_count, sizeof *outcome->verdicts);
-        for (uint32_t r = 0; r < claim->run_count; r++) {
-            JoxClaimRun *run = &claim->runs[r];
-            choose_seeds(all, run);
-            outcome->seeds = run->seeds > outcome->seeds ? run->seeds : outcome->seeds;
-            outcome->jobs[r] = jox_alloc(run->seeds, sizeof **outcome->jobs);
-            for (uint32_t s = 0; s < run->seeds; s++)
-                outcome->jobs[r][s] = add_run_job(all, claim, run, run->first_seed + s);
-        }
+        outcome->own.runs = claim->runs;
+        outcome->null.runs = claim->null_runs;
+        plan_claim_runs(all, claim, claim->picture_count > 0, &outcome->own);
+        if (claim->null_runs)
+            plan_claim_runs(all, claim, false, &outcome->null);
     }
 }
 
 /* ---- measuring ---- */
 
-/* Returns the failure of one of the claim's jobs, or NULL. */
-static const char *find_failure(const JoxReproduction *all, const JoxOutcome *outcome) {
-    for (uint32_t r = 0; r < outcome->claim->run_count; r++)
-        for (uint32_t s = 0; s < outcome->claim->runs[r].seeds; s++)
-            if (all->jobs[outcome->jobs[r][s]].state == JOX_JOB_FAILED)
-                return all->jobs[outcome->jobs[r][s]].failure;
+/* Returns the failure of one of the jobs, or NULL. */
+static const char *find_failure(const JoxReproduction *all, const JoxClaim *claim,
+                                const JoxMeasured *m) {
+    for (uint32_t r = 0; r < claim->run_count; r++)
+        for (uint32_t s = 0; s < m->runs[r].seeds; s++)
+            if (all->jobs[m->jobs[r][s]].state == JOX_JOB_FAILED)
+                return all->jobs[m->jobs[r][s]].failure;
     return NULL;
 }
 
-/* Measures a claim with each seed and computes the verdicts. Runs with fewer seeds repeat
-   theirs. */
-static void measure_claim(const JoxReproduction *all, JoxOutcome *outcome) {
-    const JoxClaim *claim = outcome->claim;
-    const char *failure = find_failure(all, outcome);
+/* Measures the figures of a claim with each seed of its runs, or of its null's, and computes the
+   verdicts. Runs with fewer seeds repeat theirs. Without its cause a figure may not exist: the null
+   may leave it out, and misses its band. */
+static void measure_runs(const JoxReproduction *all, const JoxClaim *claim, JoxMeasured *m) {
+    const char *failure = find_failure(all, claim, m);
     double *values = jox_alloc(claim->figure_count, sizeof *values);
-    double *all_values =
-        jox_alloc((size_t)claim->figure_count * outcome->seeds, sizeof *all_values);
+    double *all_values = jox_alloc((size_t)claim->figure_count * m->seeds, sizeof *all_values);
     const char **folders = jox_alloc(claim->run_count, sizeof *folders);
     JoxText why = {0};
     if (failure)
         jox_text_add(&why, failure);
-    for (uint32_t s = 0; s < outcome->seeds && why.length == 0; s++) {
-        for (uint32_t r = 0; r < claim->run_count; r++) {
-            uint32_t own = claim->runs[r].seeds;
-            folders[r] = all->jobs[outcome->jobs[r][s % own]].folder;
-        }
-        jox_claim_measure(claim, folders, values, &why);
+    for (uint32_t s = 0; s < m->seeds && why.length == 0; s++) {
+        for (uint32_t r = 0; r < claim->run_count; r++)
+            folders[r] = all->jobs[m->jobs[r][s % m->runs[r].seeds]].folder;
+        jox_claim_measure(claim, folders, m->runs == claim->runs, values, &why);
         for (uint32_t f = 0; f < claim->figure_count; f++)
-            all_values[f * outcome->seeds + s] = values[f];
+            all_values[f * m->seeds + s] = values[f];
     }
-    outcome->failure = why.data;
-    outcome->inside = why.length == 0;
+    m->failure = why.data;
     for (uint32_t f = 0; f < claim->figure_count; f++) {
         const JoxClaimFigure *figure = &claim->figures[f];
-        double *of_figure = &all_values[f * outcome->seeds];
-        for (uint32_t s = 0; why.length && s < outcome->seeds; s++)
+        double *of_figure = &all_values[f * m->seeds];
+        for (uint32_t s = 0; why.length && s < m->seeds; s++)
             of_figure[s] = NAN;
-        outcome->verdicts[f] = jox_verdict(of_figure, outcome->seeds, figure->low, figure->high);
-        outcome->inside &= outcome->verdicts[f].inside || figure->reported;
-        outcome->thin |= outcome->verdicts[f].thin && !figure->reported;
+        m->verdicts[f] = jox_verdict(of_figure, m->seeds, figure->low, figure->high);
     }
     jox_free(all_values);
     jox_free(values);
     jox_free(folders);
+}
+
+/* Measures a claim and its null. */
+static void measure_claim(const JoxReproduction *all, JoxOutcome *outcome) {
+    const JoxClaim *claim = outcome->claim;
+    measure_runs(all, claim, &outcome->own);
+    if (claim->null_runs)
+        measure_runs(all, claim, &outcome->null);
+    outcome->inside = !outcome->own.failure;
+    outcome->proves_nothing = claim->null_runs != NULL;
+    for (uint32_t f = 0; f < claim->figure_count; f++) {
+        if (claim->figures[f].reported)
+            continue;
+        outcome->inside &= outcome->own.verdicts[f].inside;
+        outcome->thin |= outcome->own.verdicts[f].thin;
+        outcome->proves_nothing &=
+            outcome->null.failure || !claim->null_runs || outcome->null.verdicts[f].inside;
+    }
 }
 
 /* ---- the call ---- */
@@ -284,12 +306,15 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
     JoxText out = {0};
     jox_text_printf(&out, "%s  %s (%s)%s%s%s\n", claim->id, claim->title, claim->source,
                     *claim->level ? ", " : "", claim->level,
-                    def->list         ? ""
-                    : outcome->inside ? ": in band"
-                                      : ": MISSES");
+                    def->list                 ? ""
+                    : !outcome->inside        ? ": MISSES"
+                    : outcome->proves_nothing ? ": NO EVIDENCE, its null is in band too"
+                                              : ": in band");
+    if (claim->null_text)
+        jox_text_printf(&out, "   null: %s\n", claim->null_text);
     for (uint32_t f = 0; f < claim->figure_count && !def->list; f++) {
         const JoxClaimFigure *figure = &claim->figures[f];
-        const JoxVerdict *v = &outcome->verdicts[f];
+        const JoxVerdict *v = &outcome->own.verdicts[f];
         char bound[JOX_BOUND_SIZE], seeds[JOX_NOUN];
         jox_text_printf(&out, "   %-24s source %-12s measured ", figure->name,
                         *figure->expected ? figure->expected : "-");
@@ -301,25 +326,38 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
         append_figure(&out, v->most);
         jox_text_printf(&out, ", %s) %s", jox_noun(seeds, v->seeds, "seed"), figure->unit);
         if (figure->reported)
-            jox_text_add(&out, ", reported\n");
+            jox_text_add(&out, ", reported");
         else
-            jox_text_printf(&out, ", band %.4g to %.4g: %s%s\n", figure->low, figure->high,
+            jox_text_printf(&out, ", band %.4g to %.4g: %s%s", figure->low, figure->high,
                             v->inside ? "in" : "OUT", v->thin ? ", thin" : "");
+        if (!figure->reported && claim->null_runs) {
+            jox_text_add(&out, "; null ");
+            append_figure(&out, outcome->null.verdicts[f].mean);
+            jox_text_add(&out, outcome->null.verdicts[f].inside ? ", in band too" : ", out");
+        }
+        jox_text_add(&out, "\n");
     }
-    if (outcome->failure)
-        jox_text_printf(&out, "   %s\n", outcome->failure);
+    if (outcome->own.failure)
+        jox_text_printf(&out, "   %s\n", outcome->own.failure);
+    if (outcome->null.failure)
+        jox_text_printf(&out, "   null: %s\n", outcome->null.failure);
     write_message(def, out.data);
     jox_text_free(&out);
+}
+
+static void free_measured(JoxMeasured *m, uint32_t run_count) {
+    for (uint32_t r = 0; m->jobs && r < run_count; r++)
+        jox_free(m->jobs[r]);
+    jox_free(m->jobs);
+    jox_free(m->verdicts);
+    jox_free(m->failure);
 }
 
 static void free_reproduction(JoxReproduction *all) {
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         JoxOutcome *outcome = &all->outcomes[o];
-        for (uint32_t r = 0; outcome->jobs && r < outcome->claim->run_count; r++)
-            jox_free(outcome->jobs[r]);
-        jox_free(outcome->jobs);
-        jox_free(outcome->verdicts);
-        jox_free(outcome->failure);
+        free_measured(&outcome->own, outcome->claim->run_count);
+        free_measured(&outcome->null, outcome->claim->run_count);
         jox_claim_free(outcome->claim);
     }
     for (uint32_t j = 0; j < all->job_count; j++) {
@@ -345,7 +383,7 @@ static bool run_and_measure(JoxReproduction *all, size_t *missed, JoError *error
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         measure_claim(all, &all->outcomes[o]);
         print_outcome(all->def, &all->outcomes[o]);
-        *missed += !all->outcomes[o].inside;
+        *missed += !jox_outcome_holds(&all->outcomes[o]);
     }
     JoxText why = {0}, out = {0};
     const bool good = jox_reproduce_write(all, &why) &&
@@ -355,7 +393,7 @@ static bool run_and_measure(JoxReproduction *all, size_t *missed, JoError *error
     jox_text_printf(&out, "%u of %u claims in band", all->outcome_count - (uint32_t)*missed,
                     all->outcome_count);
     for (uint32_t o = 0, n = 0; o < all->outcome_count; o++)
-        if (!all->outcomes[o].inside)
+        if (!jox_outcome_holds(&all->outcomes[o]))
             jox_text_printf(&out, "%s%s",
                             n++ ? ", " : "; these miss: ", all->outcomes[o].claim->id);
     if (all->left_out.length)

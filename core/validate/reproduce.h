@@ -27,16 +27,34 @@ typedef struct JoxJob {
     char *failure; /* the end of its output, if it failed; else NULL */
 } JoxJob;
 
+/* What a claim's runs, or those of its null, came to. */
+typedef struct JoxMeasured {
+    JoxClaimRun *runs; /* the claim's; NULL: it has no null */
+    /* [run][seed]: index of the job; row r has runs[r].seeds elements */
+    uint32_t **jobs;
+    uint32_t seeds;       /* greatest number of seeds of the runs */
+    JoxVerdict *verdicts; /* per figure */
+    char *failure;        /* reason if it could not be measured, or NULL */
+} JoxMeasured;
+
 /* A claim with its jobs and the verdicts on its figures. */
 typedef struct JoxOutcome {
     JoxClaim *claim;
-    /* [run][seed]: index of the job; row r has claim->runs[r].seeds elements */
-    uint32_t **jobs;
-    uint32_t seeds;       /* greatest number of seeds of its runs */
-    JoxVerdict *verdicts; /* per figure */
-    char *failure;        /* reason if it could not be measured, or NULL */
-    bool inside, thin;    /* all figures are in band; the verdict on a figure is thin */
+    JoxMeasured own, null;
+    bool inside, thin;   /* all figures are in band; the verdict on a figure is thin */
+    bool proves_nothing; /* all figures of the null are in band too */
 } JoxOutcome;
+
+/* Returns whether a claim is in band and its null is not. */
+static inline bool jox_outcome_holds(const JoxOutcome *outcome) {
+    return outcome->inside && !outcome->proves_nothing;
+}
+/* Returns the verdict on a claim in words. */
+static inline const char *jox_outcome_verdict(const JoxOutcome *outcome) {
+    return !outcome->inside          ? "misses"
+           : outcome->proves_nothing ? "no evidence: the null is in band too"
+                                     : "in band";
+}
 
 typedef struct JoxReproduction {
     const JoReproduceDef *def;

@@ -100,15 +100,29 @@ void jox_reproduce_describe_run(const JoxReproduction *all, char *out, size_t si
 
 /* ---- the page ---- */
 
+/* Writes the cell of a figure's null, which is evidence where it is out of the band, and ends the
+   row. */
+static void put_null_figure(FILE *out, const JoxOutcome *outcome, uint32_t f) {
+    const JoxClaimFigure *figure = &outcome->claim->figures[f];
+    if (outcome->null.runs) {
+        const JoxVerdict *v = &outcome->null.verdicts[f];
+        fprintf(out, "<td class=%s>", !figure->reported && v->inside ? "out" : "n");
+        jox_html_number(out, v->mean);
+        fputs(!figure->reported && v->inside ? ", in band too" : "", out);
+    }
+    fputs("</tr>\n", out);
+}
+
 /* Writes a table of a claim's figures with their bands and verdicts. */
 static void put_claim_figures(FILE *out, const JoxOutcome *outcome) {
     fputs("<div class=scroll><table><tr><th>figure<th>source<th>mean<th>95&nbsp;% "
           "bound<th>seeds<th>least "
-          "to most of them<th>band<th>verdict</tr>\n",
+          "to most of them<th>band<th>verdict",
           out);
+    fputs(outcome->null.runs ? "<th>null</tr>\n" : "</tr>\n", out);
     for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
         const JoxClaimFigure *figure = &outcome->claim->figures[f];
-        const JoxVerdict *v = &outcome->verdicts[f];
+        const JoxVerdict *v = &outcome->own.verdicts[f];
         fputs("<tr><td>", out);
         jox_html_text(out, *figure->what ? figure->what : figure->name);
         fputs("<td>", out);
@@ -125,18 +139,19 @@ static void put_claim_figures(FILE *out, const JoxOutcome *outcome) {
         jox_html_number(out, v->most);
         fputs("<td>", out);
         put_band(out, figure, "&ndash;");
-        fprintf(out, "<td class=%s>%s</tr>\n",
+        fprintf(out, "<td class=%s>%s",
                 figure->reported ? "none"
                 : v->inside      ? "in"
                                  : "out",
                 name_verdict(figure, v));
+        put_null_figure(out, outcome, f);
     }
     fputs("</table></div>\n", out);
 }
 
 void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
-    for (uint32_t p = 0; !outcome->failure && p < claim->plot_count; p++) {
+    for (uint32_t p = 0; !outcome->own.failure && p < claim->plot_count; p++) {
         char name[200], link[256];
         jox_reproduce_plot_name(claim, &claim->plots[p], name, sizeof name);
         snprintf(link, sizeof link, "plots/%s.png", name);
@@ -146,7 +161,7 @@ void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const Jox
         for (uint32_t r = 0; r < claim->run_count; r++) {
             if (strcmp(claim->runs[r].name, claim->pictures[p].run) != 0)
                 continue;
-            const JoxJob *job = &all->jobs[outcome->jobs[r][0]];
+            const JoxJob *job = &all->jobs[outcome->own.jobs[r][0]];
             char path[1400];
             struct stat info;
             snprintf(path, sizeof path, "%s/%s", job->folder, claim->pictures[p].file);
@@ -171,7 +186,7 @@ static void put_claim_runs(FILE *out, const JoxReproduction *all, const JoxOutco
     fputs("<details><summary>Runs and their scenes</summary>\n", out);
     for (uint32_t r = 0; r < outcome->claim->run_count; r++) {
         const JoxClaimRun *run = &outcome->claim->runs[r];
-        const JoxJob *job = &all->jobs[outcome->jobs[r][0]];
+        const JoxJob *job = &all->jobs[outcome->own.jobs[r][0]];
         size_t length;
         fputs("<p><b>", out);
         jox_html_text(out, run->name);
@@ -216,8 +231,8 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
     jox_html_text(out, claim->id);
     fputs(": ", out);
     jox_html_text(out, claim->title);
-    fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n<p>", outcome->inside ? "in" : "out",
-            outcome->inside ? "in band" : "misses");
+    fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n<p>",
+            jox_outcome_holds(outcome) ? "in" : "out", jox_outcome_verdict(outcome));
     jox_html_text(out, claim->text);
     fputs("<br><small>Source: ", out);
     jox_html_text(out, claim->source);
@@ -230,10 +245,14 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
         fputs(*claim->calibrated ? "<br>Calibrated: " : "<br>Held out: ", out);
         jox_html_text(out, *claim->calibrated ? claim->calibrated : claim->held_out);
     }
+    if (claim->null_text) {
+        fputs("<br>Null, which must miss a band: ", out);
+        jox_html_text(out, claim->null_text);
+    }
     fputs("</small></p>\n", out);
-    if (outcome->failure) {
+    if (outcome->own.failure) {
         fputs("<pre class=out>", out);
-        jox_html_text(out, outcome->failure);
+        jox_html_text(out, outcome->own.failure);
         fputs("</pre>\n", out);
     }
     put_claim_figures(out, outcome);
@@ -270,7 +289,7 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
     if (!out)
         return false;
     for (uint32_t o = 0; o < all->outcome_count; o++)
-        inside += all->outcomes[o].inside;
+        inside += jox_outcome_holds(&all->outcomes[o]);
     jox_html_begin(out, "What Jostle reproduces");
     fprintf(out, "<p>%u of %u claims in band. ", inside, all->outcome_count);
     jox_html_text(out, when);
@@ -283,8 +302,8 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
         jox_html_text(out, outcome->claim->title);
         fputs("<td>", out);
         jox_html_text(out, outcome->claim->source);
-        fprintf(out, "<td class=%s>%s</tr>\n", outcome->inside ? "in" : "out",
-                outcome->inside ? "in band" : "misses");
+        fprintf(out, "<td class=%s>%s</tr>\n", jox_outcome_holds(outcome) ? "in" : "out",
+                jox_outcome_verdict(outcome));
     }
     fputs("</table></div>\n", out);
     for (uint32_t o = 0; o < all->outcome_count; o++)
@@ -310,13 +329,13 @@ static bool write_claims_table(const JoxReproduction *all, const char *when, Jox
     jox_quote_put(out, jox_quote_markdown, when);
     fputs(
         ".\n\n| claim | haste | constants | figure | source | mean | 95 % | seeds | band | verdict "
-        "|\n|---|---|---|---|---|---|---|---|---|---|\n",
+        "| null |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
         out);
     for (uint32_t o = 0; o < all->outcome_count; o++)
         for (uint32_t f = 0; f < all->outcomes[o].claim->figure_count; f++) {
             const JoxClaim *claim = all->outcomes[o].claim;
             const JoxClaimFigure *figure = &claim->figures[f];
-            const JoxVerdict *v = &all->outcomes[o].verdicts[f];
+            const JoxVerdict *v = &all->outcomes[o].own.verdicts[f];
             char bound[JOX_BOUND_SIZE];
             fputs("| ", out);
             jox_quote_put(out, jox_quote_markdown, f ? "" : claim->id);
@@ -338,7 +357,13 @@ static bool write_claims_table(const JoxReproduction *all, const char *when, Jox
             jox_bound_write(bound, v->bound);
             fprintf(out, "%s | %u | ", bound, v->seeds);
             put_band(out, figure, "");
-            fprintf(out, " | %s |\n", name_verdict(figure, v));
+            fprintf(out, " | %s | ", name_verdict(figure, v));
+            if (all->outcomes[o].null.runs)
+                fprintf(out, "%.4g%s", all->outcomes[o].null.verdicts[f].mean,
+                        !figure->reported && all->outcomes[o].null.verdicts[f].inside
+                            ? ", in band too"
+                            : "");
+            fputs(" |\n", out);
         }
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxClaim *claim = all->outcomes[o].claim;
@@ -365,9 +390,10 @@ static bool write_claims_json(const JoxReproduction *all, JoxText *error) {
         const JoxOutcome *outcome = &all->outcomes[o];
         jox_json_object(&json, outcome->claim->id);
         jox_json_bool(&json, "inside", outcome->inside);
+        jox_json_bool(&json, "proves_nothing", outcome->proves_nothing);
         jox_json_object(&json, "figures");
         for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
-            const JoxVerdict *v = &outcome->verdicts[f];
+            const JoxVerdict *v = &outcome->own.verdicts[f];
             jox_json_object(&json, outcome->claim->figures[f].name);
             jox_json_number(&json, "mean", v->mean);
             jox_json_number(&json, "least", v->least);
@@ -376,6 +402,8 @@ static bool write_claims_json(const JoxReproduction *all, JoxText *error) {
             jox_json_integer(&json, "seeds", v->seeds);
             jox_json_bool(&json, "thin", v->thin);
             jox_json_bool(&json, "inside", v->inside);
+            if (outcome->null.runs)
+                jox_json_number(&json, "null", outcome->null.verdicts[f].mean);
             jox_json_end(&json);
         }
         jox_json_end(&json);

@@ -35,7 +35,7 @@ static void write_claim_curves(const JoxOutcome *outcome, const JoxClaimPlot *pl
         const JoxClaimCurve *curve = &plot->curves[c];
         for (uint32_t p = 0; p < curve->count; p++) {
             const JoxClaimPoint *point = &curve->points[p];
-            const JoxVerdict *v = &outcome->verdicts[point->figure];
+            const JoxVerdict *v = &outcome->own.verdicts[point->figure];
             const JoxClaimFigure *figure = &outcome->claim->figures[point->figure];
             put_plot_number(out, point->x);
             if (curve->kind == JOX_CURVE_FIGURES) {
@@ -141,7 +141,7 @@ static const JoxVerdict *find_cell_verdict(const JoxOutcome *outcome, const JoxC
                                            double x, double y) {
     for (uint32_t p = 0; p < map->count; p++)
         if (map->points[p].x == x && map->points[p].y == y)
-            return &outcome->verdicts[map->points[p].figure];
+            return &outcome->own.verdicts[map->points[p].figure];
     return NULL;
 }
 
@@ -176,8 +176,8 @@ static void write_map_plot(const JoxOutcome *outcome, const JoxClaimPlot *plot, 
     double x[MOST_CELLS], y[MOST_CELLS], least = INFINITY, most = -INFINITY;
     uint32_t columns = list_axis_values(map, false, x), rows = list_axis_values(map, true, y);
     for (uint32_t p = 0; p < map->count; p++) {
-        least = fmin(least, outcome->verdicts[map->points[p].figure].mean);
-        most = fmax(most, outcome->verdicts[map->points[p].figure].mean);
+        least = fmin(least, outcome->own.verdicts[map->points[p].figure].mean);
+        most = fmax(most, outcome->own.verdicts[map->points[p].figure].mean);
     }
     put_ticks(out, 'x', x, columns);
     put_ticks(out, 'y', y, rows);
@@ -237,7 +237,7 @@ bool jox_reproduce_draw_plots(const JoxReproduction *all, JoxText *error) {
     bool good = true;
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
-        for (uint32_t p = 0; good && !outcome->failure && p < outcome->claim->plot_count; p++)
+        for (uint32_t p = 0; good && !outcome->own.failure && p < outcome->claim->plot_count; p++)
             good = jox_plot_folder(folder.data, error) &&
                    draw_claim_plot(outcome, &outcome->claim->plots[p], folder.data, error);
     }

@@ -92,7 +92,7 @@ static void put_standards_summary(FILE *out, const JoxReproduction *all) {
         for (uint32_t o = 0; o < all->outcome_count; o++)
             if (is_test_of(all->outcomes[o].claim, &STANDARDS[s])) {
                 tests++;
-                passes += all->outcomes[o].inside;
+                passes += jox_outcome_holds(&all->outcomes[o]);
             }
         jox_html_row(out);
         jox_html_cell(out, STANDARDS[s].name);
@@ -129,7 +129,7 @@ static void put_overview(FILE *out, const JoxReproduction *all) {
         put_ids(out, outcome->claim);
         fputs("</a>", out);
         jox_html_cell(out, outcome->claim->title);
-        put_test_verdict(out, outcome->inside, outcome->inside && outcome->thin);
+        put_test_verdict(out, jox_outcome_holds(outcome), outcome->inside && outcome->thin);
     }
     jox_html_table_end(out);
 }
@@ -156,20 +156,21 @@ static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     const JoxClaim *claim = outcome->claim;
     fprintf(out, "<h2 id=\"t%u\">", (unsigned)(outcome - all->outcomes));
     jox_html_text(out, claim->title);
-    fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n", outcome->inside ? "in" : "out",
-            outcome->inside ? "passes" : "fails");
+    fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n",
+            jox_outcome_holds(outcome) ? "in" : "out",
+            jox_outcome_holds(outcome) ? "passes" : "fails");
     jox_html_paragraph(out, claim->text);
     fputs("<p><small>Source: ", out);
     jox_html_text(out, claim->source);
     fputs(".<br>Haste of the people: ", out);
     jox_html_text(out, *claim->level ? claim->level : "as the scene says");
     fputs(".</small></p>\n", out);
-    if (outcome->failure)
-        jox_html_paragraph(out, outcome->failure);
+    if (outcome->own.failure)
+        jox_html_paragraph(out, outcome->own.failure);
     put_test_plan(out, all, outcome);
     jox_html_table(out, "figure|criterion|mean|95 % bound|95 % of runs|most|runs|verdict");
     for (uint32_t f = 0; f < claim->figure_count; f++)
-        put_test_figure(out, &claim->figures[f], &outcome->verdicts[f]);
+        put_test_figure(out, &claim->figures[f], &outcome->own.verdicts[f]);
     jox_html_table_end(out);
     jox_reproduce_put_pictures(out, all, outcome);
 }

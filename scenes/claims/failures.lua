@@ -9,6 +9,7 @@ return claim {
   calibrated = "how often people plan and how fast they follow, 0.05 s both, were chosen on it and on claim 12; the "
     .. "runner's push on claim 1",
   runs = { dt010 = run(0.01), dt020 = run(0.02), dt050 = run(0.05), dt100 = run(0.1), dt200 = run(0.2) },
+  null = { text = "the equations as printed, which act within a step of whatever length", set = { ["forces.mode"] = "literal" } },
   measure = function(run)
     local function peak(name) return run[name].summary.probes.solved.peak end
     return { peak_01 = peak("dt010"), peak_02 = peak("dt020"), peak_05 = peak("dt050"), peak_10 = peak("dt100"),

@@ -30,6 +30,7 @@ return claim {
     coarse = { scene = "../push-row.yaml", dt = 0.05, seeds = 1 },
     wall = { scene = "../push-row-wall.yaml", seeds = 1 },
   },
+  null = { text = "forces off", set = { ["forces.enabled"] = false } },
   measure = function(run)
     local free, wall = run.free.csv("row").peak, run.wall.csv("row").peak
     return {

@@ -16,6 +16,7 @@ return claim {
     s1 = run(1, 240), s2 = run(2, 120), s3 = run(3, 60), s4 = run(4, 30), s5 = run(6, 15),
   },
   quick = { s1 = { seeds = 4 }, s2 = { seeds = 4 }, s3 = { seeds = 4 }, s4 = { seeds = 4 }, s5 = { seeds = 4 } },
+  null = { text = "the same perception and push in all five steps", set = { ["groups.walker.set.perception"] = 3, ["groups.walker.set.push"] = 60 } },
   measure = function(run)
     local function transit(name) return run[name].summary.probes.passage.mean end
     local function moved(name) return 100 * run[name].summary.probes.standing.mean end

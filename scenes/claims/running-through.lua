@@ -37,6 +37,7 @@ return claim {
     s55 = run(0.55, "block", true), s55_without = run(0.55, "block", false),
     s60 = run(0.6, "block_60", true), s60_without = run(0.6, "block_60", false),
   },
+  null = { text = "forces off in the runs with forces too", set = { ["forces.enabled"] = false } },
   measure = function(run)
     local function mean(name) return run[name].summary.probes.standing.mean end
     return {

@@ -18,6 +18,7 @@ return claim {
   calibrated = "how often people plan and how fast they follow, 0.05 s both, were chosen on it and on claim 11; the "
     .. "runner's push on claim 1",
   runs = { dt010 = run(0.01), dt020 = run(0.02), dt050 = run(0.05), dt100 = run(0.1), dt200 = run(0.2) },
+  null = { text = "the equations as printed, which act within a step of whatever length", set = { ["forces.mode"] = "literal" } },
   measure = function(run)
     return {
       moved_02 = against(run, moved, run.dt020), moved_05 = against(run, moved, run.dt050),

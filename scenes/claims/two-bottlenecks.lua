@@ -32,6 +32,7 @@ return claim {
     fine = { seeds = 1 }, fine_without = { seeds = 1 }, finest = { seeds = 1 }, finest_without = { seeds = 1 },
     coarse = { seeds = 1 }, coarse_without = { seeds = 1 },
   },
+  null = { text = "forces off in the runs with forces too", set = { ["forces.enabled"] = false }, seeds = 1 },
   measure = function(run)
     local with, fine = run.with.summary, run.fine.summary
     return {

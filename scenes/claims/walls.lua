@@ -24,6 +24,7 @@ return claim {
     .. "figures, and so were the mass of the blocks and the strength of their bonds",
   runs = { breaking = run("wall-breaking", 3), tight = run("wall-tight", 3), heavy = run("wall-heavy", 3) },
   quick = { breaking = { duration = 60 }, tight = { seeds = 1 }, heavy = { duration = 90 } },
+  null = { text = "forces off", set = { ["forces.enabled"] = false }, seeds = 1 },
   measure = function(run)
     local breaking, tight, heavy = run.breaking.summary.bonds, run.tight.summary.bonds, run.heavy.summary.bonds
     local near, far = run.heavy.csv("behind_6"), run.heavy.csv("behind_8")

@@ -70,6 +70,33 @@ awk '$1 == 1.25 && NF == 6 && $2 > 7.9 && $3 <= $2 && $4 >= $2 && $5 == 7.9 && $
 deviation() { grep -o "<td>$1<td class=n>$2<td><code>$3</code><td>[^<]*$4<td><a href=\"#c0\">G</a>" "$work/rep/index.html" | grep -q .; }
 deviation speed "1.3&nbsp;m/s" 0.5 "walk.yaml, group walker" && deviation time_gap "0&nbsp;s" crowd.time_gap "behaviours/walker.lua" && ! deviation mass ".*" ".*" ".*"; verdict "the page lists exactly the settings of scenes and behaviours" $?
 
+
+# ---- nulls ----
+mkdir -p "$work/nulls"
+write_null_claim() { # NAME, the null's settings
+    cat >"$work/nulls/$1.lua" <<CLAIM
+return claim {
+  id = "$1", title = "It walks", source = "nobody", runs = { walk = { scene = "../walk.yaml", seeds = 2 } },
+  null = { text = "another $1", set = { ["groups.walker.set.$1"] = $2 } },
+  measure = function(run) return { time = run.walk.summary.probes.way.mean, rows = run.walk.csv("line").n } end,
+  expect = { { "time", unit = "s", band = { 7.9, 8.1 } }, { "rows", band = { 1, 1 } } },
+}
+CLAIM
+}
+write_null_claim speed 1
+write_null_claim mass 80
+nulls=("$JOSTLE" reproduce --claims "$work/nulls" --out "$work/null" --quiet)
+expect "a claim whose null misses a band is in band" 0 "nobody): in band" "${nulls[@]}" speed
+says "the null's figure stands beside the claim's" "null 10, out"
+says "and a figure that the null meets is marked" "null 1, in band too"
+expect "a claim whose null is in band proves nothing" 1 "NO EVIDENCE, its null is in band too" "${nulls[@]}"
+says "and counts as missed" "1 of 2 claims in band; these miss: mass"
+grep -q "Null, which must miss a band: another speed" "$work/null/index.html" && grep -q "<td class=out>1, in band too" "$work/null/index.html"
+verdict "the page shows both" $?
+grep -q '"proves_nothing": true' "$work/null/results.json" && grep -Eq '"null": (10|9.99)' "$work/null/results.json"; verdict "results.json has them" $?
+sed -i 's/set = {/sets = {/' "$work/nulls/mass.lua"
+expect "a misspelt key of null is an error" 3 "null has no 'sets'; did you mean 'set'?" "${nulls[@]}"
+
 # ---- what is done is not done again ----
 stamps() { stat -c '%Y.%y %n' "$work"/rep/runs/*/summary.json | sort; }
 runs() { "$JOSTLE" reproduce --claims "$work/claims" --out "$work/rep" "$@" 2>&1 >/dev/null | tail -1; }

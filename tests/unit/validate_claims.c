@@ -33,7 +33,7 @@ static bool measure_body(const char *body, double values[3], JoxText *why) {
     assert_non_null(claim);
     assert_int_equal(claim->run_count, 1);
     assert_int_equal(claim->figure_count, 3);
-    bool good = jox_claim_measure(claim, (const char *const[]){test_folder}, values, why);
+    bool good = jox_claim_measure(claim, (const char *const[]){test_folder}, true, values, why);
     jox_claim_free(claim);
     jox_diag_free(&diagnostics);
     return good;
