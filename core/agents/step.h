@@ -41,7 +41,7 @@ static inline JoxTiming jox_timing_at_once(double dt) {
 typedef struct JoxStep {
     JoxTiming timing;
     JoxAgents *agents;
-    const JoxNeighbours *neighbours;  /* of the agents as they stood before they move */
+    const JoxNeighbours *neighbours;  /* found before the agents move */
     const struct JoxObjects *objects; /* bodies; NULL: none */
     const JoxContactPlanes *touched;  /* of the last force stages; NULL: none */
     struct JoxPool *pool;             /* NULL: the calling thread does it all */

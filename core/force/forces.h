@@ -105,7 +105,7 @@ static inline uint32_t jox_most_chunk_agents(const JoxForces *f) {
     const uint32_t count = f->step.agents->count;
     return count < JOX_FORCE_GRAIN ? count : JOX_FORCE_GRAIN;
 }
-/* literal_contacts.c: the equations as printed. (5): returns the direction of a push, from where
+/* literal.c: the equations as printed. (5): returns the direction of a push, from where
    the pusher will be to the target's centre. */
 JoxV2 jox_literal_push_offset(const JoxForces *forces, uint32_t pusher, JoxV2 to_centre);
 /* (10) to (12): writes agent i's net force, half-plane and speed limit. */

@@ -1,5 +1,5 @@
 /* Which agents a force can reach: those in a cone, with no wall between. push/ and
-   literal_contacts.c call it. */
+   literal.c call it. */
 #include "base/assert.h"
 #include "force/forces.h"
 

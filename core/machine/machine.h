@@ -39,7 +39,7 @@ enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
       "of `haste`", a->eager[i])                                                                   \
     X(pushed, pushed, "N", "magnitude of the net force on the agent",                              \
       jox_length((JoxV2){a->force_x[i], a->force_y[i]}))                                           \
-    X(compression, compression, "N/m", "sum of contact force magnitudes, divided by the girth",      \
+    X(compression, compression, "N/m", "sum of contact force magnitudes, divided by the circumference",      \
       a->compression[i])                                                                           \
     X(load, load, "N", JOX_LOAD_MEANING, a->load[i])                                               \
     X(contacts, contacts, "", "agents and bodies touched", a->contacts[i])                         \

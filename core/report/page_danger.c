@@ -116,9 +116,10 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
     }
     if (jox_danger_has_measure(danger, JOX_DANGER_COMPRESSION))
         jox_html_paragraph(
-            out, "Compression is another quantity: the sum of the magnitudes of all contact forces "
-                 "over the girth 2 pi r, held likewise. It cannot be turned into a load and is "
-                 "compared with no limit.");
+            out,
+            "Compression is another quantity: the sum of the magnitudes of all contact forces "
+            "over the circumference 2 pi r, held likewise. It cannot be turned into a load and is "
+            "compared with no limit.");
     else
         jox_html_paragraph(out, "Compression was not measured.");
 }

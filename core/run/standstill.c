@@ -21,7 +21,7 @@ enum { CROWD = 10, FEW = 3, CANDIDATES = 64 };
    last look; judged if the next agrees, as ways through gates are found a little later. CLEARED:
    judged, and there is one for people as broad as these. TOLD: judged, and reported. */
 typedef enum NoWay { LEADS, SEEMS_SHUT, CLEARED, TOLD } NoWay;
-/* What the people bound for a place do at a look: nobody goes there; some walk there; some wait
+/* State of a place at a look. NOBODY: it is nobody's goal. GO: people walk there. WAIT: some wait
    for a gate or body that shuts their way. */
 typedef enum Waits { NOBODY, GO, WAIT } Waits;
 static const float WIDEST_ROUTE_RADIUS =

@@ -89,8 +89,8 @@ void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics) {
 /* Looks at the people who are there at the start and at one more for each source, before the
    first step of a world that never steps. */
 
-enum { MOST_GOALS = 64 };  /* of one agent */
-enum { MOST_PLACES = 64 }; /* checked: bits of a mask */
+enum { MOST_GOALS = 64 };  /* most goals that one agent has */
+enum { MOST_PLACES = 64 }; /* most places that are checked: bits of a mask */
 
 /* Places that are goals, and the goals of each agent. */
 typedef struct Goals {

@@ -27,7 +27,7 @@ typedef struct JoxJob {
     char *failure; /* the end of its output, if it failed; else NULL */
 } JoxJob;
 
-/* What a claim's runs, or those of its null, came to. */
+/* The runs of a claim, or of its null, with their jobs and the figures measured from them. */
 typedef struct JoxMeasured {
     JoxClaimRun *runs; /* the claim's; NULL: it has no null */
     /* [run][seed]: index of the job; row r has runs[r].seeds elements */

@@ -291,7 +291,7 @@ eagerness = nil
 ---@type jostle.Number
 pushed = nil
 
---- `compression` in N/m: sum of contact force magnitudes, divided by the girth
+--- `compression` in N/m: sum of contact force magnitudes, divided by the circumference
 ---@type jostle.Number
 compression = nil
 

@@ -64,7 +64,8 @@ int main(int argc, char **argv) {
         return 1;
     jo_world_walls(world, walls, count);
     Canvas canvas = {.low = {INFINITY, INFINITY}, .size = {-INFINITY, -INFINITY}};
-    for (uint32_t k = 0; k < 4 * count; k++) { /* what the walls span; first their greatest */
+    for (uint32_t k = 0; k < 4 * count;
+         k++) { /* the extent of the walls; `size` holds the greatest corner until the end */
         canvas.low[k % 2] = fmin(canvas.low[k % 2], walls[k] - 0.5);
         canvas.size[k % 2] = fmax(canvas.size[k % 2], walls[k] + 0.5);
     }

@@ -2,10 +2,10 @@
    are solved.
 
    Compression is the sum of |f.n| over all contacts of an agent, with agents, walls and bodies,
-   divided by the girth 2 pi r, N/m. Load is the greatest, over all directions d, of the sum of the
-   positive parts of f.d: the force that the agent bears from one side, N. An agent held between two
-   forces of 600 N has a load of 600 N. Pushes received and given count as contacts; external
-   forces, and forces passed on (equations 8 and 9), do not. */
+   divided by the circumference 2 pi r, N/m. Load is the greatest, over all directions d, of the sum
+   of the positive parts of f.d: the force that the agent bears from one side, N. An agent held
+   between two forces of 600 N has a load of 600 N. Pushes received and given count as contacts;
+   external forces, and forces passed on (equations 8 and 9), do not. */
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
    - density: people per m2 by the Gaussian kernel, R = 1 m, within the walls (fields/density.h)
    - Voronoi density: one over the area of a person's cell within 1 m (fields/voronoi_people.h)
    - pressure: crowd pressure, 1/s2 (fields/pressure.h), where it is measured
-   - compression: sum of the contact force magnitudes on a person over the girth, N/m
+   - compression: sum of the contact force magnitudes on a person over the circumference, N/m
    - load: greatest push on a person from any one direction, N: over directions d, the greatest sum
      of the positive parts of f.d over the contacts f. Published limits for chests are such forces
    - dose: accumulated load, as a share of the time until death is estimated (jox_danger_dose_text)

@@ -109,7 +109,7 @@ typedef struct JoxOwner {
     size_t name_offset;         /* char *: its name, the key of the parent's map */
     size_t position_offset;     /* JoxPosition: where the map stands in the file */
     const char *hint;           /* how to write one, for errors */
-    const char *reserved_names; /* names that it cannot have: "this|that"; NULL: none */
+    const char *reserved_names; /* reserved names: "this|that"; NULL: none */
     /* Called when all keys of a map are read: checks and completes what several keys say together.
        `good`: each key alone is right. Returns whether to keep the item. NULL: kept if good. */
     bool (*finish)(const JoxReader *reader, const JoxYaml *map, void *item, bool good);
