@@ -253,10 +253,10 @@ void jox_claim_free(JoxClaim *claim) {
         jox_free(claim->tried[t]);
     jox_claim_free_plots(claim);
     jox_claim_free_run(&claim->spare);
-    void *owned[] = {claim->null_runs, claim->null_text, claim->runs,       claim->figures,
-                     claim->pictures,  claim->path,      claim->id,         claim->also,
-                     claim->title,     claim->level,     claim->calibrated, claim->held_out,
-                     claim->source,    claim->text,      claim->tried};
+    void *owned[] = {claim->null_runs, claim->null_text, claim->no_null, claim->runs,
+                     claim->figures,   claim->pictures,  claim->path,    claim->id,
+                     claim->also,      claim->title,     claim->level,   claim->calibrated,
+                     claim->held_out,  claim->source,    claim->text,    claim->tried};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++)
         jox_free(owned[k]);
     jox_script_free(claim->code->script);

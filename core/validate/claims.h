@@ -68,6 +68,7 @@ typedef struct JoxClaim {
        must miss the band of some figure. null_runs[r] belongs to runs[r]; both NULL: no null. */
     char *null_text;
     JoxClaimRun *null_runs;
+    char *no_null; /* why there is no null; "" if there is one, or no word of it */
     JoxClaimFigure *figures;
     JoxClaimPicture *pictures;
     JoxClaimPlot *plots;

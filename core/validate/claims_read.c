@@ -36,14 +36,29 @@ static const char **list_text_keys(lua_State *L, uint32_t *count) {
     return keys;
 }
 
-/* Reads `set` of the run on top: a table of PATH = VALUE. */
-static void read_sets(lua_State *L, JoxClaimRun *run) {
+/* Adds a setting "PATH=VALUE" to a run, in place of one of the same path. */
+static void put_set(JoxClaimRun *run, char *set) {
+    const size_t length = strcspn(set, "=") + 1;
+    for (uint32_t s = 0; s < run->set_count; s++)
+        if (strncmp(run->sets[s], set, length) == 0) {
+            jox_free(run->sets[s]);
+            run->sets[s] = set;
+            return;
+        }
+    run->sets[run->set_count++] = set;
+}
+
+/* Reads `set` of the run on top: a table of PATH = VALUE, which are put to those of `base`. */
+static void read_sets(lua_State *L, const JoxClaimRun *base, JoxClaimRun *run) {
     int top = lua_gettop(L), type = lua_getfield(L, -1, "set");
     if (type != LUA_TTABLE && type != LUA_TNIL)
         luaL_error(L, "run '%s': set = { [\"groups.people.count\"] = 100 }", run->name);
     uint32_t count = 0;
     const char **keys = type == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
-    run->sets = jox_alloc(count + 1, sizeof *run->sets);
+    const uint32_t base_count = base ? base->set_count : 0;
+    run->sets = jox_alloc(base_count + count + 1, sizeof *run->sets);
+    for (uint32_t s = 0; s < base_count; s++)
+        put_set(run, jox_strdup(base->sets[s]));
     for (uint32_t k = 0; k < count; k++) {
         int kind = lua_getfield(L, -1, keys[k]);
         if (kind != LUA_TBOOLEAN && kind != LUA_TNUMBER && kind != LUA_TSTRING)
@@ -54,7 +69,7 @@ static void read_sets(lua_State *L, JoxClaimRun *run) {
                             : lua_toboolean(L, -1) ? "true"
                                                    : "false";
         jox_text_printf(&text, "%s=%s", keys[k], value);
-        run->sets[run->set_count++] = text.data;
+        put_set(run, text.data);
         lua_pop(L, 1);
     }
     lua_settop(L, top);
@@ -75,8 +90,8 @@ static void read_seeds(lua_State *L, const char *what, const JoxClaimRun *base, 
     lua_pop(L, 1);
 }
 
-/* Reads the run on top of the stack. For a run of `quick`, `base` supplies what it leaves out;
-   else NULL. */
+/* Reads the run on top of the stack. For a run of `quick` or `null`, `base` supplies what it
+   leaves out, and settings of other paths; else NULL. */
 static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *base,
                      JoxClaimRun *run) {
     static const char *const KEYS[] = {"scene", "seeds", "duration", "dt", "set", "first"};
@@ -98,12 +113,7 @@ static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *bas
     run->first = read_bool_field(L, "first") || (base && base->first);
     if (run->duration < 0.0 || run->dt < 0.0)
         luaL_error(L, "%s: duration and dt are not negative", what);
-    read_sets(L, run);
-    if (!base || run->set_count || !base->set_count)
-        return;
-    run->sets = jox_realloc(run->sets, base->set_count, sizeof *run->sets);
-    for (uint32_t s = 0; s < base->set_count; s++)
-        run->sets[run->set_count++] = jox_strdup(base->sets[s]);
+    read_sets(L, base, run);
 }
 
 void jox_claim_free_run(JoxClaimRun *run) {
@@ -200,10 +210,14 @@ static void check_null_names(lua_State *L, const JoxClaim *claim) {
     lua_settop(L, top);
 }
 
-/* Reads `null`: what each run is without the cause of the result. */
+/* Reads `null`: what each run is without the cause of the result; or `no_null`: why there is none.
+ */
 static void read_null(lua_State *L, JoxClaim *claim, bool quick) {
     static const char *const KEYS[] = {"text", "set", "runs", "seeds"};
+    claim->no_null = jox_claim_read_text(L, "a claim", "no_null", false);
     int top = lua_gettop(L), type = lua_getfield(L, -1, "null");
+    if (type != LUA_TNIL && *claim->no_null)
+        luaL_error(L, "a claim has a null, or no_null = \"why there is none\", not both");
     if (type == LUA_TNIL) {
         lua_settop(L, top);
         return;
@@ -329,8 +343,8 @@ static void read_level_and_calibration(lua_State *L, JoxClaim *claim) {
 /* The Lua function claim { ... }: reads the table and keeps only the function `measure`. */
 static int read_claim(lua_State *L) {
     static const char *const KEYS[] = {
-        "id",   "also",  "title", "source",  "text",   "level", "calibrated", "held_out",
-        "runs", "quick", "null",  "measure", "expect", "plots", "pictures",   "tried"};
+        "id",    "also", "title",   "source",  "text",   "level", "calibrated", "held_out", "runs",
+        "quick", "null", "no_null", "measure", "expect", "plots", "pictures",   "tried"};
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle claim");
     JoxClaim *claim = lua_touserdata(L, -1);
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle quick");

@@ -163,18 +163,18 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
 /* ---- runs ---- */
 
 /* Returns the index of the job of a run and seed, which is added unless there is an equal one.
-   `pictures`: it writes a report, which takes time. */
+   `pictures`: it writes a report too, which takes time. */
 static uint32_t add_run_job(JoxReproduction *all, const JoxClaimRun *run, uint64_t seed,
                             bool pictures) {
     JoxText key = {0}, folder = {0};
     char hash[65];
-    jox_text_printf(&key, "%s\n%s\nseed %llu\ndt %.9g\nduration %.9g\npictures %d\n",
-                    all->program_sha256, run->scene, (unsigned long long)seed, run->dt,
-                    run->duration, pictures);
+    jox_text_printf(&key, "%s\n%s\nseed %llu\ndt %.9g\nduration %.9g\n", all->program_sha256,
+                    run->scene, (unsigned long long)seed, run->dt, run->duration);
     for (uint32_t s = 0; s < run->set_count; s++)
         jox_text_printf(&key, "set %s\n", run->sets[s]);
     for (uint32_t j = 0; j < all->job_count; j++)
         if (strcmp(all->jobs[j].key, key.data) == 0) {
+            all->jobs[j].pictures |= pictures;
             jox_text_free(&key);
             return j;
         }
@@ -312,6 +312,8 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
                                               : ": in band");
     if (claim->null_text)
         jox_text_printf(&out, "   null: %s\n", claim->null_text);
+    if (*claim->no_null)
+        jox_text_printf(&out, "   no null: %s\n", claim->no_null);
     for (uint32_t f = 0; f < claim->figure_count && !def->list; f++) {
         const JoxClaimFigure *figure = &claim->figures[f];
         const JoxVerdict *v = &outcome->own.verdicts[f];

@@ -249,6 +249,10 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
         fputs("<br>Null, which must miss a band: ", out);
         jox_html_text(out, claim->null_text);
     }
+    if (*claim->no_null) {
+        fputs("<br>No null: ", out);
+        jox_html_text(out, claim->no_null);
+    }
     fputs("</small></p>\n", out);
     if (outcome->own.failure) {
         fputs("<pre class=out>", out);

@@ -75,10 +75,17 @@ static bool has_same_inputs(const char *summary) {
     return read && inputs.any && inputs.hold;
 }
 
-/* Returns whether an earlier call did this job with the same program and files. */
+/* Ends the run.txt of a job that wrote its report with pictures. */
+static const char PICTURES[] = "pictures\n";
+
+/* Returns whether an earlier call did this job with the same program and files, and with its
+   pictures if it needs them. */
 static bool is_done_before(const JoxJob *job) {
     char *key = read_job_file(job, "run.txt"), *summary = read_job_file(job, "summary.json");
-    bool there = key && summary && strcmp(key, job->key) == 0 && has_same_inputs(summary);
+    const size_t length = strlen(job->key);
+    bool there = key && summary && strncmp(key, job->key, length) == 0 &&
+                 (strcmp(key + length, PICTURES) == 0 || (!key[length] && !job->pictures)) &&
+                 has_same_inputs(summary);
     jox_free(key);
     jox_free(summary);
     return there;
@@ -162,7 +169,7 @@ static void finish_job(JoxJob *job, int status) {
         char *path = make_job_path(job, "run.txt");
         FILE *file = jox_file_replace(path);
         if (file) {
-            fputs(job->key, file);
+            fprintf(file, "%s%s", job->key, job->pictures ? PICTURES : "");
             jox_file_close(file);
         }
         jox_free(path);

@@ -94,6 +94,28 @@ says "and counts as missed" "1 of 2 claims in band; these miss: mass"
 grep -q "Null, which must miss a band: another speed" "$work/null/index.html" && grep -q "<td class=out>1, in band too" "$work/null/index.html"
 verdict "the page shows both" $?
 grep -q '"proves_nothing": true' "$work/null/results.json" && grep -Eq '"null": (10|9.99)' "$work/null/results.json"; verdict "results.json has them" $?
+cat >"$work/nulls/speed.lua" <<'CLAIM'
+return claim {
+  id = "pair", title = "They walk", source = "nobody", pictures = { slow = { "paths.png" } },
+  runs = {
+    slow = { scene = "../walk.yaml", seeds = 1, set = { ["groups.walker.set.speed"] = 0.8, ["groups.walker.set.mass"] = 60 } },
+    fast = { scene = "../walk.yaml", seeds = 1 },
+  },
+  null = { text = "nobody is slow", runs = { slow = { set = { ["groups.walker.set.speed"] = 1.25 } } } },
+  measure = function(run) return { time = run.slow.summary.probes.way.mean, fast = run.fast.summary.probes.way.mean } end,
+  expect = { { "time", unit = "s", band = { 12, 13 } }, { "fast", unit = "s", band = { 7.9, 8.1 } } },
+}
+CLAIM
+"${nulls[@]}" pair --fresh --out "$work/pair" >"$work/out" 2>&1
+says "a null may change one run alone" "null 8, out"
+[ "$(ls "$work/pair/runs" | wc -l)" = 3 ]; verdict "and shares the others with the claim" $?
+[ "$(cat "$work"/pair/runs/*/run.txt | grep -c 'mass=60')" = 2 ]; verdict "and keeps what else the claim sets" $?
+sed -i 's/null = { .*/no_null = "all of them <walk>",/' "$work/nulls/speed.lua"
+expect "a claim may say why it has no null" 0 "no null: all of them <walk>" "${nulls[@]}" pair
+grep -q "No null: all of them &lt;walk&gt;" "$work/null/index.html"; verdict "and the page says it" $?
+sed -i 's/no_null = /null = { text = "slow" }, no_null = /' "$work/nulls/speed.lua"
+expect "a null and a reason for none are an error" 3 'or no_null = "why there is none", not both' "${nulls[@]}" pair
+sed -i 's/null = { text = "slow" }, //' "$work/nulls/speed.lua"
 sed -i 's/set = {/sets = {/' "$work/nulls/mass.lua"
 expect "a misspelt key of null is an error" 3 "null has no 'sets'; did you mean 'set'?" "${nulls[@]}"
 
