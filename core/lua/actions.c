@@ -149,12 +149,13 @@ void jox_read_actions(JoxBuild *b, int index, const char *path, JoxActions *acti
 }
 
 /* Reads a kick or throw: { body, at = target, VALUE = number }; returns the target of the body or
-   -1. */
+   -1. Further keys that the action has are accepted and not read. */
 static int16_t read_body_action(JoxBuild *b, int index, const char *path, const char *action,
                                 const JoxParameterInfo *info, int16_t *at, JoxValue *value) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && info->least < info->greatest);
-    const char *keys[] = {"at", info->name};
+    const char *keys[4];
+    const size_t key_count = jox_table_key_names(action, false, keys, 4);
     char full[256], part[256], hint[JOX_HINT];
     int16_t what = -1;
     jox_read_join(full, path, action);
@@ -163,7 +164,7 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
     snprintf(hint, sizeof hint, "Example: %s = { nearest \"ball\", at = goal, %s = 4 }", action,
              info->name);
     if (type == LUA_TTABLE) {
-        jox_read_check(b, table, full, keys, 2, true);
+        jox_read_check(b, table, full, keys, key_count, true);
         lua_rawgeti(L, table, 1);
         JoxNode *body = jox_node_get(L, -1);
         if (body && body->kind == JOX_NODE_TARGET)
@@ -186,6 +187,20 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
     }
     lua_settop(L, table - 1);
     return what;
+}
+
+/* Reads `lift` of a kick, which may lack it. */
+static void read_lift(JoxBuild *b, int index, const char *path, JoxState *state) {
+    const JoxParameterInfo lift = jox_table_key_number("kick", "lift");
+    lua_State *L = b->script->vm.L;
+    const int top = lua_gettop(L);
+    char kick[256], full[256];
+    jox_read_join(kick, path, "kick");
+    jox_read_join(full, kick, "lift");
+    if (jox_read_field(L, index, "kick") == LUA_TTABLE &&
+        jox_read_field(L, top + 1, "lift") != LUA_TNIL)
+        state->kick_lift = jox_read_parameter(b, full, &lift);
+    lua_settop(L, top);
 }
 
 /* Reads `become` of a state: the name of another behaviour. */
@@ -231,6 +246,7 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
     char full[256];
     state->kick =
         read_body_action(b, index, path, "kick", &impulse, &state->kick_at, &state->kick_impulse);
+    read_lift(b, index, path, state);
     state->toss =
         read_body_action(b, index, path, "throw", &speed, &state->toss_at, &state->toss_speed);
     jox_read_join(full, path, "throw");

@@ -406,10 +406,11 @@ static void print_key_example(const JoxTableKey *key, JoxText *out) {
         print_example(out, "", part, ", when = after(1)");
     } else {
         bool kick = !strcmp(key->owner, "kick"), at = !strcmp(key->name, "at");
+        bool impulse = !strcmp(key->name, "impulse");
         snprintf(part, sizeof part, "%s = { nearest \"ball\", %s%s },", key->owner, key->example,
-                 at     ? (kick ? ", impulse = 3" : ", speed = 5")
-                 : kick ? ""
-                        : ", at = \"post\"");
+                 kick ? (impulse ? "" : ", impulse = 3")
+                 : at ? ", speed = 5"
+                      : ", at = \"post\"");
         print_example(out, "", part, ", when = after(1)");
     }
 }

@@ -5,6 +5,8 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "machine/machine_parts.h"
 
 static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
@@ -107,8 +109,15 @@ static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     }
 }
 
-/* Kicks the target of the state if the agent touches it: a horizontal impulse through the body's
-   centre, towards kick_at or straight ahead. */
+/* Returns the angle of an agent's kick above the horizontal, rad: 0 to a right angle. */
+static double find_lift(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                        uint32_t i) {
+    const double lift = jox_value(run, machine, &state->kick_lift, i);
+    return lift > 0.0 ? (lift < 90.0 ? lift : 90.0) * JOX_DEGREE : 0.0;
+}
+
+/* Kicks the target of the state if the agent touches it: an impulse through the body's centre,
+   towards kick_at or straight ahead, raised by the lift. */
 static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
     JoxAgents *a = run->agents;
@@ -131,10 +140,13 @@ static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     if (!(change > 0.0) || jox_length2(way) == 0.0f)
         return;
     JOX_ASSERT(object->inverse_mass > 0.0f); /* a body that moves has a finite mass */
-    float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
+    const float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
+    const double lift = find_lift(run, machine, state, i);
+    const float level = impulse * (float)jox_cos(lift), up = impulse * (float)jox_sin(lift);
     JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
-    run->kicks[run->kick_count++] = (JoxImpulse){
-        (uint32_t)ball.object, {way.x * impulse, way.y * impulse, 0.0f}, object->position, 0.0f};
+    run->kicks[run->kick_count++] = (JoxImpulse){.object = (uint32_t)ball.object,
+                                                 .impulse = {way.x * level, way.y * level, up},
+                                                 .point = object->position};
     a->kicked[i] = jox_reference(ball.object);
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }

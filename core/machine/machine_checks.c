@@ -97,6 +97,10 @@ static void check_machine_state(const JoxMachine *m, const JoxState *state) {
     }
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         check_value(m, &state->param[p]);
+    check_value(m, &state->kick_impulse);
+    check_value(m, &state->kick_lift);
+    check_value(m, &state->toss_speed);
+    check_value(m, &state->grip);
     check_actions(m, &state->enters);
     check_transitions(m, state);
 }
@@ -235,7 +239,7 @@ static void check_kicks_and_grips(const JoxMachineRun *run) {
     const uint32_t objects = run->objects ? run->objects->count : 0;
     for (uint32_t k = 0; k < run->kick_count; k++) {
         JOX_ASSERT(run->kicks[k].object < objects && run->objects->rows[run->kicks[k].object].live);
-        JOX_ASSERT(run->kicks[k].impulse.z == 0.0f); /* kicks are horizontal */
+        JOX_ASSERT(run->kicks[k].impulse.z >= 0.0f); /* kicks never press a body down */
     }
     for (uint32_t k = 0; k < run->grip_count; k++) {
         const JoxGrip *grip = &run->grips[k];

@@ -394,16 +394,8 @@ static void transitions_are_counted_over_all_versions(void **state) {
     tear_down_fixture(&f);
 }
 
-static void a_kick_sends_the_ball_towards_its_target(void **state) {
-    (void)state;
-    JoxV2 spot = {10, 0};
-    JoxPlace place = {.name = "p",
-                      .kind = JOX_PLACE_POINT,
-                      .points = &spot,
-                      .count = 1,
-                      .radius = 1,
-                      .start = -1};
-    jox_place_finish(&place);
+/* Returns a machine whose only state kicks a ball at place 0 by 3 m/s, `lift` degrees upwards. */
+static JoxMachine *new_kicking_machine(JoxValue lift) {
     JoxMachine *m = new_machine(1);
     m->states[0].kick_at = add_place_target(m, 0);
     m->targets = jox_realloc(m->targets, 2, sizeof *m->targets);
@@ -411,28 +403,75 @@ static void a_kick_sends_the_ball_towards_its_target(void **state) {
     m->target_count = 2;
     m->states[0].kick = 1;
     m->states[0].kick_impulse = (JoxValue){JOX_VALUE_CONST, 3.0, 0, 0, 0};
+    m->states[0].kick_lift = lift;
+    return m;
+}
+
+/* Place 0 of kicks, and a ball of 0.4 kg that the agent of a fixture touches. */
+typedef struct Pitch {
+    JoxV2 spot;
+    JoxPlace place;
+    JoxObject ball;
+} Pitch;
+
+static void set_up_pitch(Fixture *f, Pitch *pitch) {
+    pitch->spot = (JoxV2){10, 0};
+    pitch->place = (JoxPlace){.name = "p",
+                              .kind = JOX_PLACE_POINT,
+                              .points = &pitch->spot,
+                              .count = 1,
+                              .radius = 1,
+                              .start = -1};
+    jox_place_finish(&pitch->place);
+    pitch->ball = (JoxObject){.live = true,
+                              .in_band = true,
+                              .moves = true,
+                              .tags = 1 << 4,
+                              .position = {0.3f, 0.0f, 0.1f},
+                              .inverse_mass = 2.5f,
+                              .round = 0.1f,
+                              .disc = 0.1f};
+    f->machines.places = &pitch->place;
+    f->machines.place_count = 1;
+    f->objects = (JoxObjects){.rows = &pitch->ball, .count = 1, .capacity = 1};
+}
+
+static void a_kick_sends_the_ball_towards_its_target(void **state) {
+    (void)state;
     Fixture f;
-    set_up_fixture(&f, m, 1);
-    f.machines.places = &place;
-    f.machines.place_count = 1;
-    JoxObject ball = {.live = true,
-                      .in_band = true,
-                      .moves = true,
-                      .tags = 1 << 4,
-                      .position = {0.3f, 0.0f, 0.1f},
-                      .inverse_mass = 2.5f,
-                      .round = 0.1f,
-                      .disc = 0.1f};
-    f.objects = (JoxObjects){.rows = &ball, .count = 1, .capacity = 1};
+    Pitch pitch;
+    set_up_fixture(&f, new_kicking_machine((JoxValue){0}), 1);
+    set_up_pitch(&f, &pitch);
     run_step(&f);
     assert_int_equal(f.machines.kick_count, 1);
     assert_true(fabsf(f.machines.kicks[0].impulse.x - 3.0f / 2.5f) < 1e-4f); /* 3 m/s for 0.4 kg */
     assert_true(fabsf(f.machines.kicks[0].impulse.y) < 1e-4f);
+    assert_true(f.machines.kicks[0].impulse.z == 0.0f);
     assert_int_equal(f.agents.kicked[0], 1);
     run_step(&f); /* too soon for another kick */
     assert_int_equal(f.machines.kick_count, 0);
     assert_int_equal(f.agents.kicked[0], 0);
     tear_down_fixture(&f);
+}
+
+static void lift_turns_the_impulse_upwards_and_keeps_its_size(void **state) {
+    (void)state;
+    static const struct {
+        double lift;
+        float level, up;
+    } KICKS[] = {{30, 0.866025f, 0.5f}, {90, 0, 1}, {200, 0, 1}, {-5, 1, 0}, {NAN, 1, 0}};
+    for (size_t k = 0; k < sizeof KICKS / sizeof *KICKS; k++) {
+        Fixture f;
+        Pitch pitch;
+        const JoxValue lift = {JOX_VALUE_CONST, KICKS[k].lift, 0, 0, 0};
+        set_up_fixture(&f, new_kicking_machine(lift), 1);
+        set_up_pitch(&f, &pitch);
+        run_step(&f);
+        assert_int_equal(f.machines.kick_count, 1);
+        assert_true(fabsf(f.machines.kicks[0].impulse.x - 1.2f * KICKS[k].level) < 1e-5f);
+        assert_true(fabsf(f.machines.kicks[0].impulse.z - 1.2f * KICKS[k].up) < 1e-5f);
+        tear_down_fixture(&f);
+    }
 }
 
 int main(void) {
@@ -447,6 +486,7 @@ int main(void) {
         cmocka_unit_test(a_reload_keeps_states_and_memory_by_name),
         cmocka_unit_test(transitions_are_counted_over_all_versions),
         cmocka_unit_test(a_kick_sends_the_ball_towards_its_target),
+        cmocka_unit_test(lift_turns_the_impulse_upwards_and_keeps_its_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

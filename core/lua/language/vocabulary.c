@@ -260,6 +260,7 @@ const JoxTableKey jox_table_keys[] = {
     {"transition", "id", "text", "", "name for mods; default: the name in `to`, with #2, #3 for repeats", "id = \"leave\"", 0, 0},
     {"kick", "at", "target", "", "target of the kick; default: straight ahead", "at = \"post\"", 0, 0},
     {"kick", "impulse", "number", "m/s", "change of the body's velocity (impulse in N s per kg of the body)", "impulse = 2 + 2 * now.speed", 0, 50},
+    {"kick", "lift", "number", "degree", "angle of the kick above the horizontal, so that the body flies and falls; default 0. The impulse keeps its size", "lift = 30", 0, 90},
     {"throw", "at", "target", "", "target of the throw", "at = nearest \"people\"", 0, 0},
     {"throw", "speed", "number", "m/s", "horizontal speed of the throw", "speed = 6", 0.1, 40},
     {"signal", "every", "plain number", "s", "time between two signals", "every = 0.5", 0.01, 1e6},

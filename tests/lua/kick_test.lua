@@ -1,0 +1,47 @@
+-- The action `kick`: how far and how high a lifted kick sends a ball.
+local function kicker(kick)
+  return ([[local ball = nearest "ball"
+    return machine { name = "kicker", version = 1, start = "Kick", defaults = { perception = 9 }, states = {
+      Kick = { steer = hold, kick = { ball, at = "post", %s }, { to = "Done", when = kicked(ball) } },
+      Done = { steer = hold } } }]]):format(kick)
+end
+
+-- Returns x where a ball of radius 0.11 m that is kicked at x = 0 comes down, and its greatest height, m.
+local function flight(kick)
+  local s = scene {
+    places = { post = { point = { 20, 0 } } },
+    bodies = { { name = "ball", shape = { sphere = { radius = 0.11 } }, mass = 0.4, at = { 0, 0, 0.11 },
+      restitution = 0, tags = { "ball" } } },
+    groups = { one = { behaviour = kicker(kick), at = { { -0.32, 0 } } } },
+    step = 0.01,
+  }
+  local top = 0
+  s:run(0.1)
+  equal(s:agents("one")[1].state, "Done")
+  while s:body("ball").z > 0.115 do
+    top = math.max(top, s:body("ball").z)
+    s:step()
+  end
+  return s:body("ball").x, top
+end
+
+test("a lifted kick flies the parabola of its speed and angle", function()
+  local G, SPEED = 9.81, 8
+  for _, degrees in ipairs { 20, 45, 70 } do
+    local vx, vz = SPEED * math.cos(math.rad(degrees)), SPEED * math.sin(math.rad(degrees))
+    local x, top = flight("impulse = 8, lift = " .. degrees)
+    near(x, 2 * vx * vz / G, 0.25)
+    near(top, 0.11 + vz * vz / (2 * G), 0.05)
+  end
+end)
+
+test("a kick without lift stays on the ground", function()
+  local _, top = flight "impulse = 8"
+  equal(top, 0)
+end)
+
+test("lift may be an expression", function()
+  local _, expected = flight "impulse = 8, lift = 40"
+  local _, top = flight "impulse = 8, lift = min(20 + 5 * count \"post\", 90) + 20"
+  equal(top, expected)
+end)
