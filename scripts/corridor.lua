@@ -23,7 +23,7 @@ return function(words, cases)
     source = "Zhang et al. 2011, doi 10.1088/1742-5468/2011/06/P06004 (unidirectional, open; widths in cm), measured "
       .. "with the scenes' own probes",
     level = "calm", calibrated = measure.walking_law,
-    runs = runs, quick = quick,
+    runs = runs, quick = quick, null = measure.half_gap(),
     measure = function(run)
       local out = {}
       for name in pairs(runs) do

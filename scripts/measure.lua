@@ -6,6 +6,21 @@ local measure = {}
 measure.walking_law = "the walking law's constants were chosen on seeds 201 to 216 and 301 to 318 of B1 to B4, C1, "
   .. "F1 to F3, F3b, L1 and W, and touched up once 101 to 110 were seen"
 
+-- Returns the null of a claim on people who walk by the walking law: they walk by ORCA, the engine's rule for states
+-- without a time gap. `groups`: their names.
+function measure.by_orca(...)
+  local set = {}
+  for _, group in ipairs { ... } do set["groups." .. group .. ".set.time_gap"] = 0 end
+  return { text = "everybody walks by ORCA instead of the walking law", set = set, seeds = 1 }
+end
+
+-- Returns the null of a claim on speed over density: the people of the group `people` keep half the time gap to who is
+-- ahead.
+function measure.half_gap()
+  local set = { ["groups.people.set.time_gap"] = 0.461 }
+  return { text = "people keep half the time gap, 0.461 s", set = set, seeds = 1 }
+end
+
 -- Ids of the claims on which the Tawaf's behaviour was chosen; it walks by ORCA, so its claims have no level of haste.
 measure.tawaf = "the Tawaf's chances, durations, speeds and pushes were chosen on seed 1 of 6-7, 8, 9 and 10, "
   .. "chances and gates on seed 101 of 6-7 and 10, too"

@@ -8,6 +8,7 @@ return claim {
   level = "keen", calibrated = measure.walking_law,
   runs = { door = { scene = "../door-080.yaml", seeds = "101-110" } },
   quick = { door = { seeds = 3 } },
+  null = { text = "pupils of normal haste", set = { ["groups.people.set.haste"] = "normal" }, seeds = 1 },
   measure = function(run)
     local probes = run.door.summary.probes
     return { flow = probes.line.flow, density = probes.front.density, speed = probes.front.speed,

@@ -9,6 +9,7 @@ return claim {
   level = "keen", calibrated = measure.walking_law,
   runs = { opening = { scene = "../opening-300.yaml", seeds = "101-110" } },
   quick = { opening = { seeds = 3 } },
+  null = { text = "people of normal haste", set = { ["groups.people.set.haste"] = "normal" } },
   measure = function(run)
     local probes = run.opening.summary.probes
     return {

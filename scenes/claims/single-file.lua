@@ -37,7 +37,7 @@ return claim {
     .. "follow heads, whose sway adds to slow speeds: in a set of 56 people 0.219 m/s of the head are 0.141 m/s along the "
     .. "way. Bands are a quarter to either side, but no narrower than that difference.",
   level = "calm", calibrated = measure.walking_law,
-  runs = runs, quick = quick,
+  runs = runs, quick = quick, null = measure.half_gap(),
   measure = function(run)
     local out = {}
     for name in pairs(runs) do out[name] = run[name].summary.probes.ring.speed end
