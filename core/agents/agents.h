@@ -91,18 +91,19 @@ typedef enum JoxForceRole {
     X(SCRATCH, float, half_plane_y)                                                                \
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \
     X(SCRATCH, float, speed_limit)       /* greatest speed in this step, m/s */                    \
-    X(SCRATCH, float, density)    /* 1/m2, from the distance of the farthest neighbour kept */     \
-    X(HINT, float, search_radius) /* m, held the neighbours last time; 0: unknown */               \
-    X(HINT, uint32_t, cell)       /* cell of navigation's grid when agents were sorted */          \
-    X(SCRATCH, uint8_t, failed)   /* 1 if the linear program was infeasible */                     \
-    X(STATE, uint8_t, contacts)   /* agents and bodies touched this step */                        \
-    X(STATE, uint8_t, removed)    /* 1: leaves the world at the end of the step */                 \
-    X(STATE, uint32_t, entered)   /* tick at which the state was entered */                        \
-    X(STATE, float, lasts)        /* drawn duration of the state, s; INFINITY if none */           \
-    X(STATE, uint32_t, was_true)  /* bit per transition: its condition held in the last step */    \
-    X(STATE, int32_t, goal)       /* index of the place aimed at, or -1 */                         \
-    X(STATE, float, still)        /* time since it last moved 0.25 m, s */                         \
-    X(STATE, float, still_x)      /* position when it last had moved so far */                     \
+    X(SCRATCH, float, density)      /* 1/m2, from the distance of the farthest neighbour kept */   \
+    X(HINT, float, search_radius)   /* m, held the neighbours last time; 0: unknown */             \
+    X(HINT, uint32_t, cell)         /* cell of navigation's grid when agents were sorted */        \
+    X(SCRATCH, uint8_t, failed)     /* 1 if the linear program was infeasible */                   \
+    X(SCRATCH, uint8_t, plan_notes) /* JoxPlanNote: what else acted on the plan of this step */    \
+    X(STATE, uint8_t, contacts)     /* agents and bodies touched this step */                      \
+    X(STATE, uint8_t, removed)      /* 1: leaves the world at the end of the step */               \
+    X(STATE, uint32_t, entered)     /* tick at which the state was entered */                      \
+    X(STATE, float, lasts)          /* drawn duration of the state, s; INFINITY if none */         \
+    X(STATE, uint32_t, was_true)    /* bit per transition: its condition held in the last step */  \
+    X(STATE, int32_t, goal)         /* index of the place aimed at, or -1 */                       \
+    X(STATE, float, still)          /* time since it last moved 0.25 m, s */                       \
+    X(STATE, float, still_x)        /* position when it last had moved so far */                   \
     X(STATE, float, still_y)                                                                       \
     X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
@@ -118,6 +119,13 @@ typedef enum JoxForceRole {
     X(STATE, uint8_t, held)        /* how many agents hold on to it (`grasped`) */
 
 #define JOX_NO_MACHINE UINT16_MAX
+
+/* Bits of the column plan_notes: what acted on an agent's plan that no equation of the paper
+   prints. */
+typedef enum JoxPlanNote {
+    JOX_NOTE_TURNED_ASIDE = 1, /* it stood before others, and wanted to go more to its right */
+    JOX_NOTE_BOUNDED = 2 /* half-planes of contacts or force were lowered to what is within reach */
+} JoxPlanNote;
 
 /* Returns the reference to an index, as columns store it: index + 1, 0 for none. Columns that are 0
    take no memory. */

@@ -54,8 +54,8 @@ const float *jox_nav_unhidden2(const JoxNav *nav);
    course. */
 void jox_nav_walk(JoxNav *nav, const JoxStep *step);
 /* solve: writes next_x, next_y, the velocity to have `planning_time` seconds from now, and sets
-   `failed` where no velocity meets all half-planes. Contacts in `touched` give hard half-planes, as
-   walls do. Returns how many agents had a hard half-plane relaxed. */
+   `failed` where no velocity meets all half-planes, and `plan_notes`. Contacts in `touched` give
+   hard half-planes, as walls do. Returns how many agents had a hard half-plane relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, const JoxStep *step);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
 typedef enum JoxConstraintKind {

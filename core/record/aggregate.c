@@ -40,6 +40,8 @@ static const struct {
     {"agents", JOX_SUMMARY_FIGURE},
     {"bodies", JOX_SUMMARY_FIGURE},
     {"lp_failure_*", JOX_SUMMARY_FIGURE},
+    {"turned_aside_share", JOX_SUMMARY_FIGURE},
+    {"plans_bounded_share", JOX_SUMMARY_FIGURE},
     {"density_max", JOX_SUMMARY_FIGURE},
     {"overlap_p99", JOX_SUMMARY_FIGURE},
     {"states.*", JOX_SUMMARY_FIGURE},

@@ -66,8 +66,12 @@ static JoxPageFigures collect_run_figures(const JoScene *scene) {
         &f, "", jox_statistics_overlap_share(s, JOX_TRUST_OVERLAP),
         "share of people's time in which they overlap by more than %.0f %% of a diameter",
         100.0 * JOX_TRUST_OVERLAP);
-    jox_page_add_figure(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
+    jox_page_add_figure(&f, "", jox_statistics_share(s, s->failures),
                         "share of agent-steps whose 2-D program failed");
+    jox_page_add_figure(&f, "", jox_statistics_share(s, s->turned_aside),
+                        "share of agent-steps turned aside (no equation of the paper)");
+    jox_page_add_figure(&f, "", jox_statistics_share(s, s->plans_bounded),
+                        "share of agent-steps whose plans were bounded (no equation of the paper)");
     return f;
 }
 

@@ -16,8 +16,8 @@ void jox_stage_perceive(const JoxPerceiveStage *s) {
     JOX_CHECK(check_substep(s->substep));
     if (s->substep->first) {
         jox_nav_sort(s->nav, s->agents, s->tick);
-        if (s->agents->count)
-            memset(s->agents->failed, 0, s->agents->count);
+        jox_mem_fill(s->agents->failed, 0, s->agents->count);
+        jox_mem_fill(s->agents->plan_notes, 0, s->agents->count);
     }
     jox_nav_perceive(s->nav, s->agents, s->neighbours, s->pool);
     const double begun = s->timed ? jox_clock_wall() : 0.0;

@@ -22,27 +22,30 @@ static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
     s->overlap_samples += a->count;
 }
 
-/* Returns the sum of bytes that are 0 or 1. */
-static uint64_t sum_of_ones(const uint8_t *bytes, uint32_t count) {
+/* Returns how many bytes have a bit set. */
+static uint64_t count_bit(const uint8_t *bytes, uint32_t count, uint8_t bit) {
+    const uint64_t bits = bit * UINT64_C(0x0101010101010101);
     uint64_t sum = 0;
     uint32_t i = 0;
     for (; i + 8 <= count; i += 8) {
         uint64_t eight;
         memcpy(&eight, bytes + i, sizeof eight);
-        sum += (uint64_t)__builtin_popcountll(eight);
+        sum += (uint64_t)__builtin_popcountll(eight & bits);
     }
     for (; i < count; i++)
-        sum += bytes[i];
+        sum += (bytes[i] & bit) != 0;
     return sum;
 }
 
 void jox_statistics_observe(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n,
                             uint64_t tick, double dt) {
-    const uint64_t failed = sum_of_ones(a->failed, a->count);
+    const uint64_t failed = count_bit(a->failed, a->count, 1);
     JOX_ASSERT(failed <= a->count);
     s->steps++;
     s->agent_steps += a->count;
     s->failures += failed;
+    s->turned_aside += count_bit(a->plan_notes, a->count, JOX_NOTE_TURNED_ASIDE);
+    s->plans_bounded += count_bit(a->plan_notes, a->count, JOX_NOTE_BOUNDED);
     s->second_failures += failed;
     s->second_agent_steps += a->count;
     uint64_t per_second = (uint64_t)(1.0 / dt + 0.5);

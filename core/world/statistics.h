@@ -3,6 +3,7 @@
 #ifndef JOX_WORLD_STATISTICS_H
 #define JOX_WORLD_STATISTICS_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "agents/agents.h"
@@ -65,6 +66,9 @@ typedef struct JoxStatistics {
     double wall_s, cpu_s;           /* time of stepping; CPU time of the process in it */
     uint64_t failures;              /* agent-steps whose 2-D program was infeasible */
     double failure_peak;            /* greatest share of a second's agent-steps */
+    uint64_t turned_aside;          /* agent-steps in which the wanted velocity was turned aside */
+    uint64_t plans_bounded;         /* agent-steps whose contacts or force asked for more than is
+                                       within reach */
     uint64_t second_failures, second_agent_steps;
     uint64_t walls_relaxed;  /* agent-steps in which a wall's half-plane was relaxed */
     uint64_t contact_passes; /* passes of the contact solve, over all steps */
@@ -86,9 +90,14 @@ typedef struct JoxStatistics {
     JoxExchange exchange;
 } JoxStatistics;
 
-/* Counts this step's failures and, once a second, overlaps. `tick` counts from 0. */
+/* Counts this step's failures and plan notes and, once a second, overlaps. `tick` counts from 0. */
 void jox_statistics_observe(JoxStatistics *statistics, const JoxAgents *agents,
                             const JoxNeighbours *neighbours, uint64_t tick, double dt);
+/* Returns a number of agent-steps as a share of all; NAN before the first. */
+static inline double jox_statistics_share(const JoxStatistics *statistics, uint64_t agent_steps) {
+    return statistics->agent_steps ? (double)agent_steps / (double)statistics->agent_steps
+                                   : (double)NAN;
+}
 /* Returns the overlap below which 99 % of the sampled agents stay, as a share of their diameter;
    NAN without samples, as in runs of less than a second. */
 double jox_statistics_overlap_p99(const JoxStatistics *statistics);

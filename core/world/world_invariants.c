@@ -182,6 +182,7 @@ static const char *find_figures_fault(const JoWorld *w) {
         samples += s->overlap[bin];
     JOX_MUST(samples == s->overlap_samples && samples <= s->agent_steps);
     JOX_MUST(s->second_failures <= s->failures && s->failures <= s->agent_steps);
+    JOX_MUST(s->turned_aside <= s->agent_steps && s->plans_bounded <= s->agent_steps);
     JOX_MUST(s->removed + w->state.agents.count <= s->spawned);
     JOX_MUST(s->bonds.rows <= s->bonds.people);
     uint64_t people = 0;

@@ -156,6 +156,13 @@ grep -q '^  "seed": \[1, 2, 3\],*$' "$work/seeds.json" && grep -q '^  "dt": 0.0[
 [ -s "$work/each/seed-7/danger.csv" ] && [ -s "$work/each/seed-8/danger.csv" ] && ! cmp -s "$work/each/seed-7/danger.csv" "$work/each/seed-8/danger.csv" && [ ! -e "$work/each/danger.csv" ]; verdict "each seed has its own CSV files" $?
 "$JOSTLE" run scenes/running-through.yaml --quiet --steps 5 --summary - | grep -q "$(sha256sum scenes/running-through.yaml | cut -d' ' -f1)"
 verdict "the summary lists its inputs" $?
+# Rules that no equation of the paper prints: both act in the default mode, and neither in literal.
+rules() { # ARGS...: prints the shares of agent-steps without a velocity, turned aside, and bounded
+    "$JOSTLE" run scenes/two-bottlenecks.yaml --quiet --for 24 --summary - "$@" | sed -n 's/^ "\(lp_failure\|turned_aside\|plans_bounded\)_share": \(.*\),$/\2/p' | tr '\n' ' '
+}
+rules --threads 1 >"$work/rules" && [ "$(rules --threads 2 --isa scalar)" = "$(cat "$work/rules")" ] && awk '{exit !(NF == 3 && $1 > 0 && $2 > 0 && $3 > 0)}' "$work/rules"; verdict "the summary counts both unprinted rules, alike over threads and instruction sets" $?
+rules --set forces.mode=literal | awk '{exit !(NF == 3 && $1 > 0 && $2 == 0 && $3 == 0)}'; verdict "  and neither acts in literal" $?
+expect "  and the last lines tell them" 0 "aside, and the plans of" "$JOSTLE" run scenes/two-bottlenecks.yaml --for 5
 
 # Hostile behaviours: none hangs or ends a run, and each is named.
 mkdir -p "$work/s"

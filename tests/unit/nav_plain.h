@@ -385,8 +385,10 @@ static inline bool plain_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfP
     }
     bool still; /* ignored: whether a wall gives way was settled above */
     if (!s->nav->literal && (made->contacts || made->force) &&
-        plain_keep_within_reach(s, i, made, half_planes, wanted, velocity))
+        plain_keep_within_reach(s, i, made, half_planes, wanted, velocity)) {
+        a->plan_notes[i] |= JOX_NOTE_BOUNDED;
         plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &still);
+    }
     if (made->contacts && plain_is_as_forced(a, i, velocity))
         velocity = jox_v2(a->forced_x[i], a->forced_y[i]);
     a->failed[i] |= !met;

@@ -173,11 +173,11 @@ static JoxHalfPlaneCounts list_half_planes(const JoxSolve *s, uint32_t i, JoxHal
     return made;
 }
 
-/* Returns the preferred velocity, turned to the right for an agent that stands before others or
-   pushes one straight ahead, except in literal mode. */
+/* Returns the preferred velocity, turned to the right (and noted) for an agent that stands before
+   others or pushes one straight ahead, except in literal mode. */
 static JoxV2 find_plain_wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others,
                              uint32_t count) {
-    const JoxAgents *a = s->step.agents;
+    JoxAgents *a = s->step.agents;
     JoxV2 wanted = {a->pref_x[i], a->pref_y[i]}, velocity = {a->vx[i], a->vy[i]};
     if (jox_solve_walks(s, i))
         return (JoxV2){a->walk_x[i], a->walk_y[i]};
@@ -188,8 +188,10 @@ static JoxV2 find_plain_wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *
     for (uint32_t k = 0; k < count; k++) {
         float against = -jox_dot(others[k].normal, wanted);
         bool head_on = against > 0.0f && fabsf(jox_det(others[k].normal, wanted)) < 0.02f * against;
-        if (-against < others[k].offset && (!gets_on || head_on))
+        if (-against < others[k].offset && (!gets_on || head_on)) {
+            a->plan_notes[i] |= JOX_NOTE_TURNED_ASIDE;
             return turn_right(wanted, gets_on ? 0.0f : jox_turn_aside(s, i));
+        }
     }
     return wanted;
 }
@@ -197,7 +199,7 @@ static JoxV2 find_plain_wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *
 /* Returns how many agents of a crowd the programs could not satisfy. */
 static uint32_t compare_solve_crowd(JoIsa isa, uint32_t number, bool plans) {
     static float next_x[MOST_PEOPLE], next_y[MOST_PEOPLE];
-    static uint8_t failed[MOST_PEOPLE];
+    static uint8_t failed[MOST_PEOPLE], notes[MOST_PEOPLE];
     Crowd c;
     open_solve_crowd(&c, isa, number);
     JoxAgents *a = &c.agents;
@@ -210,9 +212,11 @@ static uint32_t compare_solve_crowd(JoIsa isa, uint32_t number, bool plans) {
     memcpy(next_x, a->next_x, a->count * sizeof *next_x);
     memcpy(next_y, a->next_y, a->count * sizeof *next_y);
     memcpy(failed, a->failed, a->count);
+    memcpy(notes, a->plan_notes, a->count);
     memset(a->next_x, 0, a->count * sizeof *next_x);
     memset(a->next_y, 0, a->count * sizeof *next_y);
     memset(a->failed, 0, a->count);
+    memset(a->plan_notes, 0, a->count);
     if (!c.touched.agents)
         step.touched = NULL;
     const JoxSolve s = {.nav = c.nav,
@@ -229,6 +233,7 @@ static uint32_t compare_solve_crowd(JoIsa isa, uint32_t number, bool plans) {
         }
         assert_true(next_x[i] == a->next_x[i] && next_y[i] == a->next_y[i]);
         assert_int_equal(failed[i], a->failed[i]);
+        assert_int_equal(notes[i], a->plan_notes[i]);
         failures += failed[i];
     }
     assert_int_equal(relaxed, 0);

@@ -233,10 +233,13 @@ static inline uint32_t jox_rest_solve_far(const JoxSolve *s, JoxRest *r) {
     jf_store(x, l.velocity.x);
     jf_store(y, l.velocity.y);
     for (uint32_t k = 0; k < r->count; k++)
-        if (jm_bits(unmet) >> k & 1)
+        if (jm_bits(unmet) >> k & 1) {
             relaxed += jox_rest_solve_one(s, r, &l, k);
-        else
+        } else {
             jox_write_plan(s, r->agent[k], x[k], y[k], r->failed[k]);
+            if (jm_bits(lowered) >> k & 1)
+                s->step.agents->plan_notes[r->agent[k]] |= JOX_NOTE_BOUNDED;
+        }
     jox_rest_clear(r);
     return relaxed;
 }

@@ -164,7 +164,7 @@ static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlane
 static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     JoxAgents *a = s->step.agents;
     const float x = a->next_x[i], y = a->next_y[i];
-    const uint8_t failed = a->failed[i];
+    const uint8_t failed = a->failed[i], notes = a->plan_notes[i];
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(s, i, half_planes);
     out->count = label_half_planes(half_planes, &made, out->planes);
@@ -175,6 +175,7 @@ static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     a->next_x[i] = x;
     a->next_y[i] = y;
     a->failed[i] = failed;
+    a->plan_notes[i] = notes;
 }
 
 void jox_nav_plan(const JoxNav *nav, const JoxStep *step, uint32_t agent, JoxPlan *out) {

@@ -43,8 +43,8 @@ typedef struct JoxHalfPlaneCounts {
     uint32_t walls, contacts, agents, objects, force;
 } JoxHalfPlaneCounts;
 
-/* Plans agents [begin, end): next_x, next_y, failed. Returns how many had a hard half-plane
-   relaxed. `begin` is a multiple of JOX_LANES. */
+/* Plans agents [begin, end): next_x, next_y, failed, plan_notes. Returns how many had a hard
+   half-plane relaxed. `begin` is a multiple of JOX_LANES. */
 typedef uint32_t JoxSolveKernel(const JoxSolve *solve, uint32_t begin, uint32_t end);
 #define X(name, isa) JoxSolveKernel jox_solve_packets_##name;
 JOX_ISAS(X)

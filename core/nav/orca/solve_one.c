@@ -109,9 +109,11 @@ bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made
     }
     const JoxPressed pressed = find_pressed(s, i, made, wanted);
     bool still; /* ignored: whether a wall gives way was settled above */
-    if (keep_within_reach(s, i, made, half_planes, &pressed, velocity))
+    if (keep_within_reach(s, i, made, half_planes, &pressed, velocity)) {
+        a->plan_notes[i] |= JOX_NOTE_BOUNDED;
         jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                  &still);
+    }
     const JoxVector planned =
         jox_snap_to_forced_lanes(&pressed, (JoxVector){velocity.x, velocity.y});
     a->failed[i] |= !met;

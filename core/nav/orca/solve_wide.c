@@ -27,8 +27,8 @@ static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
     return jf_load(turn);
 }
 
-/* Returns the wanted velocities: preferred ones, some of them turned aside; those of walkers were
-   chosen by jox_nav_walk. */
+/* Returns the wanted velocities: preferred ones, some of them turned aside, which is noted; those
+   of walkers were chosen by jox_nav_walk. */
 static JoxVector find_wanted_lanes(const JoxPacket *p) {
     const JoxAgents *a = p->s->step.agents;
     const JoxWish wish = jox_wish_of(p->s, p->first);
@@ -40,6 +40,8 @@ static JoxVector find_wanted_lanes(const JoxPacket *p) {
         const JoxFloats turns = find_turns(p, aside & ~jm_bits(wish.gets_on));
         wanted = jv_select(jm_of_bits(aside), jox_turn_wish(wanted, turns), wanted);
     }
+    for (uint32_t lanes = aside & ~p->walkers; lanes; lanes &= lanes - 1)
+        a->plan_notes[p->first + (uint32_t)__builtin_ctz(lanes)] |= JOX_NOTE_TURNED_ASIDE;
     if (p->walkers)
         wanted = jv_select(jm_of_bits(p->walkers), jv_load(a->walk_x, a->walk_y, p->first), wanted);
     return wanted;

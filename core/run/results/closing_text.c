@@ -101,6 +101,20 @@ static void say_events(const JoScene *scene, JoxText *out) {
         jox_text_add(out, ".");
 }
 
+/* Appends in how many agent-steps no velocity was permitted, and the rules acted that no equation
+   of the paper prints. */
+static void say_plans(const JoScene *scene, JoxText *out) {
+    const JoxStatistics *s = &scene->world->state.statistics;
+    if (s->failures + s->turned_aside + s->plans_bounded == 0)
+        return;
+    jox_text_printf(out,
+                    " Of all agent-steps %.3g %% had no permitted velocity, %.3g %% were turned "
+                    "aside, and the plans of %.3g %% were bounded.",
+                    100.0 * jox_statistics_share(s, s->failures),
+                    100.0 * jox_statistics_share(s, s->turned_aside),
+                    100.0 * jox_statistics_share(s, s->plans_bounded));
+}
+
 /* Appends how often driven bodies met their force limits, and how many people are inside them. */
 static void say_drives(const JoScene *scene, JoxText *out) {
     const JoxDriveStatistics *d = &scene->world->state.statistics.drives;
@@ -190,6 +204,7 @@ char *jo_scene_closing(const JoScene *scene) {
     jox_run_say_tally(scene, &text);
     say_standing(scene, &text);
     say_probes(scene, &text);
+    say_plans(scene, &text);
     say_trust(scene, &text);
     if (scene->warnings) {
         jox_text_add(&text, " ");

@@ -309,10 +309,10 @@ char *jo_scene_summary(const JoScene *scene) {
     JoxJson json = jox_json_begin(&out, 2);
     jox_json_object(&json, NULL);
     add_run(&json, scene, &stats);
-    jox_json_number(&json, "lp_failure_share",
-                    stats.agent_steps ? (double)s->failures / (double)stats.agent_steps
-                                      : (double)NAN);
+    jox_json_number(&json, "lp_failure_share", jox_statistics_share(s, s->failures));
     jox_json_number(&json, "lp_failure_peak", s->failure_peak);
+    jox_json_number(&json, "turned_aside_share", jox_statistics_share(s, s->turned_aside));
+    jox_json_number(&json, "plans_bounded_share", jox_statistics_share(s, s->plans_bounded));
     jox_json_number(&json, "density_max", jox_run_greatest_density(scene));
     jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
     add_trust(&json, scene);

@@ -116,6 +116,8 @@ static const struct {
     {"states.*.*", "", "", false},
     {"bodies", "bodies at the end", "", false},
     {"lp_failure_share", "share of agent-steps whose 2-D program failed", "", false},
+    {"turned_aside_share", "share of agent-steps turned aside", "", false},
+    {"plans_bounded_share", "share of agent-steps whose plans were bounded", "", false},
     {"trust.overlap_share",
      "share of people's time in which they overlap by more than 10 % of a diameter", "", false},
     {"overlap_p99", "99 % value of overlap, share of a diameter", "", false},
