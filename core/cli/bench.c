@@ -24,6 +24,7 @@ enum { MOST_SETS = 5, MOST_ISAS = 4 };
 #define NAMES(X)                                                                                   \
     X("*", "tawaf", "scenes/tawaf.yaml", 0)                                                        \
     X(" ", "two-bottlenecks", "scenes/two-bottlenecks.yaml", 0)                                    \
+    X(" ", "two-bottlenecks-full", "scenes/two-bottlenecks-full.yaml", 0)                          \
     X(" ", "wall-breaking", "scenes/wall-breaking.yaml", 0)                                        \
     X(" ", "office", "scenes/office.yaml", 0)                                                      \
     X("*", "dodgeball-500", "scenes/dodgeball-500.yaml", 0)                                        \

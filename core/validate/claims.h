@@ -30,6 +30,7 @@ typedef struct JoxClaimFigure {
     char *expected;    /* value as the source states it, or "" */
     double low, high;  /* edges of the band; -INFINITY or INFINITY: open */
     bool reported;     /* shown without a verdict */
+    bool sure;         /* the whole 95 % bound of the mean must lie in the band */
 } JoxClaimFigure;
 
 /* A picture of a run's report that the page shows. */

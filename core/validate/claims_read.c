@@ -240,7 +240,7 @@ static void read_null(lua_State *L, JoxClaim *claim, bool quick) {
 
 /* Reads an element of `expect` on top of the stack. */
 static void read_figure(lua_State *L, JoxClaimFigure *figure) {
-    static const char *const KEYS[] = {"unit", "source", "band", "what", "reported"};
+    static const char *const KEYS[] = {"unit", "source", "band", "what", "reported", "sure"};
     if (!lua_istable(L, -1) || lua_rawgeti(L, -1, 1) != LUA_TSTRING)
         luaL_error(L, "each of expect is { \"name\", unit = ..., band = { least, greatest } }");
     figure->name = jox_strdup(lua_tostring(L, -1));
@@ -252,6 +252,7 @@ static void read_figure(lua_State *L, JoxClaimFigure *figure) {
     figure->expected = jox_strdup(lua_tostring(L, -1) ? lua_tostring(L, -1) : "");
     lua_pop(L, 1);
     figure->reported = read_bool_field(L, "reported");
+    figure->sure = read_bool_field(L, "sure");
     figure->low = -INFINITY;
     figure->high = INFINITY;
     int type = lua_getfield(L, -1, "band");

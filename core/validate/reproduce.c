@@ -263,6 +263,7 @@ static void measure_runs(const JoxReproduction *all, const JoxClaim *claim, JoxM
         for (uint32_t s = 0; why.length && s < m->seeds; s++)
             of_figure[s] = NAN;
         m->verdicts[f] = jox_verdict(of_figure, m->seeds, figure->low, figure->high);
+        m->verdicts[f].inside &= !figure->sure || !m->verdicts[f].thin;
     }
     jox_free(all_values);
     jox_free(values);

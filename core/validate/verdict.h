@@ -11,7 +11,7 @@ typedef struct JoxVerdict {
     /* half width of the 95 % confidence interval of the mean; NAN for one seed */
     double bound;
     uint32_t seeds;
-    bool inside; /* the mean is in the band */
+    bool inside; /* the mean is in the band; of a figure that must be `sure`, its bound too */
     bool thin;   /* an edge of the band is within the confidence interval */
 } JoxVerdict;
 

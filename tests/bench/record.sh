@@ -7,7 +7,7 @@ B=${B:-build/release}
 model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -1 | tr -cs 'A-Za-z0-9\n' '-' | sed 's/-$//')
 commit=$(git rev-parse --short HEAD)
 git diff --quiet HEAD -- core behaviours scenes scripts || commit=$commit+
-all="tawaf two-bottlenecks wall-breaking office dodgeball-500 running-through circle one-way-3 one-way-6
+all="tawaf two-bottlenecks two-bottlenecks-full wall-breaking office dodgeball-500 running-through circle one-way-3 one-way-6
      counterflow-3 counterflow-6 arena scale-1k scale-10k scale-100k"
 "$B/jostle" bench ${ARGS:-$all} --isa "${ISA:-avx2}" --rounds "${ROUNDS:-3}" --commit "$commit" --csv "tests/bench/results/${model:-unknown}.csv" \
     --plot "$B/bench-plot"

@@ -116,6 +116,11 @@ grep -q "No null: all of them &lt;walk&gt;" "$work/null/index.html"; verdict "an
 sed -i 's/no_null = /null = { text = "slow" }, no_null = /' "$work/nulls/speed.lua"
 expect "a null and a reason for none are an error" 3 'or no_null = "why there is none", not both' "${nulls[@]}" pair
 sed -i 's/null = { text = "slow" }, //' "$work/nulls/speed.lua"
+sed 's/time = [^,]*,/time = run.walk.summary.seed - 100,/; s/null = .*//; s/band = { 7.9, 8.1 }/band = { 1 }/; s/"mass"/"mean"/' "$work/nulls/mass.lua" >"$work/nulls/mean.lua"
+sed 's/unit = "s", band/sure = true, band/; s/"mean"/"sure"/' "$work/nulls/mean.lua" >"$work/nulls/sure.lua"
+expect "a mean in band is enough" 0 "measured 1.5 +- 6.4" "${nulls[@]}" mean
+expect "unless it must be sure" 1 "band 1 to inf: OUT, thin" "${nulls[@]}" sure
+rm "$work/nulls/mean.lua" "$work/nulls/sure.lua"
 sed -i 's/set = {/sets = {/' "$work/nulls/mass.lua"
 expect "a misspelt key of null is an error" 3 "null has no 'sets'; did you mean 'set'?" "${nulls[@]}"
 
