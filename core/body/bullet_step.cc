@@ -282,6 +282,9 @@ static void write_object_pose(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     o->moves = r->shape.mass > 0;
     o->kinematic = r->kinematic;
     o->position = jox_v3(r->body->getWorldTransform().getOrigin());
+    const btQuaternion turn = r->body->getWorldTransform().getRotation();
+    for (int i = 0; i < 4; i++)
+        o->turn[i] = turn[i];
     o->inverse_mass = r->body->getInvMass();
     for (int i = 0; i < 9; i++)
         o->inverse_inertia[i] = r->body->getInvInertiaTensorWorld()[i / 3][i % 3];
@@ -302,6 +305,7 @@ static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
     r->swept = jox_row_is_fast(r, b->last_dt);
     o->swept = r->swept;
     o->tags = r->tags;
+    o->name = r->name ? r->name : "";
     const btVector3 &velocity = r->body->getLinearVelocity(), &spin = r->body->getAngularVelocity();
     const float share = 1.0f - r->held_up;
     o->velocity = jox_v3(share * velocity);

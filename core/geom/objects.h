@@ -25,7 +25,9 @@ typedef struct JoxObject {
     uint32_t holder; /* id of that agent */
     bool swept;      /* too fast for forces: body/ sweeps it against people instead */
     uint64_t tags;
+    const char *name;         /* "": none; valid while the body lives */
     JoxV3 position;           /* centre of mass, m */
+    float turn[4];            /* rotation of its frame, a quaternion x, y, z, w */
     JoxV3 velocity;           /* m/s */
     JoxV3 spin;               /* angular velocity, rad/s */
     float disc;               /* radius of the projected bounding disc about position.xy, m */

@@ -333,7 +333,7 @@ static const JoxKey KEYS[] = {
     {"probe", "during", POINTS, "m", -FAR, FAR, "", .content = "xy[2]", READ_TO(jox_key_read_line, JoxProbeDef, during, during_count),
      .meaning = "of measure: a line; figures are taken over the intervals in which the middle 60 % of the passages across it were made"},
     {"probe", "onset", NUMBER, "m", 0.001, 100, "0.05", TO(JoxProbeDef, onset),
-     .meaning = "of displacement: people farther than this have moved"},
+     .meaning = "of displacement and bodies: people or bodies farther than this have moved"},
     {"probe", "rest", NUMBER, "s", 0, 1e6, "0", TO(JoxProbeDef, rest),
      .meaning = "of displacement: it is measured from the mean position during so many seconds at the start"},
     {"probe", "along", POINT, "", -FAR, FAR, "", READ_TO(jox_key_read_point, JoxProbeDef, points, count),

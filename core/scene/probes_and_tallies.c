@@ -75,6 +75,9 @@ bool jox_finish_probe(const JoxReader *r, const JoxYaml *map, void *item, bool g
         return true;
     JOX_ASSERT(probe->kind < JOX_PROBE_KINDS);
     check_probe_options(r, map, probe->kind);
+    const JoxYaml *group = jox_yaml_get(map, "group");
+    if (group && probe->kind == JOX_PROBE_BODIES)
+        jox_scene_error(r, group, "bad-probe", "Leave it out", "bodies are in no group");
     if (along && probe->count && jox_length(probe->points[0]) < 1e-6f)
         jox_scene_error(r, along, "bad-probe", "[1, 0]", "a direction has a length");
     return true;

@@ -25,6 +25,8 @@
     X(DISPLACEMENT, displacement, FLAG, "onset|rest|along",                                         \
       "block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}",      \
       "true: distance of each person from its first position, and speed at which a push travels")            \
+    X(BODIES, bodies, FLAG, "onset", "pieces:  {bodies: true, onset: 25 cm}",                        \
+      "true: distance of each body from its first position, its turn about the vertical and its tilt; bodies that are driven are left out") \
     X(MAP, map, TABLE, "every", "fields:  {map: {}, every: 2}",                                     \
       "fields: density, speed, crowd pressure, compression")                                        \
     X(WINDING, winding, POINT, "", "laps:    {winding: [0, 0]}",                                    \
@@ -63,7 +65,7 @@ typedef struct JoxProbeDef {
         every; /* s: measure, lanes, oscillation: interval; map: between samples; failures: bin */
     double cutoff; /* m: greatest reach of a Voronoi cell */
     double rest;   /* s: displacement is from the mean place of this time */
-    double onset;  /* m: displacement from which a person counts as moved */
+    double onset;  /* m: displacement from which a person or body counts as moved */
     JoxV2 low,
         high; /* map, lanes, oscillation: the area; a map with low.x > high.x takes the scene's */
     double cell, kernel;   /* m: width of a map's cells, standard deviation of its Gaussian */

@@ -39,6 +39,7 @@ static const char SCENE[] =
     "2.4]]}\n"
     "  passage: {transit: [[[1, 0], [1, 2.4]], [[2, 0], [2, 2.4]]]}\n"
     "  block: {displacement: true, rest: 0.1, along: [1, 0]}\n"
+    "  pieces: {bodies: true}\n"
     "  fields: {map: {area: [[0, 0], [3.6, 2.4]], cell: 0.6}, every: 0.2}\n"
     "  laps: {winding: [1.8, 1.2]}\n"
     "  solved: {failures: 0.2}\n"

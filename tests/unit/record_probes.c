@@ -393,6 +393,62 @@ static void lanes_have_order_parameter(void **state) {
     }
 }
 
+/* ---- bodies ---- */
+
+/* Sets a body's rotation to a turn of `yaw` and then a tilt about the x axis, degrees. */
+static void rotate_object(JoxObject *object, double yaw, double tilt) {
+    const double a = yaw * 3.14159265358979 / 360, b = tilt * 3.14159265358979 / 360;
+    const double turn[4] = {sin(b) * cos(a), -sin(b) * sin(a), cos(b) * sin(a), cos(b) * cos(a)};
+    for (int k = 0; k < 4; k++)
+        object->turn[k] = (float)turn[k];
+}
+
+static void bodies_move_turn_and_topple(void **state) {
+    (void)state;
+    JoxProbeDef def = default_probe_def(JOX_PROBE_BODIES, NULL, 0);
+    def.onset = 0.25;
+    JoxProbe *p = jox_probe_create(&def);
+    reset_crowd(1);
+    show_crowd(p, 0); /* no bodies yet */
+    assert_near(figure_value(p, "bodies"), 0, 0);
+    assert_true(isnan(figure_value(p, "mean")));
+    JoxObject rows[] = {{.id = 0, .live = true, .moves = true, .name = "desk"},
+                        {.id = 1, .live = true, .moves = true},
+                        {.id = 2, .live = true, .kinematic = true},
+                        {.id = 3, .live = true, .moves = true}};
+    const JoxObjects objects = {.rows = rows, .count = 4};
+    crowd.objects = &objects;
+    for (int r = 0; r < 4; r++)
+        rotate_object(&rows[r], 70, 0);
+    show_crowd(p, 1);
+    rows[0].position = (JoxV3){0.3f, 0.4f, 9};
+    rows[1].position = (JoxV3){0.2f, 0, 0};
+    rows[2].position = (JoxV3){5, 5, 0}; /* is driven */
+    rotate_object(&rows[0], 70 + 30, 0);
+    rotate_object(&rows[1], 70, 60);
+    rotate_object(&rows[3], 70, 60);
+    show_crowd(p, 2);
+    rotate_object(&rows[3], 70, 0); /* set upright again */
+    show_crowd(p, 3);
+    assert_near(figure_value(p, "bodies"), 3, 0);
+    assert_near(figure_value(p, "moved"), 1, 0);
+    assert_near(figure_value(p, "turned"), 1, 0);
+    assert_near(figure_value(p, "toppled"), 1, 0);
+    assert_near(figure_value(p, "mean"), 0.7 / 3, 1e-6);
+    assert_near(figure_value(p, "greatest"), 0.5, 1e-6);
+    FILE *file = tmpfile();
+    char text[1000] = "";
+    jox_probe_csv(p, file);
+    rewind(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    assert_non_null(strstr(text, "\n0,desk,0.0000,0.0000,0.0000,0.3000,0.4000,9.0000,0.5000,0.5000,"
+                                 "30.00,0.00,0.00\n"));
+    assert_non_null(strstr(text, "\n3,,0.0000,0.0000,0.0000,0.0000,0.0000,0.0000,0.0000,0.0000,"));
+    assert_non_null(strstr(text, ",60.00\n"));
+    jox_probe_free(p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_walkers_pass_a_second_apart),
@@ -410,6 +466,7 @@ int main(void) {
         cmocka_unit_test(turns_are_counted),
         cmocka_unit_test(failures_are_shares),
         cmocka_unit_test(lanes_have_order_parameter),
+        cmocka_unit_test(bodies_move_turn_and_topple),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

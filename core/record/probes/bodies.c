@@ -1,0 +1,176 @@
+/* Probe `bodies`: how far each body that is not driven has moved, turned about the vertical axis,
+   and tilted, since it was first seen; at the end, and at most. The rotation since then is split
+   into a tilt (the angle between the axis that was vertical and the vertical) and a turn about the
+   vertical before the tilt. */
+#include <math.h>
+
+#include "base/mem.h"
+#include "base/number/elementary.h"
+#include "base/number/pi.h"
+#include "record/probes/probe_parts.h"
+
+static const float TURNED = 10.0f;  /* degrees: turns beyond this count */
+static const float TOPPLED = 45.0f; /* degrees: tilts beyond this count as toppled */
+
+typedef struct Body {
+    uint32_t known; /* 0 or 1 */
+    JoxV3 from, at; /* m: centre of mass, at first and now */
+    float first_turn[4];
+    float peak;         /* m: greatest distance from `from` in the plane */
+    float turned, tilt; /* degrees, now */
+    float peak_tilt;    /* degrees */
+} Body;
+
+typedef struct Bodies {
+    Body *bodies; /* by id of the body */
+    uint32_t capacity;
+    char **names; /* by id; NULL: none */
+    uint32_t name_count, name_capacity;
+} Bodies;
+
+static float measure_distance(const Body *b) {
+    return jox_length(jox_v2(b->at.x - b->from.x, b->at.y - b->from.y));
+}
+
+/* Sets turn and tilt from the rotation now * first^-1, a quaternion x, y, z, w. */
+static void measure_rotation(Body *b, const float now[4]) {
+    const float *f = b->first_turn;
+    const double x = (double)now[0] * f[3] - (double)now[3] * f[0] - (double)now[1] * f[2] +
+                     (double)now[2] * f[1];
+    const double y = (double)now[1] * f[3] - (double)now[3] * f[1] - (double)now[2] * f[0] +
+                     (double)now[0] * f[2];
+    const double z = (double)now[2] * f[3] - (double)now[3] * f[2] - (double)now[0] * f[1] +
+                     (double)now[1] * f[0];
+    const double w = (double)now[3] * f[3] + (double)now[0] * f[0] + (double)now[1] * f[1] +
+                     (double)now[2] * f[2];
+    const double upright = sqrt(z * z + w * w), tilted = sqrt(x * x + y * y);
+    double turned = upright > 0.0 ? 2.0 * jox_atan2(z, w) : 0.0;
+    turned -= JOX_TURN * floor(turned / JOX_TURN + 0.5);
+    b->turned = (float)(turned * 180.0 / JOX_PI);
+    b->tilt = (float)(2.0 * jox_atan2(tilted, upright) * 180.0 / JOX_PI);
+}
+
+/* Keeps a copy of a body's name when it is first seen: the body may be gone at the end. */
+static void keep_name(Bodies *s, const JoxObject *object) {
+    JOX_RESERVE(s->names, s->name_capacity, object->id + 1);
+    while (s->name_count <= object->id)
+        s->names[s->name_count++] = NULL;
+    if (object->name && object->name[0])
+        s->names[object->id] = jox_strdup(object->name);
+}
+
+static void take_bodies_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                              const uint8_t *seen) {
+    Bodies *s = state;
+    (void)def, (void)seen;
+    for (uint32_t o = 0; frame->objects && o < frame->objects->count; o++) {
+        const JoxObject *object = &frame->objects->rows[o];
+        if (!object->live || object->kinematic)
+            continue;
+        JOX_RESERVE_ZEROED(s->bodies, s->capacity, object->id + 1);
+        Body *b = &s->bodies[object->id];
+        if (!b->known) {
+            *b = (Body){.known = 1, .from = object->position};
+            for (int k = 0; k < 4; k++)
+                b->first_turn[k] = object->turn[k];
+            keep_name(s, object);
+        }
+        b->at = object->position;
+        b->peak = jox_maxf(b->peak, measure_distance(b));
+        measure_rotation(b, object->turn);
+        b->peak_tilt = jox_maxf(b->peak_tilt, b->tilt);
+    }
+}
+
+static void add_bodies_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    const Bodies *s = state;
+    uint32_t count = 0, moved = 0, turned = 0, toppled = 0;
+    double sum = 0.0, greatest = NAN;
+    for (uint32_t k = 0; k < s->capacity; k++) {
+        const Body *b = &s->bodies[k];
+        if (!b->known)
+            continue;
+        const double distance = (double)measure_distance(b);
+        count++;
+        sum += distance;
+        greatest = fmax(greatest, distance);
+        moved += distance > def->onset;
+        turned += fabsf(b->turned) > TURNED;
+        toppled += b->tilt > TOPPLED;
+    }
+    static const char *const WHY = "not known: there was no body, or a recording that has none";
+    jox_figure_add(out, "bodies", "bodies", "", count);
+    jox_figure_add(out, "moved", "bodies farther from their first place than the onset", "", moved);
+    jox_figure_add(out, "turned", "bodies turned by more than 10 degrees", "", turned);
+    jox_figure_add(out, "toppled", "bodies tilted by more than 45 degrees", "", toppled);
+    jox_figure_add(out, "mean", "mean displacement at the end", "m", count ? sum / count : NAN);
+    jox_figure_set_reason(out, WHY);
+    jox_figure_add(out, "greatest", "greatest displacement at the end", "m", greatest);
+    jox_figure_set_reason(out, WHY);
+}
+
+static void list_bodies_sections(void *state, JoxSections *sections) {
+    Bodies *s = state;
+    JOX_SECTION_ROOM(sections, "bodies", s->bodies, s->capacity);
+    const uint32_t names = (uint32_t)jox_section_count(sections, "names", s->name_count, 1);
+    while (s->name_count < names) { /* when restoring: the names follow below */
+        JOX_RESERVE(s->names, s->name_capacity, s->name_count + 1);
+        s->names[s->name_count++] = NULL;
+    }
+    for (uint32_t n = 0; n < s->name_count; n++)
+        jox_section_string(sections, "name", &s->names[n]);
+}
+
+static void write_bodies_csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    const Bodies *s = state;
+    (void)def;
+    fputs("body,name,x [m],y [m],z [m],dx [m],dy [m],dz [m],moved [m],peak [m],turned [deg],"
+          "tilt [deg],peak_tilt [deg]\n",
+          out);
+    for (uint32_t k = 0; k < s->capacity; k++) {
+        const Body *b = &s->bodies[k];
+        if (!b->known)
+            continue;
+        fprintf(out, "%u,%s,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f\n", k,
+                k < s->name_count && s->names[k] ? s->names[k] : "", (double)b->from.x,
+                (double)b->from.y, (double)b->from.z, (double)(b->at.x - b->from.x),
+                (double)(b->at.y - b->from.y), (double)(b->at.z - b->from.z),
+                (double)measure_distance(b), (double)b->peak, (double)b->turned, (double)b->tilt,
+                (double)b->peak_tilt);
+    }
+}
+
+static void plot_bodies(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    const Bodies *s = state;
+    double most = NAN;
+    (void)def;
+    for (uint32_t k = 0; k < s->capacity; k++)
+        most = s->bodies[k].known ? fmax(most, (double)measure_distance(&s->bodies[k])) : most;
+    if (isnan(most)) {
+        jox_plot_reason(out, "no body was seen");
+        return;
+    }
+    jox_text_printf(out,
+                    "set size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\n"
+                    "set cblabel 'distance from where first seen (m)'\nset cbrange [0:%g]\nplot ",
+                    most > 0.0 ? most : 1.0);
+    if (walls)
+        jox_text_add(out, "'walls.dat' using 1:2 with lines lw 2 lc 'black', ");
+    jox_text_add(out, "csv skip 1 using 3:4 with points pt 4 ps 0.8 lc '#888888', "
+                      "'' skip 1 using 3:4:6:7:9 with vectors head filled size graph 0.012,20 "
+                      "lw 1.5 lc palette\n");
+}
+
+static void free_body_names(void *state) {
+    Bodies *s = state;
+    for (uint32_t n = 0; n < s->name_count; n++)
+        jox_free(s->names[n]);
+}
+
+const JoxProbeCalls jox_probe_bodies = {
+    JOX_PROBE_KIND(Bodies, bodies, 1000, 800),
+    .frame = take_bodies_frame,
+    .pace = JOX_PACE_TENTH,
+    .owned = {JOX_OWNED(Bodies, bodies), JOX_OWNED(Bodies, names)},
+    .release = free_body_names,
+};
