@@ -15,7 +15,9 @@ static const CliOption OPTIONS[] = {
      "run the tests of RiMEA, IMO and NIST, and write a page of them for authorities, "
      "standards.html",
      CLI_TO(Reproduce, def.standards)},
-    {"quick", NULL, "smaller runs with the same bands", CLI_TO(Reproduce, def.quick)},
+    {"quick", NULL,
+     "fewer and smaller runs with the same bands; their verdicts are not the published ones",
+     CLI_TO(Reproduce, def.quick)},
     {"seeds", "A-B", "use these seeds, or only A, instead of those of each claim",
      CLI_TO(Reproduce, def.seeds)},
     {"set", "PATH=VALUE",

@@ -392,7 +392,7 @@ typedef struct JoReproduceDef {
     const char *program; /* path of the command `jostle`, which is started for each run */
     uint32_t jobs;       /* runs at the same time; default: the number of processors */
     const char *seeds;   /* "101" or "101-110": seeds that override those of each claim; or NULL */
-    bool quick;          /* do the smaller runs of each claim; leave out claims that have none */
+    bool quick;          /* fewer and smaller runs; leaves out claims that need the full ones */
     bool fresh;          /* repeat runs whose results are in `out` already */
     /* only claims that are tests of standards; also writes a page for authorities */
     bool standards;

@@ -76,12 +76,14 @@ typedef struct JoxClaim {
     char **tried; /* sentences on what was tried, for a claim that misses its band */
     uint32_t run_count, figure_count, picture_count, plot_count, tried_count;
     bool too_long;     /* `quick = false`: no smaller run would show the result */
+    bool cut;          /* read with `quick`, which made some of its runs fewer or smaller */
     JoxClaimRun spare; /* the run of `quick` or `null` that is being read */
     struct JoxClaimCode *code;
 } JoxClaim;
 
 /* Loads a claim file; returns NULL with diagnostics. With `quick`, the claim's smaller runs
-   replace the full ones. jox_claim_free frees the claim. */
+   replace the full ones, and runs without a smaller one keep one seed. jox_claim_free frees the
+   claim. */
 JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnostics);
 /* Calls `measure` once. folders[r] is the folder in which run r left summary.json and its CSV
    files. Sets values[f] of each figure, NAN if it was not returned. Returns false with a

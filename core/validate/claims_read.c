@@ -152,16 +152,20 @@ static JoxClaimRun *find_run(lua_State *L, const JoxClaim *claim, const char *wh
     return NULL;
 }
 
-/* Reads `quick`: smaller settings per run, which with `quick` replace the full ones; false means
-   that no smaller run would show the result. */
+/* Returns whether a run is among the names. */
+static bool is_named(const JoxClaimRun *run, const char *const *names, uint32_t count) {
+    for (uint32_t n = 0; n < count; n++)
+        if (strcmp(run->name, names[n]) == 0)
+            return true;
+    return false;
+}
+
+/* Reads `quick`: smaller settings per run, which with `quick` replace the full ones; runs that it
+   does not name then keep one seed. False means that no smaller run would show the result. */
 static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
     int top = lua_gettop(L), type = lua_getfield(L, -1, "quick");
-    if (type == LUA_TBOOLEAN && !lua_toboolean(L, -1)) {
-        claim->too_long = true;
-        lua_settop(L, top);
-        return;
-    }
-    if (type != LUA_TNIL && type != LUA_TTABLE)
+    claim->too_long = type == LUA_TBOOLEAN && !lua_toboolean(L, -1);
+    if (!claim->too_long && type != LUA_TNIL && type != LUA_TTABLE)
         luaL_error(L, "quick = { name = { duration = 10, seeds = 1 } }, by the names of runs; or "
                       "false");
     uint32_t count = 0;
@@ -179,6 +183,13 @@ static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
         }
         jox_claim_free_run(&claim->spare);
         claim->spare = (JoxClaimRun){0};
+    }
+    for (uint32_t r = 0; quick && r < claim->run_count; r++) {
+        JoxClaimRun *run = &claim->runs[r];
+        const bool named = is_named(run, names, count);
+        claim->cut |= named || run->seeds > 1;
+        if (!named)
+            run->seeds = 1;
     }
     lua_settop(L, top);
 }

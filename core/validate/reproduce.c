@@ -1,8 +1,7 @@
-/* jo_reproduce: loads claims, plans and executes the runs they share, measures their figures and
+/* jo_reproduce: plans and executes the runs that claims share, measures their figures and
    writes the results. `jostle reproduce` is the caller. */
 #include "validate/reproduce.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +15,6 @@
 #include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
-#include "base/sort.h"
 #include "run/messages.h"
 
 JoReproduceDef jo_default_reproduce_def(void) {
@@ -24,140 +22,6 @@ JoReproduceDef jo_default_reproduce_def(void) {
     return (JoReproduceDef){.folder = "scenes/claims",
                             .out = "build/out/reproduce",
                             .jobs = cores > 0 ? (uint32_t)cores : 1};
-}
-
-/* ---- claims ---- */
-
-/* Returns whether a claim is in a group: a standard's name for its tests, "paper" for claims
-   whose id is a number, "real" for the others. */
-static bool is_in_group(const JoxClaim *claim, const char *group) {
-    if (jox_claim_is_standard(claim))
-        return jox_claim_is_in_standard(claim, group);
-    return strcmp(group, isdigit((unsigned char)*claim->id) ? "paper" : "real") == 0;
-}
-
-/* Returns whether the def selects a claim, by id, group, file name or path, or selects all. */
-static bool is_wanted_claim(const JoReproduceDef *def, const JoxClaim *claim) {
-    for (size_t c = 0; c < def->claim_count; c++) {
-        const char *file = jox_path_name(claim->path);
-        size_t stem = jox_path_stem(file);
-        if (strcmp(def->claims[c], claim->id) == 0 || strcmp(def->claims[c], claim->also) == 0 ||
-            is_in_group(claim, def->claims[c]) ||
-            (strncmp(def->claims[c], file, stem) == 0 && def->claims[c][stem] == 0) ||
-            strcmp(def->claims[c], claim->path) == 0)
-            return true;
-    }
-    return def->claim_count == 0 && (!def->standards || jox_claim_is_standard(claim));
-}
-
-/* Lists the paths of the Lua files in a folder, for the caller to free. */
-static char **list_claim_files(const char *folder, size_t *count) {
-    char **files = NULL;
-    size_t capacity = 0;
-    *count = 0;
-    char **names = jox_folder_names(folder, false);
-    for (char **name = names; name && *name; name++) {
-        const char *dot = strrchr(*name, '.');
-        if (!dot || strcmp(dot, ".lua") != 0)
-            continue;
-        JoxText path = {0};
-        jox_text_printf(&path, "%s/%s", folder, *name);
-        JOX_RESERVE(files, capacity, *count + 1);
-        files[(*count)++] = path.data;
-    }
-    jox_free(names);
-    return files;
-}
-
-/* Orders claims: the paper's by number first, then others by letter and number. */
-static int compare_claim_ids(const void *left, const void *right, const void *context) {
-    (void)context;
-    const char *a = ((const JoxOutcome *)left)->claim->id;
-    const char *b = ((const JoxOutcome *)right)->claim->id;
-    if (isdigit((unsigned char)*a) != isdigit((unsigned char)*b))
-        return isdigit((unsigned char)*a) ? -1 : 1;
-    if (!isdigit((unsigned char)*a) && *a != *b)
-        return *a < *b ? -1 : 1;
-    char *a_rest, *b_rest;
-    long x = strtol(isdigit((unsigned char)*a) ? a : a + 1, &a_rest, 10);
-    long y = strtol(isdigit((unsigned char)*b) ? b : b + 1, &b_rest, 10);
-    if (x == y && *a_rest == '.' && *b_rest == '.') { /* N2.9 before N2.10 */
-        x = strtol(a_rest + 1, NULL, 10);
-        y = strtol(b_rest + 1, NULL, 10);
-    }
-    return x != y ? (x < y ? -1 : 1) : strcmp(a, b);
-}
-
-/* Adds an error about an unknown claim, with the most similar id, file name or group as a hint. */
-static void add_no_claim_error(const char *asked, char *const *files, size_t count,
-                               const JoxText *ids, const char *folder,
-                               JoxDiagnostics *diagnostics) {
-    static const char *const GROUPS[] = {"paper", "real", "rimea",    "imo",
-                                         "nist",  "iso",  "standards"};
-    enum { GROUP_COUNT = sizeof GROUPS / sizeof *GROUPS };
-    char hint[JOX_HINT];
-    char **names = jox_alloc(2 * count + GROUP_COUNT, sizeof *names);
-    size_t n = 0;
-    for (size_t f = 0; f < count; f++) {
-        const char *file = jox_path_name(files[f]);
-        names[n++] = jox_strndup(file, jox_path_stem(file));
-    }
-    for (const char *id = ids->data; id && *id; id += strcspn(id, " ") + 1)
-        if (n < 2 * count)
-            names[n++] = jox_strndup(id, strcspn(id, " "));
-    for (size_t g = 0; g < GROUP_COUNT; g++)
-        names[n++] = jox_strdup(GROUPS[g]);
-    const char *near = jox_did_you_mean(asked, (const char *const *)names, n, hint);
-    jox_diag_error(diagnostics, ((JoxPosition){folder, 0, 0, 0}), "no-claim",
-                   near ? near : "jostle reproduce --list names all", "there is no claim '%.100s'",
-                   asked);
-    for (size_t k = 0; k < n; k++)
-        jox_free(names[k]);
-    jox_free(names);
-}
-
-/* Loads the selected claims of the folder, sorted by id, with errors for unknown selections. */
-static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
-    JoxText ids = {0};
-    size_t count, capacity = 0;
-    char **files = list_claim_files(all->def->folder, &count);
-    for (size_t f = 0; f < count; f++) {
-        JoxClaim *claim = jox_claim_load(files[f], all->def->quick, diagnostics);
-        bool wanted = claim && is_wanted_claim(all->def, claim);
-        if (claim)
-            jox_text_printf(&ids, "%s ", claim->id);
-        if (wanted && all->def->quick && claim->too_long && all->def->claim_count == 0) {
-            jox_text_printf(&all->left_out, "%s%s", all->left_out.length ? ", " : "", claim->id);
-            wanted = false;
-        }
-        if (wanted) {
-            jox_claim_add_sets(claim, all->def->sets, all->def->set_count);
-            JOX_RESERVE(all->outcomes, capacity, all->outcome_count + 1);
-            all->outcomes[all->outcome_count++] = (JoxOutcome){.claim = claim};
-        } else {
-            jox_claim_free(claim);
-        }
-    }
-    if (all->outcome_count)
-        jox_sort(all->outcomes, all->outcome_count, sizeof *all->outcomes, compare_claim_ids, NULL,
-                 NULL);
-    if (count == 0)
-        jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claims",
-                       "Run it in the project's folder, or name one: --claims DIR",
-                       "there are no claims in this folder");
-    for (size_t c = 0; c < all->def->claim_count && diagnostics->errors == 0; c++) {
-        bool found = false;
-        JoReproduceDef one = {.claims = &all->def->claims[c], .claim_count = 1};
-        for (uint32_t o = 0; o < all->outcome_count; o++)
-            found |= is_wanted_claim(&one, all->outcomes[o].claim);
-        if (!found)
-            add_no_claim_error(all->def->claims[c], files, count, &ids, all->def->folder,
-                               diagnostics);
-    }
-    for (size_t f = 0; f < count; f++)
-        jox_free(files[f]);
-    jox_free(files);
-    jox_text_free(&ids);
 }
 
 /* ---- runs ---- */
@@ -207,6 +71,8 @@ static void plan_claim_runs(JoxReproduction *all, const JoxClaim *claim, bool pi
         JoxClaimRun *run = &m->runs[r];
         choose_seeds(all, run);
         m->seeds = run->seeds > m->seeds ? run->seeds : m->seeds;
+        if (r == 0 || run->seeds < m->fewest_seeds)
+            m->fewest_seeds = run->seeds;
         m->jobs[r] = jox_alloc(run->seeds, sizeof **m->jobs);
         for (uint32_t s = 0; s < run->seeds; s++)
             m->jobs[r][s] = add_run_job(all, run, run->first_seed + s, pictures && s == 0);
@@ -238,6 +104,30 @@ static const char *find_failure(const JoxReproduction *all, const JoxClaim *clai
     return NULL;
 }
 
+/* Computes the verdict on a figure from its values. As runs with fewer seeds repeat theirs, values
+   that repeat with the seeds of a run count once. A figure that never changes does not tell from
+   which runs it is. */
+static JoxVerdict judge_figure(const JoxClaim *claim, const JoxMeasured *m, const double *values,
+                               const JoxClaimFigure *figure) {
+    uint32_t seeds = m->seeds;
+    bool changes = false;
+    for (uint32_t s = 1; s < m->seeds; s++)
+        changes |= values[s] != values[0];
+    for (uint32_t r = 0; r < claim->run_count; r++) {
+        const uint32_t period = m->runs[r].seeds;
+        bool repeats = true;
+        for (uint32_t s = period; s < m->seeds; s++)
+            repeats &= values[s] == values[s - period];
+        if (repeats && period < seeds)
+            seeds = period;
+    }
+    JoxVerdict verdict = jox_verdict(values, seeds, figure->low, figure->high);
+    verdict.inside &= !figure->sure || !verdict.thin;
+    if (!changes)
+        verdict.most_seeds = m->seeds;
+    return verdict;
+}
+
 /* Measures the figures of a claim with each seed of its runs, or of its null's, and computes the
    verdicts. Runs with fewer seeds repeat theirs. Without its cause a figure may not exist: the null
    may leave it out, and misses its band. */
@@ -262,8 +152,7 @@ static void measure_runs(const JoxReproduction *all, const JoxClaim *claim, JoxM
         double *of_figure = &all_values[f * m->seeds];
         for (uint32_t s = 0; why.length && s < m->seeds; s++)
             of_figure[s] = NAN;
-        m->verdicts[f] = jox_verdict(of_figure, m->seeds, figure->low, figure->high);
-        m->verdicts[f].inside &= !figure->sure || !m->verdicts[f].thin;
+        m->verdicts[f] = judge_figure(claim, m, of_figure, figure);
     }
     jox_free(all_values);
     jox_free(values);
@@ -304,6 +193,7 @@ static void append_figure(JoxText *out, double value) {
 /* Prints a claim, and unless claims are only listed, its figures with their verdicts. */
 static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
+    char seeds[JOX_SEEDS_SIZE], noun[JOX_NOUN];
     JoxText out = {0};
     jox_text_printf(&out, "%s  %s (%s)%s%s%s\n", claim->id, claim->title, claim->source,
                     *claim->level ? ", " : "", claim->level,
@@ -311,14 +201,18 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
                     : !outcome->inside        ? ": MISSES"
                     : outcome->proves_nothing ? ": NO EVIDENCE, its null is in band too"
                                               : ": in band");
-    if (claim->null_text)
+    if (claim->null_text && def->list)
         jox_text_printf(&out, "   null: %s\n", claim->null_text);
+    else if (claim->null_text)
+        jox_text_printf(&out, "   null, %s %s: %s\n",
+                        jox_seeds_write(seeds, outcome->null.fewest_seeds, outcome->null.seeds),
+                        jox_noun_alone(noun, outcome->null.seeds, "seed"), claim->null_text);
     if (*claim->no_null)
         jox_text_printf(&out, "   no null: %s\n", claim->no_null);
     for (uint32_t f = 0; f < claim->figure_count && !def->list; f++) {
         const JoxClaimFigure *figure = &claim->figures[f];
         const JoxVerdict *v = &outcome->own.verdicts[f];
-        char bound[JOX_BOUND_SIZE], seeds[JOX_NOUN];
+        char bound[JOX_BOUND_SIZE];
         jox_text_printf(&out, "   %-24s source %-12s measured ", figure->name,
                         *figure->expected ? figure->expected : "-");
         append_figure(&out, v->mean);
@@ -327,7 +221,8 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
         append_figure(&out, v->least);
         jox_text_add(&out, " to ");
         append_figure(&out, v->most);
-        jox_text_printf(&out, ", %s) %s", jox_noun(seeds, v->seeds, "seed"), figure->unit);
+        jox_text_printf(&out, ", %s %s) %s", jox_seeds_write(seeds, v->seeds, v->most_seeds),
+                        jox_noun_alone(noun, v->most_seeds, "seed"), figure->unit);
         if (figure->reported)
             jox_text_add(&out, ", reported");
         else
@@ -371,6 +266,7 @@ static void free_reproduction(JoxReproduction *all) {
     jox_free(all->outcomes);
     jox_free(all->jobs);
     jox_text_free(&all->left_out);
+    jox_text_free(&all->cut);
 }
 
 /* Executes and measures all claims, writes the results and prints a summary. Sets the number of
@@ -399,6 +295,11 @@ static bool run_and_measure(JoxReproduction *all, size_t *missed, JoError *error
         if (!jox_outcome_holds(&all->outcomes[o]))
             jox_text_printf(&out, "%s%s",
                             n++ ? ", " : "; these miss: ", all->outcomes[o].claim->id);
+    if (all->cut.length)
+        jox_text_printf(&out,
+                        "\nverdicts of --quick are not the published ones; cut to fewer seeds or "
+                        "shorter runs: %s",
+                        all->cut.data);
     if (all->left_out.length)
         jox_text_printf(&out, "\nleft out with --quick: %s", all->left_out.data);
     jox_text_printf(&out, "\nreport: %s/index.html\n", all->def->out);
@@ -429,7 +330,7 @@ static bool reproduce_claims(const JoReproduceDef *def, size_t *missed, JoError 
         jox_diag_error(&diagnostics, ((JoxPosition){"--seeds", 0, 0, 0}), "bad-seeds",
                        "--seeds 101, or --seeds 101-110",
                        "'%.60s' is no seed, and no range of up to 1000", def->seeds);
-    load_claims(&all, &diagnostics);
+    jox_reproduce_load_claims(&all, &diagnostics);
     bool good = diagnostics.errors == 0;
     jox_run_report_diagnostics(def->message, def->message_context, &diagnostics, error);
     for (uint32_t o = 0; good && def->list && o < all.outcome_count; o++)

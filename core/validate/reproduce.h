@@ -1,4 +1,4 @@
-/* State of jo_reproduce, shared by reproduce*.c. reproduce.c loads claims, plans their runs as
+/* State of jo_reproduce, shared by reproduce*.c. reproduce.c has claims loaded, plans their runs as
    jobs, has reproduce_runs.c execute these, measures, and has the other files write the results. */
 #ifndef JOX_VALIDATE_REPRODUCE_H
 #define JOX_VALIDATE_REPRODUCE_H
@@ -32,9 +32,9 @@ typedef struct JoxMeasured {
     JoxClaimRun *runs; /* the claim's; NULL: it has no null */
     /* [run][seed]: index of the job; row r has runs[r].seeds elements */
     uint32_t **jobs;
-    uint32_t seeds;       /* greatest number of seeds of the runs */
-    JoxVerdict *verdicts; /* per figure */
-    char *failure;        /* reason if it could not be measured, or NULL */
+    uint32_t fewest_seeds, seeds; /* fewest and greatest number of seeds of the runs */
+    JoxVerdict *verdicts;         /* per figure */
+    char *failure;                /* reason if it could not be measured, or NULL */
 } JoxMeasured;
 
 /* A claim with its jobs and the verdicts on its figures. */
@@ -56,6 +56,10 @@ static inline const char *jox_outcome_verdict(const JoxOutcome *outcome) {
                                      : "in band";
 }
 
+/* Stands on the pages of quick runs before the ids of the claims that were cut. */
+#define JOX_SAYS_QUICK                                                                             \
+    " Verdicts of quick runs are not the published ones. Cut to fewer seeds or shorter runs: "
+
 typedef struct JoxReproduction {
     const JoReproduceDef *def;
     JoxOutcome *outcomes;
@@ -68,8 +72,12 @@ typedef struct JoxReproduction {
     uint32_t seeds;   /* number of seeds from first_seed on; 0: as each claim has them */
     double seconds;   /* s: wall time of all runs */
     JoxText left_out; /* ids of claims left out because they have no quick runs */
+    JoxText cut;      /* ids of claims with fewer or smaller runs for `quick` */
 } JoxReproduction;
 
+/* reproduce_claims.c: loads the selected claims of the folder, sorted by id, with errors for
+   unknown selections. */
+void jox_reproduce_load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics);
 /* reproduce_runs.c: executes all jobs that are not done already, several at once. Returns false
    if it was interrupted. */
 bool jox_reproduce_run(JoxReproduction *all);
@@ -92,6 +100,13 @@ bool jox_reproduce_write_standards(const JoxReproduction *all, JoxText *error);
    a claim as HTML. */
 void jox_reproduce_describe_run(const JoxReproduction *all, char *out, size_t size);
 void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome);
+/* reproduce_table.c: write table.md and results.json in the folder of results. Return false with a
+   sentence in `error`. */
+bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, JoxText *error);
+bool jox_reproduce_write_json(const JoxReproduction *all, JoxText *error);
+/* Writes a figure's band, or `dash` if it has none; returns the verdict on it in words. */
+void jox_reproduce_put_band(FILE *out, const JoxClaimFigure *figure, const char *dash);
+const char *jox_figure_verdict(const JoxClaimFigure *figure, const JoxVerdict *verdict);
 /* reproduce_page.c: writes index.html, table.md and results.json in the folder of results.
    Returns false with a sentence in `error`. */
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error);

@@ -1,5 +1,4 @@
-/* Writes the results of jo_reproduce: a page (index.html), a Markdown table and the figures as
-   JSON. */
+/* Writes the page of jo_reproduce's results, index.html. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,37 +8,17 @@
 
 #include "agents/parameters.h"
 #include "base/file.h"
-#include "base/format/json_writer.h"
-#include "base/format/quote.h"
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "force/force.h"
 #include "picture/html.h"
 #include "picture/plot.h"
 #include "validate/reproduce.h"
 
-static void put_band(FILE *out, const JoxClaimFigure *figure, const char *dash) {
-    if (figure->low == -INFINITY && figure->high == INFINITY)
-        fputs(dash, out);
-    else if (figure->low == -INFINITY)
-        fprintf(out, "at most %.4g", figure->high);
-    else if (figure->high == INFINITY)
-        fprintf(out, "at least %.4g", figure->low);
-    else
-        fprintf(out, "%.4g to %.4g", figure->low, figure->high);
-}
-
 static void put_bound(FILE *out, double bound) {
     char text[JOX_BOUND_SIZE];
     jox_bound_write(text, bound);
     jox_html_text(out, text);
-}
-
-static const char *name_verdict(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
-    if (figure->reported)
-        return "reported";
-    if (verdict->thin)
-        return verdict->inside ? "in band, thin" : "misses, thin";
-    return verdict->inside ? "in band" : "misses";
 }
 
 /* ---- where and when ---- */
@@ -123,6 +102,7 @@ static void put_claim_figures(FILE *out, const JoxOutcome *outcome) {
     for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
         const JoxClaimFigure *figure = &outcome->claim->figures[f];
         const JoxVerdict *v = &outcome->own.verdicts[f];
+        char seeds[JOX_SEEDS_SIZE];
         fputs("<tr><td>", out);
         jox_html_text(out, *figure->what ? figure->what : figure->name);
         fputs("<td>", out);
@@ -133,17 +113,17 @@ static void put_claim_figures(FILE *out, const JoxOutcome *outcome) {
         jox_html_text(out, figure->unit);
         fputs("<td class=n>", out);
         put_bound(out, v->bound);
-        fprintf(out, "<td class=n>%u<td class=n>", v->seeds);
+        fprintf(out, "<td class=n>%s<td class=n>", jox_seeds_write(seeds, v->seeds, v->most_seeds));
         jox_html_number(out, v->least);
         fputs(" to ", out);
         jox_html_number(out, v->most);
         fputs("<td>", out);
-        put_band(out, figure, "&ndash;");
+        jox_reproduce_put_band(out, figure, "&ndash;");
         fprintf(out, "<td class=%s>%s",
                 figure->reported ? "none"
                 : v->inside      ? "in"
                                  : "out",
-                name_verdict(figure, v));
+                jox_figure_verdict(figure, v));
         put_null_figure(out, outcome, f);
     }
     fputs("</table></div>\n", out);
@@ -246,7 +226,11 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
         jox_html_text(out, *claim->calibrated ? claim->calibrated : claim->held_out);
     }
     if (claim->null_text) {
-        fputs("<br>Null, which must miss a band: ", out);
+        char seeds[JOX_SEEDS_SIZE], noun[JOX_NOUN];
+        const JoxMeasured *null = &outcome->null;
+        fprintf(out, "<br>Null, which must miss a band, %s %s: ",
+                jox_seeds_write(seeds, null->fewest_seeds, null->seeds),
+                jox_noun_alone(noun, null->seeds, "seed"));
         jox_html_text(out, claim->null_text);
     }
     if (*claim->no_null) {
@@ -297,7 +281,13 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
     jox_html_begin(out, "What Jostle reproduces");
     fprintf(out, "<p>%u of %u claims in band. ", inside, all->outcome_count);
     jox_html_text(out, when);
-    fputs(".</p>\n<div class=scroll><table><tr><th>claim<th>what<th>source<th>verdict</tr>\n", out);
+    fputs(".", out);
+    if (all->cut.length) {
+        fputs(JOX_SAYS_QUICK, out);
+        jox_html_text(out, all->cut.data);
+        fputs(".", out);
+    }
+    fputs("</p>\n<div class=scroll><table><tr><th>claim<th>what<th>source<th>verdict</tr>\n", out);
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
         fprintf(out, "<tr><td><a href=\"#c%u\">", o);
@@ -318,114 +308,10 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
     return jox_plot_close(out, "index.html", error);
 }
 
-/* ---- the table and the figures ---- */
-
-static void put_markdown_cell(FILE *out, const char *text) {
-    jox_quote_put(out, jox_quote_markdown, text);
-    fputs(" | ", out);
-}
-
-/* Writes table.md: a row per figure, and below it what was tried for claims that miss. */
-static bool write_claims_table(const JoxReproduction *all, const char *when, JoxText *error) {
-    FILE *out = jox_plot_open(all->def->out, "table.md", error);
-    if (!out)
-        return false;
-    jox_quote_put(out, jox_quote_markdown, when);
-    fputs(
-        ".\n\n| claim | haste | constants | figure | source | mean | 95 % | seeds | band | verdict "
-        "| null |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-        out);
-    for (uint32_t o = 0; o < all->outcome_count; o++)
-        for (uint32_t f = 0; f < all->outcomes[o].claim->figure_count; f++) {
-            const JoxClaim *claim = all->outcomes[o].claim;
-            const JoxClaimFigure *figure = &claim->figures[f];
-            const JoxVerdict *v = &all->outcomes[o].own.verdicts[f];
-            char bound[JOX_BOUND_SIZE];
-            fputs("| ", out);
-            jox_quote_put(out, jox_quote_markdown, f ? "" : claim->id);
-            fputc(' ', out);
-            put_markdown_cell(out, f ? "" : claim->title);
-            put_markdown_cell(out, f ? "" : claim->level);
-            put_markdown_cell(out, f                    ? ""
-                                   : *claim->calibrated ? "calibrated"
-                                   : *claim->held_out   ? "held out"
-                                                        : "");
-            put_markdown_cell(out, *figure->what ? figure->what : figure->name);
-            put_markdown_cell(out, figure->expected);
-            if (isfinite(v->mean)) {
-                fprintf(out, "%.4g ", v->mean);
-                put_markdown_cell(out, figure->unit);
-            } else {
-                fputs("not measured | ", out);
-            }
-            jox_bound_write(bound, v->bound);
-            fprintf(out, "%s | %u | ", bound, v->seeds);
-            put_band(out, figure, "");
-            fprintf(out, " | %s | ", name_verdict(figure, v));
-            if (all->outcomes[o].null.runs)
-                fprintf(out, "%.4g%s", all->outcomes[o].null.verdicts[f].mean,
-                        !figure->reported && all->outcomes[o].null.verdicts[f].inside
-                            ? ", in band too"
-                            : "");
-            fputs(" |\n", out);
-        }
-    for (uint32_t o = 0; o < all->outcome_count; o++) {
-        const JoxClaim *claim = all->outcomes[o].claim;
-        if (all->outcomes[o].inside || claim->tried_count == 0)
-            continue;
-        fputc('\n', out);
-        jox_quote_put(out, jox_quote_markdown, claim->id);
-        fputs(" misses. What was tried:\n\n", out);
-        for (uint32_t t = 0; t < claim->tried_count; t++) {
-            fputs("- ", out);
-            jox_quote_put(out, jox_quote_markdown, claim->tried[t]);
-            fputc('\n', out);
-        }
-    }
-    return jox_plot_close(out, "table.md", error);
-}
-
-/* Writes results.json: verdicts by claim and figure. */
-static bool write_claims_json(const JoxReproduction *all, JoxText *error) {
-    JoxText text = {0};
-    JoxJson json = jox_json_begin(&text, 1);
-    jox_json_object(&json, NULL);
-    for (uint32_t o = 0; o < all->outcome_count; o++) {
-        const JoxOutcome *outcome = &all->outcomes[o];
-        jox_json_object(&json, outcome->claim->id);
-        jox_json_bool(&json, "inside", outcome->inside);
-        jox_json_bool(&json, "proves_nothing", outcome->proves_nothing);
-        jox_json_object(&json, "figures");
-        for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
-            const JoxVerdict *v = &outcome->own.verdicts[f];
-            jox_json_object(&json, outcome->claim->figures[f].name);
-            jox_json_number(&json, "mean", v->mean);
-            jox_json_number(&json, "least", v->least);
-            jox_json_number(&json, "most", v->most);
-            jox_json_number(&json, "bound", v->bound);
-            jox_json_integer(&json, "seeds", v->seeds);
-            jox_json_bool(&json, "thin", v->thin);
-            jox_json_bool(&json, "inside", v->inside);
-            if (outcome->null.runs)
-                jox_json_number(&json, "null", outcome->null.verdicts[f].mean);
-            jox_json_end(&json);
-        }
-        jox_json_end(&json);
-        jox_json_end(&json);
-    }
-    jox_json_end(&json);
-    jox_text_append(&text, "\n", 1);
-    FILE *out = jox_plot_open(all->def->out, "results.json", error);
-    if (out)
-        fputs(text.data, out);
-    jox_text_free(&text);
-    return out && jox_plot_close(out, "results.json", error);
-}
-
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error) {
     char when[512];
     jox_reproduce_describe_run(all, when, sizeof when);
     return jox_plot_folder(all->def->out, error) && jox_reproduce_draw_plots(all, error) &&
-           write_claims_page(all, when, error) && write_claims_table(all, when, error) &&
-           write_claims_json(all, error);
+           write_claims_page(all, when, error) && jox_reproduce_write_table(all, when, error) &&
+           jox_reproduce_write_json(all, error);
 }

@@ -135,7 +135,7 @@ static void put_overview(FILE *out, const JoxReproduction *all) {
 }
 
 static void put_test_figure(FILE *out, const JoxClaimFigure *figure, const JoxVerdict *v) {
-    char bound[JOX_BOUND_SIZE];
+    char bound[JOX_BOUND_SIZE], seeds[JOX_SEEDS_SIZE];
     jox_html_row(out);
     jox_html_cell(out, *figure->what ? figure->what : figure->name);
     jox_html_cell(out, figure->expected);
@@ -144,7 +144,7 @@ static void put_test_figure(FILE *out, const JoxClaimFigure *figure, const JoxVe
     jox_html_cell(out, bound);
     jox_html_cell_number(out, v->p95, figure->unit);
     jox_html_cell_number(out, v->most, figure->unit);
-    jox_html_cell_number(out, v->seeds, "");
+    jox_html_cell(out, jox_seeds_write(seeds, v->seeds, v->most_seeds));
     if (figure->reported)
         jox_html_cell(out, "reported");
     else

@@ -20,7 +20,8 @@ JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double 
                     .least = INFINITY,
                     .most = -INFINITY,
                     .bound = jox_mean_bound(&moments, SURE),
-                    .seeds = count};
+                    .seeds = count,
+                    .most_seeds = count};
     double *sorted = jox_alloc(count, sizeof *sorted);
     for (uint32_t s = 0; s < count; s++) {
         v.least = fmin(v.least, values[s]);
@@ -39,6 +40,14 @@ void jox_bound_write(char out[JOX_BOUND_SIZE], double bound) {
     *out = 0;
     if (isfinite(bound))
         snprintf(out, JOX_BOUND_SIZE, bound < 99.5 ? "+- %.2g" : "+- %.0f", fmin(bound, 1e15));
+}
+
+const char *jox_seeds_write(char out[JOX_SEEDS_SIZE], uint32_t fewest, uint32_t most) {
+    if (fewest < most)
+        snprintf(out, JOX_SEEDS_SIZE, "%u to %u", fewest, most);
+    else
+        snprintf(out, JOX_SEEDS_SIZE, "%u", most);
+    return out;
 }
 
 bool jox_seeds_read(const char *text, uint64_t *first, uint32_t *count) {

@@ -91,7 +91,7 @@ says "the null's figure stands beside the claim's" "null 10, out"
 says "and a figure that the null meets is marked" "null 1, in band too"
 expect "a claim whose null is in band proves nothing" 1 "NO EVIDENCE, its null is in band too" "${nulls[@]}"
 says "and counts as missed" "1 of 2 claims in band; these miss: mass"
-grep -q "Null, which must miss a band: another speed" "$work/null/index.html" && grep -q "<td class=out>1, in band too" "$work/null/index.html"
+grep -q "Null, which must miss a band, 2 seeds: another speed" "$work/null/index.html" && grep -q "<td class=out>1, in band too" "$work/null/index.html"
 verdict "the page shows both" $?
 grep -q '"proves_nothing": true' "$work/null/results.json" && grep -Eq '"null": (10|9.99)' "$work/null/results.json"; verdict "results.json has them" $?
 cat >"$work/nulls/speed.lua" <<'CLAIM'
@@ -123,6 +123,17 @@ expect "unless it must be sure" 1 "band 1 to inf: OUT, thin" "${nulls[@]}" sure
 rm "$work/nulls/mean.lua" "$work/nulls/sure.lua"
 sed -i 's/set = {/sets = {/' "$work/nulls/mass.lua"
 expect "a misspelt key of null is an error" 3 "null has no 'sets'; did you mean 'set'?" "${nulls[@]}"
+rm "$work/nulls/mass.lua"
+write_null_claim speed 1
+expect "--quick leaves one seed to runs without smaller ones" 0 "measured 8 (8 to 8, 1 seed)" "${nulls[@]}" speed --quick
+says "and to their nulls" "null, 1 seed: another speed"
+expect "a claim of one seed is not cut" 0 "1 of 1 claims in band" "$JOSTLE" reproduce R1 --quick --quiet --out "$work/null"
+! grep -q published "$work/out"; verdict "and is not said to be" $?
+
+# ---- runs with different numbers of seeds ----
+sed 's/slow = { scene = "..\/walk.yaml", seeds = 1/slow = { scene = "..\/walk.yaml", seeds = 1, dt = 0.02/; s/{ "seed", rep/{ "slow_seed", reported = true }, { "seed", rep/; s/seed = run.walk/slow_seed = run.slow.summary.seed, seed = run.walk/; /quick = {/d' "$work/claims/good.lua" >"$work/nulls/uneven.lua"
+expect "a figure of two seeds says so" 0 "seed                     source -            measured 101.5 +- 6.4 (101 to 102, 2 seeds)" "${nulls[@]}" uneven
+says "one that never changes tells what it may be" "slow_seed                source -            measured 101 (101 to 101, 1 to 2 seeds)"
 
 # ---- what is done is not done again ----
 stamps() { stat -c '%Y.%y %n' "$work"/rep/runs/*/summary.json | sort; }
@@ -142,6 +153,8 @@ echo '  line: {flow: [[2, -3], [2, 3]]}' >>"$work/walk.yaml"
 expect "--quick" 1 "these miss: G" "${run[@]}" --quick
 between "--quick uses the settings of quick" "$(value length)" 15 15
 between "and does not affect claims that share the runs" "$(value slow)" 9.9 10.1
+says "and says which claims it cut" "are not the published ones; cut to fewer seeds or shorter runs: G"
+grep -q "are not the published ones. Cut to fewer seeds or shorter runs: G\." "$work/rep/index.html" && grep -q "runs: G\." "$work/rep/table.md"; verdict "as do the page and the table" $?
 expect "--seeds A-B" 0 "in band" "${run[@]}" --seeds 7-10
 between "--seeds A-B replaces the claim's seeds" "$(value seed)" 8.5 8.5
 expect "--seeds A" 0 "1 seed)" "${run[@]}" --seeds 12
