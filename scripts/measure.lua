@@ -21,6 +21,11 @@ function measure.half_gap()
   return { text = "people keep half the time gap, 0.461 s", set = set, seeds = 1 }
 end
 
+-- Returns the null of a claim on how people use the width of their way: all take the shortest way, however crowded.
+function measure.shortest_way()
+  return { text = "ways do not avoid people who are held up", set = { ["walking.crowd_slowing"] = 0 }, seeds = 1 }
+end
+
 -- Ids of the claims on which the Tawaf's behaviour was chosen; it walks by ORCA, so its claims have no level of haste.
 measure.tawaf = "the Tawaf's chances, durations, speeds and pushes were chosen on seed 1 of 6-7, 8, 9 and 10, "
   .. "chances and gates on seed 101 of 6-7 and 10, too"

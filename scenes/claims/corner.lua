@@ -24,7 +24,7 @@ return claim {
   level = "calm", calibrated = measure.walking_law,
   runs = { corner = { scene = "../corner-300.yaml", seeds = "101-110" } },
   quick = { corner = { seeds = 3 } },
-  null = measure.by_orca("people"),
+  null = measure.shortest_way(),
   measure = function(run)
     local probes = run.corner.summary.probes
     local out = { flow = probes.line.flow }

@@ -1,5 +1,9 @@
 local measure = require "measure"
 
+-- Flow per metre through an exit of b metres, 1/(m s), by the line of bottlenecks and by SFPE with effective width.
+local function line(b) return 1.92 - 0.07 / b end
+local function sfpe(b) return 1.32 * (b - 0.3) / b end
+
 -- m; and people, as many as keep the flow up.
 local exits = { { 0.8, 200 }, { 1.2, 250 }, { 1.8, 320 }, { 2.4, 400 }, { 3.6, 550 }, { 5.0, 700 } }
 local bends = { 0.8, 1.2, 2.4, 4.0, 6.0 }
@@ -34,10 +38,10 @@ for i = 1, #exits do
   local name = exit_name(b)
   runs[name], quick[name], through[i] = exit(b, people), { seeds = 1 }, { b, name }
   expect[i] = { name, unit = "1/(m s)", what = string.format("people through an exit of %.1f m, per second and metre", b),
-    source = "1.92, 1.37, 1.15 at 2.4 m; ours: between", band = { 1.2, 1.9 } }
+    source = string.format("%.2f to %.2f", sfpe(b), line(b)), band = { 1.2, 1.9 } }
 end
-expect[#expect + 1] = { "exits least", what = "least of these over their mean", source = "1; ours: within 15 %", band = { 0.85, 1 } }
-expect[#expect + 1] = { "exits most", what = "greatest of these over their mean", source = "1; ours: within 15 %", band = { 1, 1.15 } }
+expect[#expect + 1] = { "exits least", what = "least of these over their mean", source = "1 by 1.92 b", band = { 0.85, 1 } }
+expect[#expect + 1] = { "exits most", what = "greatest of these over their mean", source = "1 by 1.92 b", band = { 1, 1.15 } }
 for i = 1, #bends do
   local b = bends[i]
   local name = bend_name(b)
@@ -45,16 +49,17 @@ for i = 1, #bends do
   expect[#expect + 1] = { name, unit = "1/(m s)", reported = true, source = "none",
     what = string.format("people round a bend of 90 degrees in a corridor of %.1f m, per second and metre", b) }
 end
-expect[#expect + 1] = { "bends least", what = "least of these over their mean", source = "ours: 1 within 15 %", band = { 0.85, 1 } }
-expect[#expect + 1] = { "bends most", what = "greatest of these over their mean", source = "ours: 1 within 15 %", band = { 1, 1.15 } }
+expect[#expect + 1] = { "bends least", what = "least of these over their mean", source = "ours: 1", band = { 0.85, 1 } }
+expect[#expect + 1] = { "bends most", what = "greatest of these over their mean", source = "ours: 1", band = { 1, 1.15 } }
 
 return claim {
   id = "W", title = "Flow grows with the width, at exits and round bends",
-  source = "1.92 b (Seyfried et al. 2009), 82 people per metre and minute (Green Guide), SFPE with effective width; bends: "
+  source = "1.92 b - 0.07 (Seyfried et al. 2009), 82 people per metre and minute (Green Guide), SFPE with effective width; bends: "
     .. "3.18 1/s at 3 m (corner_300)",
-  text = "What a metre of width lets through hardly depends on how many metres there are.",
+  text = "What a metre of width lets through hardly depends on how many metres there are. The band of 1.2 to 1.9 is ours, "
+    .. "between the three laws. ORCA fails at exits (5.6 at 5 m), not at bends.",
   level = "normal", calibrated = measure.walking_law,
-  runs = runs, quick = quick, null = measure.by_orca("people"),
+  runs = runs, quick = quick, null = measure.shortest_way(),
   measure = function(run)
     local out = {}
     local function collect(list, kind)
