@@ -229,10 +229,9 @@ static void add_displacement(JoxJson *json, const JoScene *scene, uint32_t body)
                          jox_bodies_find(scene->world->state.bodies, body), &pose))
         return;
     double x = pose.position.x - def->position[0], y = pose.position.y - def->position[1];
-    const float *q = pose.turn;
-    double yaw = jox_atan2(2 * ((double)q[3] * q[2] + (double)q[0] * q[1]),
-                           1 - 2 * ((double)q[1] * q[1] + (double)q[2] * q[2]));
-    double turned = yaw - 2 * jox_atan2(def->turn[2], def->turn[3]);
+    /* Turn about the vertical, without what the body has tipped over. */
+    double turned =
+        2 * jox_atan2(pose.turn[2], pose.turn[3]) - 2 * jox_atan2(def->turn[2], def->turn[3]);
     turned = (turned - 2 * JOX_PI * floor(turned / (2 * JOX_PI) + 0.5)) * 180 / JOX_PI;
     jox_json_digits(json, "moved", sqrt(x * x + y * y), 6);
     jox_json_digits(json, "turned", turned, 6);
