@@ -192,20 +192,4 @@ function measure.detrended(list)
   return out
 end
 
--- Correlation of two lists, the second taken `lag` entries later.
-function measure.correlation(a, b, lag)
-  local x, y = {}, {}
-  for i = 1, #a do
-    if a[i] and b[i + lag] then
-      x[#x + 1], y[#y + 1] = a[i], b[i + lag]
-    end
-  end
-  local mx, my, sxx, syy, sxy = measure.mean(x), measure.mean(y), 0, 0, 0
-  for i = 1, #x do
-    sxx, syy = sxx + (x[i] - mx) ^ 2, syy + (y[i] - my) ^ 2
-    sxy = sxy + (x[i] - mx) * (y[i] - my)
-  end
-  return sxy / math.sqrt(sxx * syy)
-end
-
 return measure

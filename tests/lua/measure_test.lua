@@ -69,16 +69,6 @@ test("N(t) counts who passed forward until then", function()
   equal(measure.passed(flow, 99), 3)
 end)
 
-test("correlation finds a delay", function()
-  local a, b = {}, {}
-  for i = 1, 40 do
-    a[i] = (i * 7 % 11) / 11
-    b[i] = i > 3 and a[i - 3] or 0
-  end
-  near(measure.correlation(a, b, 3), 1, 0.02)
-  truthy(measure.correlation(a, b, 1) < 0.5)
-end)
-
 test("a list without its trend keeps what sways about it", function()
   local list = {}
   for i = 1, 40 do list[i] = 3 + 0.5 * i + (i % 2 == 0 and 1 or -1) end
