@@ -3,13 +3,15 @@ local strengths = { 80, 300, 1200, 5000 } -- N, of the bond between two blocks
 
 local function name_of(mass, strength) return string.format("m%02.0f_b%04.0f", mass, strength) end
 
-local runs, expect, broken, through = {}, {}, {}, {}
+local runs, null_runs, expect, broken, through = {}, {}, {}, {}, {}
 for i = 1, #masses do
   for k = 1, #strengths do
     local m, b = masses[i], strengths[k]
     local name = name_of(m, b)
     runs[name] = { scene = "../wall-breaking.yaml", seeds = 1, duration = 60,
       set = { ["bodies.0.shape.blocks.block_mass"] = m, ["bodies.0.shape.blocks.bond"] = b } }
+    if k == 1 then null_runs[name] = { set = { ["forces.enabled"] = false } } end
+    if k == #strengths then null_runs[name] = { set = { ["bodies.0.shape.blocks.bond"] = strengths[1] } } end
     expect[#expect + 1] = { "broken_" .. name, reported = true,
       what = string.format("share of bonds broken, blocks of %g kg, bonds of %g N", m, b) }
     expect[#expect + 1] = { "through_" .. name, reported = true,
@@ -19,10 +21,11 @@ for i = 1, #masses do
   end
 end
 expect[#expect + 1] = { "weak", what = "share of bonds broken of the weakest bonds, mean over the masses",
-  source = "breaks (Fig. 2)", band = { 0.2, 1 } }
-expect[#expect + 1] = { "strong", what = "the same of the strongest bonds", source = "0 (Fig. 7)", band = { 0, 0.02 } }
+  source = "breaks (Fig. 2); 0.2 is ours", band = { 0.2, 1 } }
+expect[#expect + 1] = { "strong", what = "the same of the strongest bonds", source = "holds (Fig. 7); 0.02 is ours",
+  band = { 0, 0.02 } }
 expect[#expect + 1] = { "rises", what = "strengths of which no smaller share breaks than of the one before",
-  source = "0", band = { 0, 0 } }
+  source = "ours", band = { 0, 0 } }
 
 return claim {
   id = "3m", title = "Which walls break: a map over the mass of the blocks and the strength of the bonds",
@@ -33,6 +36,7 @@ return claim {
   level = "keen",
   held_out = "all cells of the map but those of claim 3, on which the throng's push and waiting were chosen",
   runs = runs, quick = false,
+  null = { text = "forces off with the weakest bonds, and those in place of the strongest", runs = null_runs },
   measure = function(run)
     local out, shares = {}, {}
     for k = 1, #strengths do
@@ -53,6 +57,10 @@ return claim {
     return out
   end,
   expect = expect,
+  tried = {
+    "Only the wall of 25 kg blocks breaks with bonds of 5000 N: 11 % of them with seeds 101 and 102, 2 % with 103. "
+      .. "The paper does not say how strong its glue is.",
+  },
   plots = {
     { name = "broken", title = "Share of the bonds that broke within a minute",
       x = "mass of a block (kg)", y = "strength of a bond (N)", z = "share of bonds", map = broken },
