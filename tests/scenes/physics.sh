@@ -58,5 +58,15 @@ turned=$(bonds turned "$work/w.json")
 between "angle by which the tight wall turns, degrees" "${turned#-}" 3 180
 "$JOSTLE" run scenes/wall-heavy.yaml --for 60 --quiet --summary "$work/w.json"
 between "displacement of a heavy wall, m" "$(bonds moved "$work/w.json")" 0 0.1
+# A plank that is thrown up with a spin about its length falls on its side, and has not turned about the vertical.
+cat >"$work/plank.yaml" <<'SCENE'
+jostle: 1
+duration: 3
+bodies: [{name: plank, shape: {blocks: {size: [0.4, 0.4, 0.3], count: [1, 4, 1], bond: 1000 kN}}, mass: 40, at: [0, 0, 0.15], turn: 30}]
+groups: {people: {behaviour: stander.lua, at: [[9, 9]]}}
+events: [{at: 0.5, throw: plank, velocity: [0, 0, 4], spin: [-1, 1.732, 0]}]
+SCENE
+"$JOSTLE" run "$work/plank.yaml" --quiet --summary "$work/w.json"
+between "angle by which a plank turns that tips over, degrees" "$(bonds turned "$work/w.json")" -5 5
 "$JOSTLE" run scenes/office.yaml --for 20 --quiet --summary "$work/o.json"
 between "office: error of the momentum balance" "$(bonds residual "$work/o.json")" 0 0.00001
