@@ -121,10 +121,12 @@ typedef enum JoxForceRole {
 #define JOX_NO_MACHINE UINT16_MAX
 
 /* Bits of the column plan_notes: what acted on an agent's plan that no equation of the paper
-   prints. */
+   prints. The first two are rules of the default mode, the third a limit of literal mode. */
 typedef enum JoxPlanNote {
     JOX_NOTE_TURNED_ASIDE = 1, /* it stood before others, and wanted to go more to its right */
-    JOX_NOTE_BOUNDED = 2 /* half-planes of contacts or force were lowered to what is within reach */
+    JOX_NOTE_BOUNDED =
+        2, /* half-planes of contacts or force were lowered to what is within reach */
+    JOX_NOTE_PARTS_LEFT_OUT = 4 /* more parts of bodies were near than it has half-planes for */
 } JoxPlanNote;
 
 /* Returns the reference to an index, as columns store it: index + 1, 0 for none. Columns that are 0

@@ -38,6 +38,8 @@ struct JoxConvexPart {
     uint32_t corner_count;
     uint32_t *edges;
     uint32_t edge_count;
+    JoxV3 middle; /* centre of its bounding box in its own frame, here in the body's */
+    float sphere; /* radius of the bounding sphere about it, m */
 };
 
 /* Shape made from a definition: Bullet's collision shape, the parts for footprints, and the mass
@@ -287,6 +289,10 @@ uint32_t jox_bodies_note_contacts(const JoxBodies *bodies, JoxContactRecord *&co
 void jox_bodies_renew_contacts(JoxBodies *bodies, const JoxContactRecord *contacts, uint32_t count);
 /* Lists the contacts of dynamic bodies for JoxObjects; `bodies` is a JoxBodies. */
 JoxObjectContacts jox_bodies_list_contacts(void *bodies);
+/* In bullet_parts.cc. Set a part's bounding sphere, once its frame and corners are those of the
+   body; advance to the next part for JoxObjects; `bodies` is a JoxBodies. */
+void jox_part_set_sphere(JoxConvexPart *part, const btVector3 &middle);
+bool jox_bodies_next_part(const void *bodies, JoxPartWalk *walk, JoxObjectPart *part);
 /* Whether a body moves so fast that a step of dt seconds sweeps it against people. */
 bool jox_row_is_fast(const JoxRow *row, float dt);
 

@@ -331,6 +331,7 @@ void transform_parts(JoxBodyShape *out) {
             float reach = part->frame.getOrigin().length() + part->radius;
             out->bound = reach > out->bound ? reach : out->bound;
         }
+        jox_part_set_sphere(part, (low + high) * 0.5f);
     }
 }
 

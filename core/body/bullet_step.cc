@@ -201,9 +201,7 @@ static void write_sphere(const JoxRow *r, JoxObject *o) {
     const JoxConvexPart *sphere = &r->shape.parts[0];
     btVector3 centre = r->body->getWorldTransform() * sphere->frame.getOrigin();
     float away = jox_length(jox_v2(centre.x() - o->position.x, centre.y() - o->position.y));
-    float apart = (centre - r->body->getWorldTransform().getOrigin()).length();
     o->disc = away + sphere->radius;
-    o->sphere = apart + sphere->radius;
     o->below = o->position.z - (centre.z() - sphere->radius);
     o->above = centre.z() + sphere->radius - o->position.z;
     o->low = jox_maxf(centre.z() - sphere->radius, JOX_BAND_LOW);
@@ -212,17 +210,15 @@ static void write_sphere(const JoxRow *r, JoxObject *o) {
     o->in_band = o->high > o->low && o->round > 0.0f;
 }
 
-/* Adds a part's corners to the footprint, and updates the squared reach from the body's centre,
-   m2: in the plane, and in space. */
+/* Adds a part's corners to the footprint, and updates the squared reach from the body's centre in
+   the plane, m2. */
 static void add_part_corners(JoxBodies *b, const JoxConvexPart *part, const btTransform &at,
-                             JoxV3 centre, float *reach2, float *sphere2) {
+                             JoxV3 centre, float *reach2) {
     jox_reserve(b->corners, b->corner_capacity, part->corner_count);
     for (uint32_t i = 0; i < part->corner_count; i++) {
         b->corners[i] = jox_v3(at * jox_bt(part->corners[i]));
         JoxV2 away = jox_v2(b->corners[i].x - centre.x, b->corners[i].y - centre.y);
-        float above = b->corners[i].z - centre.z;
         *reach2 = jox_maxf(*reach2, jox_length2(away));
-        *sphere2 = jox_maxf(*sphere2, jox_length2(away) + above * above);
     }
     jox_footprint_add(&b->footprint, b->corners, part->corner_count, part->edges, part->edge_count);
 }
@@ -230,23 +226,20 @@ static void add_part_corners(JoxBodies *b, const JoxConvexPart *part, const btTr
 static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     const btTransform &at = r->body->getWorldTransform();
     const JoxConvexPart *first = &r->shape.parts[0];
-    float reach2 = 0, sphere2 = 0;
+    float reach2 = 0;
     jox_footprint_begin(&b->footprint);
     for (uint32_t p = 0; p < r->shape.part_count; p++) {
         const JoxConvexPart *part = &r->shape.parts[p];
         if (part->kind != JOX_SHAPE_SPHERE) {
-            add_part_corners(b, part, at, o->position, &reach2, &sphere2);
+            add_part_corners(b, part, at, o->position, &reach2);
             continue;
         }
         btVector3 c = at * part->frame.getOrigin();
         float away = jox_length(jox_v2(c.x() - o->position.x, c.y() - o->position.y));
         reach2 = jox_maxf(reach2, (away + part->radius) * (away + part->radius));
-        float apart = (c - at.getOrigin()).length() + part->radius;
-        sphere2 = jox_maxf(sphere2, apart * apart);
         jox_footprint_add_sphere(&b->footprint, jox_v3(c), part->radius);
     }
     o->disc = sqrtf(reach2);
-    o->sphere = sqrtf(sphere2);
     o->below = o->position.z - b->footprint.low;
     o->above = b->footprint.high - o->position.z;
     jox_footprint_end(&b->footprint, o);
@@ -330,6 +323,7 @@ void jox_bodies_objects(JoxBodies *b, JoxObjects *objects) {
     objects->count = b->count;
     objects->capacity = b->object_capacity;
     objects->list_contacts = jox_bodies_list_contacts;
+    objects->next_part = jox_bodies_next_part;
     objects->bodies = b;
     objects->gravity = float(b->def.gravity);
 }

@@ -31,7 +31,6 @@ typedef struct JoxObject {
     JoxV3 velocity;           /* m/s */
     JoxV3 spin;               /* angular velocity, rad/s */
     float disc;               /* radius of the projected bounding disc about position.xy, m */
-    float sphere;             /* radius of the bounding sphere about position, m */
     float inverse_mass;       /* 1/kg; 0 static or kinematic */
     float inverse_inertia[9]; /* world frame, row major, 1/(kg m2) */
     /* Footprint within the height band: a convex ring, counter-clockwise; or, with count 0, the
@@ -113,9 +112,25 @@ typedef struct JoxObjectGrid {
     size_t start_capacity, member_capacity, cover_capacity;
 } JoxObjectGrid;
 
+/* A convex part of a body, as its bounding sphere seen from above. */
+typedef struct JoxObjectPart {
+    JoxV2 at, velocity; /* of the sphere's centre, m and m/s */
+    float radius;       /* m */
+} JoxObjectPart;
+
+/* An iterator over the parts of a body whose spheres come within reach of a point. */
+typedef struct JoxPartWalk {
+    uint32_t row, next; /* of the body; number of the next part */
+    JoxV2 point;        /* m */
+    float reach;        /* m */
+} JoxPartWalk;
+
 typedef struct JoxObjects {
     JoxObject *rows;
     uint32_t count, capacity;
+    /* Advances to the next part that is within the agents' height band; false at the end. Parts are
+       computed on demand, as literal mode alone asks for them; several threads may call this. */
+    bool (*next_part)(const void *bodies, JoxPartWalk *walk, JoxObjectPart *part);
     /* Contacts of bodies, computed on demand for the bodies' present positions, as few steps need
        them. NULL: they are in `contacts`. */
     JoxObjectContacts (*list_contacts)(void *bodies);

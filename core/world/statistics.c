@@ -46,6 +46,7 @@ void jox_statistics_observe(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
     s->failures += failed;
     s->turned_aside += count_bit(a->plan_notes, a->count, JOX_NOTE_TURNED_ASIDE);
     s->plans_bounded += count_bit(a->plan_notes, a->count, JOX_NOTE_BOUNDED);
+    s->parts_left_out += count_bit(a->plan_notes, a->count, JOX_NOTE_PARTS_LEFT_OUT);
     s->second_failures += failed;
     s->second_agent_steps += a->count;
     uint64_t per_second = (uint64_t)(1.0 / dt + 0.5);

@@ -69,6 +69,8 @@ typedef struct JoxStatistics {
     uint64_t turned_aside;          /* agent-steps in which the wanted velocity was turned aside */
     uint64_t plans_bounded;         /* agent-steps whose contacts or force asked for more than is
                                        within reach */
+    uint64_t parts_left_out;        /* agent-steps, in literal mode, without half-planes for some
+                                       parts of bodies that might have mattered */
     uint64_t second_failures, second_agent_steps;
     uint64_t walls_relaxed;  /* agent-steps in which a wall's half-plane was relaxed */
     uint64_t contact_passes; /* passes of the contact solve, over all steps */

@@ -44,8 +44,11 @@ typedef struct Person {
     uint32_t neighbours;
 } Person;
 
+/* A body of glued blocks, `blocks` of them along its own axes; half: half lengths of the whole
+   along these; sphere: radius of the bounding sphere of one block. */
 typedef struct Box {
-    V at, velocity, half; /* half: half lengths along its own axes */
+    V at, velocity, half;
+    uint32_t blocks[2];
     double turn, spin, inverse_mass, sphere, restitution;
 } Box;
 
@@ -311,6 +314,28 @@ static inline V find_forced(const Case *c, uint32_t i, V force) {
     return add(c->people[i].velocity, times(force, c->dt / c->people[i].mass));
 }
 
+/* (4) Lists the half-planes of person i for the blocks of a body, after the first `n`. Returns how
+   many there are. */
+static inline uint32_t list_block_planes(const Case *c, uint32_t i, const Box *box, Plane *planes,
+                                         uint32_t n) {
+    const Person *own = &c->people[i];
+    const V along = {cos(box->turn), sin(box->turn)}, left = {-along.y, along.x};
+    if (length(sub(box->at, own->at)) > own->perception &&
+        nearest_side(box, own->at).gap > own->perception)
+        return n;
+    for (uint32_t b = 0; b < box->blocks[0] * box->blocks[1]; b++) {
+        const double x = (2 * (b % box->blocks[0]) + 1.0) / box->blocks[0] - 1.0;
+        const double y = (2 * (b / box->blocks[0]) + 1.0) / box->blocks[1] - 1.0;
+        const V arm = add(times(along, x * box->half.x), times(left, y * box->half.y));
+        const V p = sub(add(box->at, arm), own->at);
+        const V moves = add(box->velocity, times((V){-arm.y, arm.x}, box->spin));
+        if (length(p) - box->sphere <= own->perception)
+            planes[n++] =
+                avoid(p, own->radius + box->sphere, own->horizon, c->dt, own->velocity, moves, 1.0);
+    }
+    return n;
+}
+
 /* Lists the half-planes of person i after the first `n`, which are walls': of people (3), bodies
    (4) and force (12). Returns how many there are. */
 static inline uint32_t list_planes(const Case *c, uint32_t i, V force, Plane *planes, uint32_t n) {
@@ -322,13 +347,8 @@ static inline uint32_t list_planes(const Case *c, uint32_t i, V force, Plane *pl
         planes[n++] = avoid(sub(other->at, own->at), own->radius + other->radius, own->horizon,
                             c->dt, own->velocity, other->velocity, 0.5);
     }
-    for (uint32_t b = 0; b < c->box_count; b++) {
-        const Box *box = &c->boxes[b];
-        const V p = sub(box->at, own->at);
-        if (length(p) <= own->perception || nearest_side(box, own->at).gap <= own->perception)
-            planes[n++] = avoid(p, own->radius + box->sphere, own->horizon, c->dt, own->velocity,
-                                box->velocity, 1.0);
-    }
+    for (uint32_t b = 0; b < c->box_count; b++)
+        n = list_block_planes(c, i, &c->boxes[b], planes, n);
     if (is_forced(c, i, force))
         planes[n++] = (Plane){unit(force), dot(unit(force), find_forced(c, i, force))};
     return n;

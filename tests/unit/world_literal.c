@@ -181,6 +181,32 @@ static void equation_4_leaves_all_of_it_to_people(void **state) {
     }
 }
 
+/* (4) A wall of 8 m made of 20 blocks of 0.4 x 0.2 x 0.4 m: the sphere of each is that of the box
+   above, where one sphere for the whole has a radius of 4 m. From rest, 0.625 m before the middle
+   of a block, one may go at 0.125 m in 1 s to the edge of its disc; 0.55 m beyond the middle of the
+   last one, outside of all discs, one may stand. */
+static void equation_4_takes_the_sphere_of_each_part(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoWorld *w = make(true, 0.1, 2);
+    JoxBodyDef wall = jox_body_def();
+    wall.shape.kind = JOX_SHAPE_BLOCKS;
+    wall.shape.size[0] = 0.4, wall.shape.size[1] = 0.2, wall.shape.size[2] = 0.4;
+    wall.shape.count[0] = 20, wall.shape.count[1] = wall.shape.count[2] = 1;
+    wall.shape.bond = 1e9;
+    wall.position[2] = 1.0;
+    assert_int_equal(jox_bodies_add(w->state.bodies, &wall, NULL), 0);
+    jo_world_step(w, 1);
+    place(w, 0, 0.2, -0.625, 0.0, 0.0);
+    want(w, 0, 0.0, 1.0);
+    place(w, 1, 4.35, 0.0, 0.0, 0.0);
+    jo_world_step(w, 1);
+    moves(w, 0, 0.0, 0.125);
+    moves(w, 1, 0.0, 0.0);
+    jo_world_free(w);
+}
+
 /* (5) A walks at (1, 0) and pushes with 100 N. It will be at (0.1, 0); B and C at (0.42, +-0.24)
    are then off by (0.32, +-0.24): of length 0.4, direction (0.8, +-0.6). Each gets 50 N. */
 static void equation_5_pushes_from_where_one_will_be(void **state) {
@@ -449,6 +475,7 @@ int main(void) {
         cmocka_unit_test(equation_2_takes_the_nearest),
         cmocka_unit_test(equation_3_halves_the_change),
         cmocka_unit_test(equation_4_leaves_all_of_it_to_people),
+        cmocka_unit_test(equation_4_takes_the_sphere_of_each_part),
         cmocka_unit_test(equation_5_pushes_from_where_one_will_be),
         cmocka_unit_test(equation_6_counts_each_pair_by_itself),
         cmocka_unit_test(equation_7_turns_the_body_by_the_moment_at_the_point),

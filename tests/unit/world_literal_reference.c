@@ -1,7 +1,7 @@
 /* Steps of random worlds in literal mode against the equations of the paper (paper_equations.h):
-   people, walls and bodies, in crowds from sparse to overlapping. What the paper does not print is
-   taken from the world: the half-planes of walls, and that walls hide people from pushes and
-   contacts. */
+   people, walls and bodies of glued blocks, in crowds from sparse to overlapping. What the paper
+   does not print is taken from the world: the half-planes of walls, and that walls hide people from
+   pushes and contacts. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -90,24 +90,35 @@ static void draw_person(JoWorld *w, Case *c, uint32_t id, double side) {
     };
 }
 
+/* Adds bodies of up to 4 x 2 x 2 glued blocks; blocks one above the other have the same disc. */
 static void draw_boxes(JoWorld *w, Case *c, double side) {
     for (uint32_t b = 0; b < c->box_count; b++) {
-        JoBodyDef box = jo_default_body_def();
+        JoxBodyDef box = jox_body_def();
         const bool is_static = draw(0.0, 1.0) < 0.5;
         const V velocity = is_static ? (V){0.0, 0.0} : draw_vector(1.0, 0.3);
-        box.shape = JO_BOX;
-        box.size[0] = draw(0.2, 1.5), box.size[1] = draw(0.2, 1.5), box.size[2] = draw(1.0, 1.8);
+        const V half = {draw(0.1, 0.75), draw(0.1, 0.75)};
+        const double height = draw(1.0, 1.8), turn = draw(-3.0, 3.0);
+        const uint32_t layers = 1 + (uint32_t)draw(0.0, 1.99);
+        const uint32_t blocks[] = {1 + (uint32_t)draw(0.0, 3.99), 1 + (uint32_t)draw(0.0, 1.99)};
+        box.shape.kind = JOX_SHAPE_BLOCKS;
+        box.shape.count[0] = blocks[0], box.shape.count[1] = blocks[1], box.shape.count[2] = layers;
+        box.shape.size[0] = 2.0 * half.x / blocks[0], box.shape.size[1] = 2.0 * half.y / blocks[1];
+        box.shape.size[2] = height / layers;
+        box.shape.bond = 1e9;
         box.mass = is_static ? 0.0 : draw(5.0, 200.0);
-        box.x = draw(0.0, side) + 4.0 * b, box.y = draw(0.0, side), box.z = 0.5 * box.size[2];
-        box.turn = draw(-3.0, 3.0);
-        box.vx = velocity.x, box.vy = velocity.y;
+        box.position[0] = draw(0.0, side) + 4.0 * b, box.position[1] = draw(0.0, side);
+        box.position[2] = 0.5 * height;
+        box.turn[2] = sin(0.5 * turn), box.turn[3] = cos(0.5 * turn);
+        box.velocity[0] = velocity.x, box.velocity[1] = velocity.y;
         box.restitution = draw(0.0, 1.0);
-        jo_world_add_body(w, &box, NULL);
-        const V half = {0.5 * box.size[0], 0.5 * box.size[1]};
-        c->boxes[b] = (Box){.half = half,
-                            .sphere = sqrt(dot(half, half) + box.z * box.z),
-                            .inverse_mass = is_static ? 0.0 : 1.0 / box.mass,
-                            .restitution = box.restitution};
+        assert_int_equal(jox_bodies_add(w->state.bodies, &box, NULL), b);
+        const double *size = box.shape.size;
+        c->boxes[b] =
+            (Box){.half = half,
+                  .blocks = {blocks[0], blocks[1]},
+                  .sphere = 0.5 * sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]),
+                  .inverse_mass = is_static ? 0.0 : 1.0 / box.mass,
+                  .restitution = box.restitution};
     }
 }
 

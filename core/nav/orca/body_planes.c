@@ -39,17 +39,6 @@ static JoxHalfPlane make_body_plane(const JoxAgents *a, uint32_t i, Minded *m, f
     return (JoxHalfPlane){side->normal, jox_dot(moving, side->normal) - gap / time};
 }
 
-/* Makes the half-plane that the paper prints: for the disc of the body's bounding sphere, outside
-   and inside of it. */
-static JoxHalfPlane make_sphere_plane(const JoxAgents *a, uint32_t i, const JoxObject *o,
-                                      float planning_time, float tau) {
-    JoxV2 own = {a->vx[i], a->vy[i]};
-    return jox_orca_half_plane(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]),
-                               jox_sub(own, jox_v2(o->velocity.x, o->velocity.y)),
-                               jox_param(a, JOX_PARAM_radius, i) + o->sphere, tau, planning_time,
-                               own, 1.0f, jox_v2(1.0f, 0.0f));
-}
-
 /* Returns whether agent i avoids the body of a row: the footprint must be within perception and,
    where `among` is given, may be one of the nearest. A body that the agent approaches counts even
    where it ignores bodies of this kind. */
@@ -116,11 +105,115 @@ static uint32_t list_rows(const JoxAgents *a, uint32_t i, const JoxObjects *obje
     return nearest->count;
 }
 
+/* Returns the horizon, s, of an agent for a body. */
+static float find_body_horizon(const JoxSolve *s, uint32_t i, uint32_t row) {
+    const JoxAgents *a = s->step.agents;
+    const bool approached = jox_referred(a->approach[i]) == (int32_t)row;
+    return approached ? (float)s->step.timing.planning_time : jox_param(a, JOX_PARAM_horizon, i);
+}
+
+/* ---- literal mode ---- */
+
+/* Half-planes of an agent for the parts of bodies. */
+typedef struct PartPlanes {
+    JoxHalfPlane *planes;
+    uint32_t count, most;
+    float speed_limit;               /* m/s */
+    bool replaces[JOX_MOST_NEAREST]; /* another one was dropped in favour of this one */
+    bool left_out;                   /* one was dropped that might matter */
+} PartPlanes;
+
+/* Returns whether no velocity within the speed limit violates `plane` by more than 1 cm/s beyond
+   what it violates `by`. */
+static bool is_replaced(const PartPlanes *p, const JoxHalfPlane *plane, const JoxHalfPlane *by) {
+    const float slack = 0.01f; /* m/s */
+    const float turn = jox_length(jox_sub(plane->normal, by->normal));
+    return plane->offset - by->offset + p->speed_limit * turn <= slack;
+}
+
+/* Returns the index of a half-plane that replaces number k, which replaces none itself; else their
+   number. */
+static uint32_t find_replacement(const PartPlanes *p, uint32_t k) {
+    uint32_t j = 0;
+    while (j < p->count &&
+           (p->replaces[k] || j == k || !is_replaced(p, &p->planes[k], &p->planes[j])))
+        j++;
+    return j;
+}
+
+/* Drops half-planes that others replace: blocks one above the other have nearly the same. */
+static void drop_replaced(PartPlanes *p) {
+    for (uint32_t k = 0; k < p->count;) {
+        const uint32_t by = find_replacement(p, k);
+        if (by == p->count) {
+            k++;
+            continue;
+        }
+        p->replaces[by] = true;
+        p->count--;
+        p->planes[k] = p->planes[p->count];
+        p->replaces[k] = p->replaces[p->count];
+    }
+}
+
+/* Adds a half-plane unless every velocity within the speed limit meets it. If there is no room even
+   after drop_replaced, the one that most limits an agent at rest stays. */
+static void add_part_plane(PartPlanes *p, JoxHalfPlane plane) {
+    if (plane.offset <= -p->speed_limit)
+        return;
+    if (p->count == p->most)
+        drop_replaced(p);
+    uint32_t at = p->count;
+    if (at == p->most) {
+        p->left_out = true;
+        at = 0;
+        for (uint32_t k = 1; k < p->count; k++)
+            if (p->planes[k].offset < p->planes[at].offset)
+                at = k;
+        if (plane.offset <= p->planes[at].offset)
+            return;
+    } else {
+        p->count++;
+    }
+    p->planes[at] = plane;
+    p->replaces[at] = false;
+}
+
+/* Makes the half-planes that the paper prints: for the disc of the bounding sphere of each part,
+   outside and inside of it. */
+static uint32_t make_part_planes(const JoxSolve *s, uint32_t i, JoxHalfPlane *out, uint32_t most) {
+    JoxAgents *a = s->step.agents;
+    const JoxObjects *objects = s->step.objects;
+    const JoxV2 at = {a->x[i], a->y[i]}, own = {a->vx[i], a->vy[i]};
+    const float sight = jox_param(a, JOX_PARAM_perception, i);
+    PartPlanes kept = {.planes = out, .most = most, .speed_limit = a->speed_limit[i]};
+    JoxObjectWalk walk = jox_objects_near(objects, at, sight);
+    uint32_t row;
+    while (jox_objects_next(&walk, &row)) {
+        if (!is_body_avoided(a, i, objects, row, NULL))
+            continue;
+        JoxPartWalk parts = {.row = row, .point = at, .reach = sight};
+        JoxObjectPart part;
+        while (objects->next_part(objects->bodies, &parts, &part))
+            add_part_plane(&kept,
+                           jox_orca_half_plane(jox_sub(part.at, at), jox_sub(own, part.velocity),
+                                               jox_param(a, JOX_PARAM_radius, i) + part.radius,
+                                               find_body_horizon(s, i, row),
+                                               (float)s->step.timing.planning_time, own, 1.0f,
+                                               jox_v2(1.0f, 0.0f)));
+    }
+    if (kept.left_out)
+        a->plan_notes[i] |= JOX_NOTE_PARTS_LEFT_OUT;
+    return kept.count;
+}
+
 uint32_t jox_orca_objects(const JoxSolve *s, uint32_t i, JoxHalfPlane *out, uint32_t most) {
     const JoxAgents *a = s->step.agents;
     const JoxObjects *objects = s->step.objects;
     const float planning_time = (float)s->step.timing.planning_time;
     JOX_ASSERT(most <= JOX_MOST_NEAREST);
+    if (s->nav->literal)
+        return make_part_planes(s, i, out, most);
     JoxNearest nearest;
     jox_nearest_begin(&nearest, most);
     uint32_t count = list_rows(a, i, objects, &nearest), made = 0;
@@ -129,10 +222,7 @@ uint32_t jox_orca_objects(const JoxSolve *s, uint32_t i, JoxHalfPlane *out, uint
         Minded minded = {.body = &objects->rows[row], .at = {a->x[i], a->y[i]}};
         if (!needs_avoidance(s->step.touched, a, i, row, &minded))
             continue;
-        bool approached = jox_referred(a->approach[i]) == (int32_t)row;
-        float tau = approached ? planning_time : jox_param(a, JOX_PARAM_horizon, i);
-        out[made++] = s->nav->literal ? make_sphere_plane(a, i, minded.body, planning_time, tau)
-                                      : make_body_plane(a, i, &minded, planning_time, tau);
+        out[made++] = make_body_plane(a, i, &minded, planning_time, find_body_horizon(s, i, row));
     }
     return made;
 }

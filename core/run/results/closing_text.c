@@ -77,6 +77,9 @@ static void say_events(const JoScene *scene, JoxText *out) {
         {s->dropped, "body dropped for want of room|bodies dropped for want of room"},
         {s->people_lost, "person was lost|people were lost"},
         {s->bodies_lost, "body was lost|bodies were lost"},
+        {s->parts_left_out,
+         "agent-step in which not all parts of bodies near by were avoided|agent-steps in which "
+         "not all parts of bodies near by were avoided"},
         {s->not_placed, "person not placed|people not placed"},
         {s->most_without_spot,
          "person at a time without room in the place where they waited|people at a time without "

@@ -83,6 +83,7 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"people_lost", s->people_lost},
                   {"bodies_lost", s->bodies_lost},
                   {"walls_relaxed", s->walls_relaxed},
+                  {"parts_left_out", s->parts_left_out},
                   {"opened", s->opened},
                   {"closed", s->closed},
                   {"announced", s->announced},
