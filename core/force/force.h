@@ -32,7 +32,7 @@ typedef struct JoxForceOptions {
 /* Further inputs of a step, for begin. All may be zero. It must stay valid from begin to infer. */
 typedef struct JoxForceInputs {
     const JoxWallGrid *walls; /* grid that jox_nav_touching_walls returns; NULL: no walls */
-    const float *unhidden2;   /* m2, until agents move: no wall hides neighbours nearer than this;
+    const float *unhidden2;   /* m2, before agents move: no wall hides neighbours nearer than this;
                                  NULL: unknown */
     bool turning; /* agents turn their shoulders among others, where contacts are solved */
     const uint8_t *push_on;      /* per agent, 0: does not push now; NULL: all may push */

@@ -8,6 +8,7 @@
 #include "geom/polygon.h"
 
 enum { MOST_CELLS = 1 << 20 };
+static const float SLACK = 1e-5f; /* relative to coordinates: exceeds the rounding of distances */
 
 static const JoxWallVertex *get_edge_end(const JoxWalls *walls, uint32_t edge) {
     return &walls->vertices[walls->vertices[edge].next];
@@ -16,6 +17,7 @@ static const JoxWallVertex *get_edge_end(const JoxWalls *walls, uint32_t edge) {
 void jox_wall_grid_free(JoxWallGrid *grid) {
     jox_free(grid->first);
     jox_free(grid->edges);
+    jox_free(grid->nearest);
     *grid = (JoxWallGrid){0};
 }
 
@@ -37,13 +39,19 @@ static CellRange find_cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
         clamp_cell(floorf((jox_maxf(a.y, b.y) + g->reach - g->low.y) / g->cell), g->rows)};
 }
 
-/* Returns whether any point of a cell may be within `reach` of an edge. */
-static bool is_cell_near_edge(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
-    JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell, g->low.y + ((float)y + 0.5f) * g->cell};
-    JoxV2 near = jox_segment_nearest(g->walls->vertices[edge].point,
-                                     get_edge_end(g->walls, edge)->point, centre);
-    float limit = g->reach + 0.7072f * g->cell;
-    return jox_length2(jox_sub(near, centre)) <= limit * limit;
+/* Returns the square, m2, of the distance from a point to an edge. */
+static float find_edge_distance2(const JoxWalls *walls, uint32_t edge, JoxV2 p) {
+    const JoxV2 near =
+        jox_segment_nearest(walls->vertices[edge].point, get_edge_end(walls, edge)->point, p);
+    return jox_length2(jox_sub(near, p));
+}
+
+/* Returns a bound for the distance, m, of all points of a cell to an edge. */
+static float find_edge_away(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
+    const JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell,
+                          g->low.y + ((float)y + 0.5f) * g->cell};
+    return sqrtf(find_edge_distance2(g->walls, edge, centre)) - 0.7072f * g->cell -
+           SLACK * (fabsf(centre.x) + fabsf(centre.y));
 }
 
 /* Sets the grid's box and cell size: 1 m, or more if it would have more than MOST_CELLS cells. */
@@ -72,12 +80,27 @@ static void enter_edge(JoxWallGrid *g, uint32_t edge) {
     for (uint32_t y = r.y0; y <= r.y1; y++)
         for (uint32_t x = r.x0; x <= r.x1; x++) {
             uint32_t *first = &g->first[(size_t)y * g->columns + x];
-            if (!is_cell_near_edge(g, x, y, edge))
+            const float away = find_edge_away(g, x, y, edge);
+            if (!(away <= g->reach))
                 continue;
-            if (g->edges)
-                g->edges[--*first] = edge;
-            else
+            if (!g->edges) {
                 ++*first;
+                continue;
+            }
+            g->edges[--*first] = edge;
+            g->nearest[*first] = (JoxNearEdge){jox_maxf(0.0f, away), edge};
+        }
+}
+
+/* Sorts the edges of each cell in `nearest`, nearest first. */
+static void sort_by_distance(JoxWallGrid *g) {
+    for (size_t c = 0; c < (size_t)g->columns * g->rows; c++)
+        for (uint32_t k = g->first[c]; k < g->first[c + 1]; k++) {
+            const JoxNearEdge own = g->nearest[k];
+            uint32_t at = k;
+            for (; at > g->first[c] && g->nearest[at - 1].away > own.away; at--)
+                g->nearest[at] = g->nearest[at - 1];
+            g->nearest[at] = own;
         }
 }
 
@@ -91,6 +114,7 @@ static void check_wall_grid(const JoxWallGrid *g) {
         for (uint32_t k = g->first[c]; k < g->first[c + 1]; k++) {
             JOX_ASSERT(g->edges[k] < g->walls->count);
             JOX_ASSERT(k == g->first[c] || g->edges[k - 1] < g->edges[k]);
+            JOX_ASSERT(k == g->first[c] || g->nearest[k - 1].away <= g->nearest[k].away);
         }
     }
 }
@@ -110,8 +134,10 @@ void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
     for (size_t c = 1; c <= cells; c++)
         g->first[c] += g->first[c - 1];
     g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
+    g->nearest = jox_alloc(g->first[cells] + 1, sizeof *g->nearest);
     for (uint32_t e = walls->count; e-- > 0;) /* backwards, as lists are filled from their end */
         enter_edge(g, e);
+    sort_by_distance(g);
     JOX_CHECK(check_wall_grid(g));
 }
 
@@ -123,13 +149,10 @@ void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
 
 bool jox_wall_grid_is_near(const JoxWallGrid *grid, JoxV2 p, float clear) {
     uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
-    for (uint32_t e = 0; e < count; e++) {
-        const JoxWallVertex *v = &grid->walls->vertices[edges[e]];
-        const JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
-        if (jox_length2(jox_sub(p, q)) < clear * clear)
+    const JoxNearEdge *near = jox_wall_grid_nearest(grid, p, &count);
+    for (uint32_t k = 0; k < count && near[k].away < clear; k++)
+        if (find_edge_distance2(grid->walls, near[k].edge, p) < clear * clear)
             return true;
-    }
     return false;
 }
 
@@ -159,25 +182,31 @@ bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {
 }
 
 bool jox_wall_grid_has_wall_between(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
+    const float d2 = jox_length2(jox_sub(to, from));
     uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(g, from, &count);
-    for (uint32_t k = 0; k < count; k++)
-        if (jox_segments_cross(from, to, g->walls->vertices[edges[k]].point,
-                               get_edge_end(g->walls, edges[k])->point))
+    const JoxNearEdge *near = jox_wall_grid_nearest(g, from, &count);
+    for (uint32_t k = 0; k < count && near[k].away * near[k].away <= d2; k++)
+        if (jox_segments_cross(from, to, g->walls->vertices[near[k].edge].point,
+                               get_edge_end(g->walls, near[k].edge)->point))
             return true;
     return false;
 }
 
 float jox_wall_grid_unhidden_distance2(const JoxWallGrid *g, JoxV2 from) {
-    const float SLACK = 1e-5f; /* relative to coordinates: exceeds the rounding of sides */
     const float size = fabsf(from.x) + fabsf(from.y);
     uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(g, from, &count);
+    const JoxNearEdge *near = jox_wall_grid_nearest(g, from, &count);
     float least = INFINITY;
-    for (uint32_t k = 0; k < count; k++) {
-        const JoxWallVertex *v = &g->walls->vertices[edges[k]];
+    for (uint32_t k = 0; k < count && near[k].away < least; k++) {
+        const JoxWallVertex *v = &g->walls->vertices[near[k].edge];
         const JoxV2 out = jox_sub(from, v->point);
-        const float far = fabsf(jox_det(v->direction, out));
+        const float beside = fabsf(jox_det(v->direction, out));
+        if (beside > least)
+            continue;
+        const JoxV2 whole = jox_sub(g->walls->vertices[v->next].point, v->point);
+        const float along = jox_dot(v->direction, out), length = jox_dot(v->direction, whole);
+        const float beyond = jox_maxf(-along, along - length);
+        const float far = beyond > 0.0f ? jox_length(jox_v2(beside, beyond)) : beside;
         least = jox_minf(far - SLACK * (fabsf(out.x) + fabsf(out.y) + size), least);
     }
     least = jox_maxf(least, 0.0f);

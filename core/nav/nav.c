@@ -8,6 +8,10 @@
 /* m: more than radii, time gaps and speeds together amount to */
 static const float MOST_WALL_REACH = 1e4f;
 
+#define X(name, isa) [isa] = jox_wall_unhidden_##name,
+static JoxWallUnhiddenKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
 JoxNav *jox_nav_create(const JoxWalkLaw *walk) {
     JoxNav *nav = jox_alloc(1, sizeof *nav);
     nav->walk = walk;
@@ -37,8 +41,31 @@ void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     nav->unhidden_reach = -1.0f;
 }
 
-const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
-                                          const JoxAgents *agents, float passing) {
+typedef struct Unhidden {
+    JoxNav *nav;
+    const JoxAgents *agents;
+} Unhidden;
+
+static void find_unhidden_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const Unhidden *u = context;
+    KERNELS[u->nav->isa](&u->nav->grid, u->agents->x + begin, u->agents->y + begin, end - begin,
+                         u->nav->unhidden2 + begin);
+}
+
+void jox_nav_find_unhidden(JoxNav *nav, const JoxStep *step) {
+    Unhidden unhidden = {nav, step->agents};
+    if (nav->unhidden_reach == nav->grid.reach)
+        return;
+    JOX_ASSERT(nav->capacity >= step->agents->count);
+    jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, find_unhidden_range,
+                     &unhidden);
+    nav->unhidden_reach = nav->grid.reach;
+}
+
+const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxStep *step, float passing) {
+    const JoxAgents *agents = step->agents;
+    const JoxNeighbours *neighbours = step->neighbours;
     if (!nav->grid.walls || nav->grid.walls->count == 0 || agents->count == 0)
         return NULL;
     float gap = passing;
@@ -47,6 +74,7 @@ const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neig
     float halfway = neighbours->widest + 0.5f * gap;
     jox_wall_grid_fit(&nav->grid,
                       jox_maxf(jox_touch_reach(neighbours, neighbours->widest), halfway));
+    jox_nav_find_unhidden(nav, step);
     return &nav->grid;
 }
 

@@ -44,10 +44,8 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
 /* Returns the grid of walls, which serves queries as far as any agent touches, and half as far as
    any agent pushes or passes a force on, over a gap of at most `passing` metres; NULL without
    walls. */
-const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
-                                          const JoxAgents *agents, float passing);
-/* Returns jox_wall_grid_unhidden_distance2 of each agent by that grid, m2, if it is known since
-   prefer; else NULL. */
+const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxStep *step, float passing);
+/* Returns jox_wall_grid_unhidden_distance2 of each agent by that grid, m2; NULL without walls. */
 const float *jox_nav_unhidden2(const JoxNav *nav);
 /* End of prefer: writes the aims of all agents; of those that keep a time gap and plan in this
    step, also walk (the velocity that the walking law wants among others and walls), eagerness and

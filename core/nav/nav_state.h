@@ -70,8 +70,8 @@ struct JoxNav {
     uint32_t *chunk_relaxed;
     JoxHeading *headings; /* filled by walk, and read by solve where agents walk by the law */
     float *chunk_reach;   /* m: per chunk of walk; below 0 without walkers */
-    float *unhidden2; /* m2: jox_wall_grid_unhidden_distance2 of each agent, filled by walk or by
-                         solve */
+    float *unhidden2;     /* m2: jox_wall_grid_unhidden_distance2 of each agent, of
+                             jox_nav_find_unhidden */
     float unhidden_reach; /* m: reach of the wall grid when unhidden2 was filled; -1: it was not */
     JoxGapDraws *gap_draws; /* draws of walk, for gap_room agents, gap_stream and gap_knots */
     uint32_t gap_room;
@@ -93,6 +93,9 @@ static inline JoxStep jox_nav_step(const JoxStep *step) {
 }
 
 void jox_nav_reserve(JoxNav *nav, uint32_t agents);
+/* Fills `unhidden2`, unless it is known for the present positions and reach of the grid of
+   walls. */
+void jox_nav_find_unhidden(JoxNav *nav, const JoxStep *step);
 /* Called once all agents have moved: reads the positions of the strays; drops them and the drift if
    there are too many. */
 void jox_nav_place_strays(JoxNav *nav, const JoxAgents *agents);

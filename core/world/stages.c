@@ -60,8 +60,7 @@ void jox_stage_push(const JoxPushStage *s) {
     const JoxStep *step = &s->substep->step;
     JoxAgents *a = step->agents;
     const JoxForceInputs inputs = {
-        .walls = jox_nav_touching_walls(s->nav, step->neighbours, a,
-                                        jox_force_passing_reach(s->forces_of)),
+        .walls = jox_nav_touching_walls(s->nav, step, jox_force_passing_reach(s->forces_of)),
         .unhidden2 = jox_nav_unhidden2(s->nav),
         .turning = s->forces && !s->literal,
         .push_on = s->machines->push_on,

@@ -87,9 +87,9 @@ static void open_find_crowd(Crowd *c, JoIsa isa, uint32_t number) {
                     .neighbours = &c->neighbours};
     step.timing.seed = 3;
     step.timing.time = 7.3;
-    const JoxForceInputs inputs = {
-        .walls = jox_nav_touching_walls(c->nav, &c->neighbours, &c->agents, 0.6f),
-        .turning = number % 3 != 0};
+    const JoxForceInputs inputs = {.walls = jox_nav_touching_walls(c->nav, &step, 0.6f),
+                                   .unhidden2 = number % 4 ? jox_nav_unhidden2(c->nav) : NULL,
+                                   .turning = number % 3 != 0};
     c->forces = jox_forces_create(NULL);
     jox_forces_set_isa(c->forces, isa);
     jox_force_begin(c->forces, &step, &inputs);

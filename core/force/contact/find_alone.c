@@ -76,16 +76,17 @@ uint32_t jox_find_wall_contacts(const JoxForces *f, uint32_t i,
     const JoxAgents *a = f->step.agents;
     JoxV2 at = {a->x[i], a->y[i]};
     uint32_t count, found = 0;
-    const uint32_t *edges = jox_wall_grid_at(f->in.walls, at, &count);
+    const JoxNearEdge *near = jox_wall_grid_nearest(f->in.walls, at, &count);
     float radius = a->breadth[i];
     float closing = jox_length(jox_v2(a->vx[i], a->vy[i])) * (float)f->step.timing.dt;
     float most = JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing);
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < count && near[k].away <= radius + most; k++) {
         JoxFoundWall contact;
-        if (!find_edge_contact(f->in.walls->walls, edges[k], at, &contact))
+        const uint32_t edge = near[k].edge;
+        if (!find_edge_contact(f->in.walls->walls, edge, at, &contact))
             continue;
         if (wall_loads->images) /* a contact with an image counts for its wall */
-            contact.edge = jox_wall_images_origin(wall_loads->images, edges[k], &contact.along);
+            contact.edge = jox_wall_images_origin(wall_loads->images, edge, &contact.along);
         contact.gap -= radius;
         if (contact.gap > most)
             continue;

@@ -130,12 +130,15 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
     jf_store(squeeze, m->squeeze);
     jf_store(target, jox_find_targets(f, self, other, m, normal));
     jf_store(mass, self->mass * m->mass / (self->mass + m->mass));
+    uint32_t may_be_hidden = p->walls;
+    if (p->walls && f->in.unhidden2)
+        may_be_hidden &= ~jm_bits(jf_lt(m->distance2, jf_load(f->in.unhidden2 + p->first)));
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
         if (!(lanes >> lane & 1))
             continue;
         JoxV2 at = {a->x[i], a->y[i]};
-        if ((p->walls >> lane & 1) &&
+        if ((may_be_hidden >> lane & 1) &&
             jox_wall_grid_has_wall_between(f->in.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
             continue;
         f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += gap[lane] < 0.0f;

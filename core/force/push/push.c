@@ -52,11 +52,9 @@ static uint32_t list_reachable(const JoxForces *f, uint32_t i, JoxV2 aim, uint32
 
 /* Returns whether a wall stands between agent i and another agent, or its image beyond a periodic
    edge, at `offset`. */
-static bool is_target_hidden(const JoxForces *f, uint32_t i, uint32_t other, JoxV2 offset) {
+static bool is_target_hidden(const JoxForces *f, uint32_t i, JoxV2 offset) {
     const JoxAgents *a = f->step.agents;
-    const float *unhidden2 = f->in.unhidden2, d2 = jox_length2(offset);
-    const bool images = a->period.x > 0.0f || a->period.y > 0.0f;
-    if (!f->in.walls || (unhidden2 && !images && d2 < unhidden2[i] && d2 < unhidden2[other]))
+    if (!f->in.walls || (f->in.unhidden2 && jox_length2(offset) < jox_unhidden2_by_grid(f, i)))
         return false;
     const JoxV2 centre = {a->x[i], a->y[i]};
     return jox_wall_stops_force(f, centre, jox_add(centre, offset));
@@ -74,7 +72,7 @@ static uint32_t find_people_targets(const JoxForces *f, uint32_t i, JoxV2 aim, T
         const JoxV2 offset = jox_offset(a, i, found[k]);
         if (only && !(a->tags[found[k]] & only))
             continue;
-        if (is_target_hidden(f, i, found[k], offset))
+        if (is_target_hidden(f, i, offset))
             continue;
         targets[n++] =
             (Target){.index = found[k],

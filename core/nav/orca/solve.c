@@ -12,11 +12,8 @@
 #include "nav/orca/wish_lanes.h"
 #include "simd/four.h"
 
-#define X(name, isa) [isa] = {jox_solve_packets_##name, jox_wall_unhidden_##name},
-static const struct Kernels {
-    JoxSolveKernel *solve;
-    JoxWallUnhiddenKernel *unhidden;
-} KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#define X(name, isa) [isa] = jox_solve_packets_##name,
+static JoxSolveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 /* Labels half-planes, which stand in the order of JoxConstraintKind, with their kinds. Returns how
@@ -51,11 +48,7 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxStep *step, uint32_t ag
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxSolve *s = context;
-    const JoxAgents *a = s->step.agents;
-    if (s->unhidden2 && s->nav->unhidden_reach != s->nav->grid.reach)
-        KERNELS[s->nav->isa].unhidden(&s->nav->grid, a->x + begin, a->y + begin, end - begin,
-                                      s->unhidden2 + begin);
-    s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa].solve(s, begin, end);
+    s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = KERNELS[s->nav->isa](s, begin, end);
 }
 
 /* Returns how far, m, any agent has to look for walls at most: as far as it plans ahead, and as far
@@ -95,12 +88,12 @@ uint32_t jox_nav_solve(JoxNav *nav, const JoxStep *step) {
                       .unhidden2 = nav->grid.walls ? nav->unhidden2 : NULL,
                       .stream = jox_random_stream(timing->seed),
                       .moment = pick_aside_moment(timing->time)};
-    if (nav->grid.walls)
+    if (nav->grid.walls) {
         jox_wall_grid_fit(&nav->grid, find_wall_reach(agents, (float)timing->planning_time));
+        jox_nav_find_unhidden(nav, step);
+    }
     JOX_CHECK(jox_motions_check(step->neighbours, agents));
     jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
-    if (solve.unhidden2)
-        nav->unhidden_reach = nav->grid.reach;
     uint32_t relaxed = 0;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
         relaxed += nav->chunk_relaxed[chunk];

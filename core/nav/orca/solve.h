@@ -23,8 +23,9 @@ enum {
 
 typedef struct JoxSolve {
     JoxNav *nav;
-    JoxStep step;     /* with contact planes of this step or NULL */
-    float *unhidden2; /* m2, nav's: no wall hides neighbours nearer than this; NULL: unknown */
+    JoxStep step; /* with contact planes of this step or NULL */
+    const float
+        *unhidden2; /* m2, nav's: no wall hides neighbours nearer than this; NULL: unknown */
     uint64_t stream, moment; /* random stream, and moment of the draws for turning aside */
 } JoxSolve;
 

@@ -155,30 +155,36 @@ typedef struct NearEdge {
     uint32_t edge;
 } NearEdge;
 
+static bool is_nearer(NearEdge a, NearEdge b) {
+    return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.edge < b.edge);
+}
+
 /* Lists the edges within range whose outer side the agent is on, nearest first, ties by number.
    Returns how many. */
 static uint32_t list_near_edges(const JoxWallGrid *grid, JoxV2 position, float range, NearEdge *out,
                                 uint32_t most) {
     uint32_t count, n = 0;
-    const uint32_t *edges = jox_wall_grid_at(grid, position, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        JOX_ASSERT(edges[i] < grid->walls->count);
-        const JoxWallVertex *a = &grid->walls->vertices[edges[i]];
-        JoxV2 b = find_edge_end(grid->walls, edges[i])->point;
+    const JoxNearEdge *nearest = jox_wall_grid_nearest(grid, position, &count);
+    for (uint32_t i = 0; i < count && nearest[i].away <= range; i++) {
+        const uint32_t edge = nearest[i].edge;
+        JOX_ASSERT(edge < grid->walls->count);
+        const JoxWallVertex *a = &grid->walls->vertices[edge];
+        JoxV2 b = find_edge_end(grid->walls, edge)->point;
         if (jox_det(a->direction, jox_sub(position, a->point)) >= 0.0f)
             continue;
         float d2 = jox_length2(jox_sub(position, jox_segment_nearest(a->point, b, position)));
         if (d2 > range * range)
             continue;
+        const NearEdge own = {d2, edge};
         uint32_t at = n < most ? n++ : n;
         if (at == most) {
-            if (d2 >= out[most - 1].distance2)
+            if (!is_nearer(own, out[most - 1]))
                 continue;
             at--;
         }
-        for (; at > 0 && out[at - 1].distance2 > d2; at--)
+        for (; at > 0 && is_nearer(own, out[at - 1]); at--)
             out[at] = out[at - 1];
-        out[at] = (NearEdge){d2, edges[i]};
+        out[at] = own;
     }
     return n;
 }

@@ -15,12 +15,10 @@
 static const float SIGHT = 1.5f; /* m: least distance within which walls hide agents */
 static const double KNOTS = 2.0; /* s between the knots of the random walk of a time gap */
 
-#define X(name, isa)                                                                               \
-    [isa] = {jox_walk_aim_##name, jox_walk_packets_##name, jox_wall_unhidden_##name},
+#define X(name, isa) [isa] = {jox_walk_aim_##name, jox_walk_packets_##name},
 static const struct Kernels {
     JoxAimKernel *aim;
     JoxWalkKernel *walk;
-    JoxWallUnhiddenKernel *unhidden;
 } KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
@@ -30,16 +28,13 @@ static void aim_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     w->nav->chunk_reach[begin / JOX_NAV_GRAIN] = KERNELS[w->nav->isa].aim(w, begin, end);
 }
 
-/* Packs the headings of agents for lookup by neighbours, and finds the distance within which walls
-   may hide neighbours. */
+/* Packs the headings of agents for lookup by neighbours. */
 static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxWalk *w = context;
     const JoxAgents *a = w->step.agents;
     jox_interleave(&w->nav->headings[begin], a->aim_x + begin, a->aim_y + begin,
                    a->way_left + begin, a->bound + begin, end - begin);
-    KERNELS[w->nav->isa].unhidden(&w->nav->grid, a->x + begin, a->y + begin, end - begin,
-                                  w->nav->unhidden2 + begin);
 }
 
 static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -112,6 +107,6 @@ void jox_nav_walk(JoxNav *nav, const JoxStep *step) {
     walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
     walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
     jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, head_range, &walk);
-    nav->unhidden_reach = nav->grid.reach;
+    jox_nav_find_unhidden(nav, step);
     jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, walk_range, &walk);
 }

@@ -95,9 +95,10 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
         p.allowed[k] = INFINITY;
     }
     uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(grid, p.at, &count);
-    for (uint32_t k = 0; k < count; k++) {
-        const JoxWallVertex *edge = &grid->walls->vertices[edges[k]];
+    const JoxNearEdge *near = jox_wall_grid_nearest(grid, p.at, &count);
+    const float reach = p.keep + p.speed / p.per_time;
+    for (uint32_t k = 0; k < count && near[k].away <= reach; k++) {
+        const JoxWallVertex *edge = &grid->walls->vertices[near[k].edge];
         limit_by_edge(&p, edge, grid->walls->vertices[edge->next].point);
     }
     for (int k = 1; k < JOX_WALK_DIRECTIONS; k++)
