@@ -36,16 +36,20 @@ static const char **list_text_keys(lua_State *L, uint32_t *count) {
     return keys;
 }
 
-/* Adds a setting "PATH=VALUE" to a run, in place of one of the same path. */
+/* Adds a setting "PATH=VALUE" to a run, in place of one of the same path. They stay in order, so
+   that runs with equal settings are one job, wherever the settings were given. */
 static void put_set(JoxClaimRun *run, char *set) {
     const size_t length = strcspn(set, "=") + 1;
-    for (uint32_t s = 0; s < run->set_count; s++)
-        if (strncmp(run->sets[s], set, length) == 0) {
-            jox_free(run->sets[s]);
-            run->sets[s] = set;
-            return;
-        }
-    run->sets[run->set_count++] = set;
+    uint32_t at = 0;
+    while (at < run->set_count && strncmp(run->sets[at], set, length) < 0)
+        at++;
+    if (at < run->set_count && strncmp(run->sets[at], set, length) == 0) {
+        jox_free(run->sets[at]);
+    } else {
+        memmove(run->sets + at + 1, run->sets + at, (run->set_count - at) * sizeof *run->sets);
+        run->set_count++;
+    }
+    run->sets[at] = set;
 }
 
 /* Reads `set` of the run on top: a table of PATH = VALUE, which are put to those of `base`. */
