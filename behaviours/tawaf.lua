@@ -1,11 +1,12 @@
 -- The Tawaf: seven circuits of the Kaaba, counted from the start line. By ORCA: not fit for capacities.
-local mine     = memory { laps = 0, touched = false, press = 0, way = 0 } -- per agent; survives reloads
+local mine     = memory { laps = 0, touched = false, way = 0, greets = true } -- per agent; survives reloads
 local at_line  = crosses "start_line"
+local greeting = at_line & mine.greets
 local crowded  = density("black_stone"):above(6)        -- people per square metre
 local eager    = max(now.speed, own.speed)               -- present speed alone cannot break a standstill
-local shove    = (150 + mine.way) * eager                -- push in the queue, N
-local hurry    = mine.press * eager                      -- push of agents that circle, N: 0 unless a scene sets `press`
-local make_way = max(40, max(mine.press, mine.way)) * eager -- push of agents on their way to a gate, N
+local hurry    = 40 * eager                              -- push of agents that circle and are slowed, N
+local shove    = (150 + mine.way) * eager                -- push in the queue, N: `way` is what a scene adds
+local make_way = (40 + mine.way) * eager                 -- push of agents on their way to a gate, N
 local slowed   = now.speed:below(0.8 * own.speed)
 local pace     = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))
 local done     = mine.laps:at_least(7)
@@ -17,28 +18,22 @@ return machine {
 
   states = {
     Enter = { steer = orbit "kaaba", speed = pace, push = hurry, push_when = slowed,
-      { to = "Pass",    when = at_line, chance = 0.30 },
+      { to = "Pass",    when = greeting, chance = 0.30 },
       { to = "Circle",  when = at_line } },
 
     Circle = { steer = orbit "kaaba", speed = pace, push = hurry, push_when = slowed,
       { to = "Outward", when = mine.laps:at_least(6) },
       { to = "ToStone", when = at_line & near("black_stone", 10) & ~crowded & ~mine.touched, chance = 0.03 },
-      { to = "Pass",    when = at_line, chance = 0.30 } },
+      { to = "Pass",    when = greeting, chance = 0.30 } },
 
-    -- On their last circuit people move outwards. After it they walk on with the others, and out of the crowd, until a
-    -- gate is near: a person who turned back to a gate would hold up everybody behind.
+    -- On their last circuit people move outwards.
     Outward = { steer = orbit("kaaba", { inward = 0 }) + 0.5 * away_from "kaaba", speed = pace,
       push = hurry, push_when = slowed,
-      { to = "Leave",   when = done },
+      { to = "Exit",    when = done },
       { to = "Edge",    when = distance "kaaba":above(36) } },
 
     Edge = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
-      { to = "Leave",   when = done } },
-
-    Leave = { steer = orbit("kaaba", { inward = 0 }) + 0.5 * away_from "kaaba", speed = pace,
-      push = hurry, push_when = slowed,
-      { to = "Exit",    when = near("gates", 20) },
-      { to = "Exit",    when = after(120) } },
+      { to = "Exit",    when = done } },
 
     ToStone = { steer = queue "black_stone", speed = 0.3 * own.speed, perception = 1, push = shove,
       { to = "Touch",   when = first_in "black_stone" & near("black_stone", 0.75) },
@@ -56,8 +51,9 @@ return machine {
     Istilam = { steer = orbit "kaaba", face = "black_stone", speed = pace, max_speed = 0.46, lasts = uniform(4, 10),
       { to = "Circle",  when = lasted } },
 
-    Exit = { steer = seek "gates", push = make_way,
-      { to = "Gone",    when = inside "gates" } },
+    -- The gate is drawn at random, as in the paper's Fig. 11; people make for it at once, through the others.
+    Exit = { steer = field(one_of "gates"), push = make_way,
+      { to = "Gone",    when = inside(goal) } },
 
     Gone = { removes = true },
   },

@@ -1,43 +1,39 @@
 local measure = require "measure"
 
 return claim {
-  id = "8", title = "The Tawaf: who pushes more gets on faster, and so does everybody",
+  id = "8", title = "The Tawaf: where queue and exit push more, everybody gets on faster",
   source = "Kim et al. 2014, Fig. 15",
-  text = "Two readings of \"pushing more\": those in the queue and those who leave push harder by 160 N per m/s; and "
-    .. "those who circle below their wanted speed push as well. The ground takes the reaction, nobody's prayer ends by "
-    .. "a push, seeds are those of the run without. The band is for the second; the first is reported.",
+  text = "As the caption has it: those in the queue and those on their way out push harder, here by 160 N per m/s, "
+    .. "than in the machine of Fig. 11, in which slow people who circle push as well, here by 40 N per m/s. The ground "
+    .. "takes the reaction, nobody's prayer ends by a push, seeds are those of the run without.",
   calibrated = measure.tawaf,
   runs = {
-    queue = { scene = "../tawaf-pushing.yaml", seeds = 1, first = true,
-      set = { ["groups.pilgrims.memory.press"] = 0, ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } },
-    tawaf = { scene = "../tawaf.yaml", seeds = 3, first = true,
-      set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } },
-    pushing = { scene = "../tawaf-pushing.yaml", seeds = 3, first = true,
-      set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } },
+    tawaf = measure.tawaf_run { seeds = 2 },
+    pushing = measure.tawaf_run { scene = "../tawaf-pushing.yaml", seeds = 2 },
   },
   quick = false,
+  null = { text = "the same pushes in both", runs = { pushing = measure.tawaf_run {} }, seeds = 1 },
   measure = function(run)
-    local before = run.tawaf.summary.regions
-    local function gains(after)
-      local sum, least = 0, math.huge
-      for i = 1, 7 do
-        local gain = after["R" .. i] / before["R" .. i] - 1
-        sum, least = sum + gain / 7, math.min(least, gain)
-      end
-      return sum, least
+    local before, after = run.tawaf.summary.regions, run.pushing.summary.regions
+    local sum, least = 0, math.huge
+    for i = 1, 7 do
+      local gain = after["R" .. i] / before["R" .. i] - 1
+      sum, least = sum + gain / 7, math.min(least, gain)
     end
-    local gain, least = gains(run.pushing.summary.regions)
-    local queue_gain, queue_least = gains(run.queue.summary.regions)
-    return { gain = gain, least = least, queue_gain = queue_gain, queue_least = queue_least,
-      density = run.pushing.summary.probes.fields.density_max }
+    return { gain = sum, least = least, density = run.pushing.summary.probes.fields.density_max }
   end,
   expect = {
-    { "queue_gain", what = "mean gain of the regions where queue and exit push harder", reported = true },
-    { "queue_least", what = "gain of the region that gains least then", reported = true },
-    { "gain", what = "mean gain of the regions where slow people who circle push too",
-      source = "0.2 to 0.4", band = { 0.15, 0.4 } },
+    { "gain", what = "mean gain of the regions", source = "0.2 to 0.4", band = { 0.2, 0.4 } },
     { "least", what = "gain of the region that gains least", source = "> 0", band = { 0 } },
-    { "density", unit = "1/m2", what = "greatest density", reported = true },
+    { "density", unit = "1/m2", what = "greatest density, as in Fig. 12", reported = true },
   },
   pictures = { pushing = { "regions.png", "density.png" } },
+  tried = {
+    "12,000 people, 150 to 300 s, one seed: mean of the regions 0.769 m/s where queue and exit push more, 0.776 m/s "
+      .. "where they do not. At most some 4 % of people push then, and each push stays among the few next to them",
+    "With people who leave by the nearest gate, and walk on with the stream until it is near, +1.2 % (35,000 people)",
+    "Slow people who circle push by 160 N per m/s in place of none, as well as queue and exit: +22 %, every region by "
+      .. "18 % or more. But that push is part of the machine without more pushing, so this is not what the caption "
+      .. "compares",
+  },
 }

@@ -34,6 +34,26 @@ test("seven circuits, then out by a gate, and everybody gets there", function()
   truthy(s:entered("Touch") <= s:entered("ToStone"), "and nobody past the queue")
 end)
 
+test("people leave by all gates, whichever is nearer", function()
+  local s, last, left = tawaf(60, 6), {}, { east = 0, west = 0 }
+  while s:count() > 0 do
+    s:step()
+    local there = {}
+    for _, a in ipairs(s:agents()) do
+      there[a.id] = a
+    end
+    for id, a in pairs(last) do
+      if not there[id] then
+        local gate = a.x > 0 and "east" or "west"
+        left[gate] = left[gate] + 1
+      end
+    end
+    last = there
+  end
+  equal(left.east + left.west, 60)
+  truthy(left.east > 15 and left.west > 15, "about as many by each")
+end)
+
 test("circuits go anti-clockwise and are counted one by one", function()
   local s, before = tawaf(30, 0), {}
   local forwards, backwards = 0, 0
@@ -59,11 +79,12 @@ test("circuits go anti-clockwise and are counted one by one", function()
 end)
 
 test("nobody leaves with fewer than seven, and nobody goes on", function()
-  local s = tawaf(40, 5)
+  local s, leaves = tawaf(40, 5), {}
   repeat
-    s:run(0.5)
+    s:step()
     for _, a in ipairs(s:agents()) do
-      truthy(a.state ~= "Exit" or (a.laps >= 7 and a.laps <= 10), "seven; in so small a yard it may go round again")
+      truthy(leaves[a.id] or a.state ~= "Exit" or a.laps == 7, "seven, when it turns to a gate")
+      leaves[a.id] = a.state == "Exit"
     end
   until s:count() < 20
   truthy(s:time() > 30, "two circuits take time")
