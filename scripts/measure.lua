@@ -32,9 +32,9 @@ measure.tawaf = "the Tawaf's chances, durations, speeds and pushes were chosen o
   .. "and that slow people push, by 40 N per m/s, were chosen on none"
 
 -- A claim's run of the 35,000 of the Tawaf, which several claims share; its last half is measured. `run` may give
--- scene, seeds, duration (400 s) and set.
+-- scene, seeds, duration (600 s: the outermost need some 350 s for a circuit) and set.
 function measure.tawaf_run(run)
-  local duration = run.duration or 400
+  local duration = run.duration or 600
   local set = {}
   for _, figure in ipairs { "heatmap", "probes.fields", "probes.narrow" } do set[figure .. ".from"] = duration / 2 end
   for path, value in pairs(run.set or {}) do set[path] = value end

@@ -9,7 +9,7 @@ return claim {
   runs = { without = measure.tawaf_run { set = { ["forces.enabled"] = false } } },
   quick = false,
   null = { text = "nobody slows down for the greeting past the line",
-    runs = { without = measure.tawaf_run { duration = 200, set = { ["groups.pilgrims.memory.greets"] = false } } } },
+    runs = { without = measure.tawaf_run { duration = 100, set = { ["groups.pilgrims.memory.greets"] = false } } } },
   measure = function(run)
     local r = run.without.summary.regions
     return {
