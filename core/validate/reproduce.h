@@ -81,6 +81,8 @@ void jox_reproduce_load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics
 /* reproduce_runs.c: executes all jobs that are not done already, several at once. Returns false
    if it was interrupted. */
 bool jox_reproduce_run(JoxReproduction *all);
+/* Returns the text of a file that a job left, for the caller to free, or NULL. */
+char *jox_job_read(const JoxJob *job, const char *name);
 /* reproduce_plots.c: draws the plots of all measured claims as plots/NAME.png in the folder of
    results. Returns false with a sentence in `error`. */
 bool jox_reproduce_draw_plots(const JoxReproduction *all, JoxText *error);
@@ -90,6 +92,10 @@ void jox_reproduce_plot_name(const JoxClaim *claim, const JoxClaimPlot *plot, ch
 /* reproduce_deviations.c: writes a table of the parameters that the claims' scenes and
    behaviours set to other values than the engine's defaults. */
 void jox_reproduce_put_deviations(const JoxReproduction *all, FILE *out);
+/* reproduce_failures.c: write a table of how often people had no solution, by scene, as HTML and as
+   Markdown. */
+void jox_reproduce_put_failures(const JoxReproduction *all, FILE *out);
+void jox_reproduce_write_failures(const JoxReproduction *all, FILE *out);
 /* reproduce_standards.c: return whether a claim is a test of any standard, and of one of the
    group "rimea", "imo", "nist", "iso" or "standards" (all of them). */
 bool jox_claim_is_standard(const JoxClaim *claim);

@@ -302,6 +302,7 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
     fputs("</table></div>\n", out);
     for (uint32_t o = 0; o < all->outcome_count; o++)
         put_claim(out, all, &all->outcomes[o]);
+    jox_reproduce_put_failures(all, out);
     put_defaults(out);
     jox_reproduce_put_deviations(all, out);
     jox_html_end(out);

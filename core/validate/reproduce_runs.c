@@ -30,8 +30,7 @@ static char *make_job_path(const JoxJob *job, const char *name) {
     return path.data;
 }
 
-/* Returns the text of a file in the job's folder, for the caller to free, or NULL. */
-static char *read_job_file(const JoxJob *job, const char *name) {
+char *jox_job_read(const JoxJob *job, const char *name) {
     size_t length;
     char *path = make_job_path(job, name), *text = jox_read_file(path, (size_t)16 << 20, &length);
     jox_free(path);
@@ -81,7 +80,7 @@ static const char PICTURES[] = "pictures\n";
 /* Returns whether an earlier call did this job with the same program and files, and with its
    pictures if it needs them. */
 static bool is_done_before(const JoxJob *job) {
-    char *key = read_job_file(job, "run.txt"), *summary = read_job_file(job, "summary.json");
+    char *key = jox_job_read(job, "run.txt"), *summary = jox_job_read(job, "summary.json");
     const size_t length = strlen(job->key);
     bool there = key && summary && strncmp(key, job->key, length) == 0 &&
                  (strcmp(key + length, PICTURES) == 0 || (!key[length] && !job->pictures)) &&
@@ -177,7 +176,7 @@ static void finish_job(JoxJob *job, int status) {
     }
     job->state = JOX_JOB_FAILED;
     JoxText why = {0};
-    char *log = read_job_file(job, "log.txt");
+    char *log = jox_job_read(job, "log.txt");
     jox_text_printf(&why, "%s, seed %llu: ", job->run->scene, (unsigned long long)job->seed);
     if (WIFSIGNALED(status))
         jox_text_printf(&why, "ended by signal %d. ", WTERMSIG(status));

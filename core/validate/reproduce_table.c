@@ -31,7 +31,8 @@ static void put_markdown_cell(FILE *out, const char *text) {
     fputs(" | ", out);
 }
 
-/* Writes table.md: a row per figure, and below it what was tried for claims that miss. */
+/* Writes table.md: a row per figure, and below it what was tried for claims that miss, and a table
+   by scene. */
 bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, JoxText *error) {
     FILE *out = jox_plot_open(all->def->out, "table.md", error);
     if (!out)
@@ -94,6 +95,7 @@ bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, Jox
             fputc('\n', out);
         }
     }
+    jox_reproduce_write_failures(all, out);
     return jox_plot_close(out, "table.md", error);
 }
 

@@ -56,7 +56,9 @@ grep -q "slow .*measured 6\.25" "$work/set.out" && grep -q "with groups.walker.s
 verdict "--set overrides them, and the page says so" $?
 for file in index.html table.md results.json; do [ -s "$work/rep/$file" ]; verdict "it writes $file" $?; done
 grep -q 'src="runs/walk-[^"]*/paths.png"' "$work/rep/index.html"; verdict "the page shows the picture" $?
-[ "$(grep -c '^| ' "$work/rep/table.md")" = 7 ]; verdict "the table has a row for each figure" $?
+[ "$(sed '/^Share of/,$d' "$work/rep/table.md" | grep -c '^| ')" = 7 ]; verdict "the table has a row for each figure" $?
+grep -Eq "^\| [^|]*walk.yaml \| physical \| 3 \| 0 \| 0 \|" "$work/rep/table.md" && grep -Eq "<td>[^<]*walk.yaml<td>physical<td class=n>3<td class=n>0" "$work/rep/index.html"
+verdict "the table and the page have a row for each scene and mode of forces" $?
 [ "$(sqlite3 :memory: "select json_extract(readfile('$work/rep/results.json'), '\$.G.figures.rows.mean')")" = 1 ]; verdict "results.json is JSON" $?
 [ -z "$(grep -o 'src="[^"]*"' "$work/rep/index.html" | sed 's/src="//; s/"//' | while read -r f; do [ -s "$work/rep/$f" ] || echo "$f"; done)" ]; verdict "all pictures of the page are there" $?
 

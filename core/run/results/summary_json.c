@@ -271,11 +271,17 @@ static void add_bonds(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
+/* Names how forces act in a world. */
+static const char *name_forces(const JoWorldDef *def) {
+    return !def->forces ? "off" : def->literal ? "literal" : "physical";
+}
+
 /* Adds which run it was, and how fast it ran. */
 static void add_run(JoxJson *json, const JoScene *scene, const JoStats *stats) {
     jox_json_string(json, "scene", scene->spec->path);
     jox_json_string(json, "version", jo_version());
     jox_json_whole(json, "seed", scene->world->model.def.seed);
+    jox_json_string(json, "forces", name_forces(&scene->world->model.def));
     jox_json_whole(json, "agents", stats->agents);
     jox_json_whole(json, "bodies", stats->bodies);
     jox_json_number(json, "dt", stats->dt);
