@@ -15,10 +15,11 @@ for i = 1, #PEOPLE do
   flows[i] = { PEOPLE[i] / 120, "flow_" .. PEOPLE[i] }
 end
 expect[#expect + 1] = { "rises", what = "numbers of people with which they are not slower than with the one before",
-  source = "0", band = { 0, 0 } }
+  source = "speed falls", band = { 0, 0 } }
 expect[#expect + 1] = { "before", unit = "1/(m s)", what = "by how much the greatest flow exceeds that of the fewest",
-  source = "> 0", band = { 0 } }
-expect[#expect + 1] = { "after", unit = "1/(m s)", what = "by how much it exceeds that of the most", source = "> 0", band = { 0 } }
+  source = "flow rises, then falls; 0.05 ours", band = { 0.05 } }
+expect[#expect + 1] = { "after", unit = "1/(m s)", what = "by how much it exceeds that of the most",
+  source = "flow rises, then falls; 0.05 ours", band = { 0.05 } }
 
 return claim {
   id = "O13", title = "ISO 13: speed falls with density, and the flow has a greatest value between",
@@ -27,6 +28,7 @@ return claim {
     .. "slower the more there are, and the flow is greatest at a density between the least and the most.",
   level = "normal", held_out = measure.walking_law,
   runs = runs, quick = quick,
+  null = { text = "the same number of people in all runs", set = { ["groups.people.count"] = 240 } },
   measure = function(run)
     local out, v, j = {}, {}, {}
     for i = 1, #PEOPLE do

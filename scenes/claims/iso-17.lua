@@ -8,13 +8,17 @@ return claim {
   level = "normal", held_out = measure.walking_law,
   runs = { room = { scene = "../iso-17.yaml", seeds = "101-110" } },
   quick = { room = { seeds = 3 } },
+  null = { text = "an exit to which the other way is the shorter one", set = {
+    ["places.exit.polygon.0.0"] = -4, ["places.exit.polygon.1.0"] = -2, ["places.exit.polygon.2.0"] = -2,
+    ["places.exit.polygon.3.0"] = -4, ["places.exit.polygon.0.1"] = 12, ["places.exit.polygon.1.1"] = 12,
+    ["places.exit.polygon.2.1"] = 14, ["places.exit.polygon.3.1"] = 14 } },
   measure = function(run)
     local probes = run.room.summary.probes
     return { short = probes.short.forward, long = probes.long.forward, last = probes.short.last }
   end,
   expect = {
-    { "short", what = "people who take the shorter way, of 10", source = "10", band = { 10, 10 } },
-    { "long", what = "people who take the longer way", source = "0", band = { 0, 0 } },
+    { "short", what = "people who take the shorter way, of 10", source = "all 10", band = { 10, 10 } },
+    { "long", what = "people who take the longer way", source = "nobody", band = { 0, 0 } },
     { "last", unit = "s", what = "until the last is on it", reported = true },
   },
   pictures = { room = { "paths.png" } },

@@ -7,15 +7,16 @@ return claim {
   level = "normal", held_out = measure.walking_law,
   runs = { rooms = { scene = "../rimea-10.yaml", seeds = "101-110" } },
   quick = { rooms = { seeds = 3 } },
+  null = { text = "everybody assigned to the main exit", set = { ["groups.to_secondary.set.goal"] = "main" } },
   measure = function(run)
     local probes = run.rooms.summary.probes
     return { main = probes.main_right.forward, secondary = probes.secondary_right.forward,
       wrong = probes.main_wrong.passages + probes.secondary_wrong.passages }
   end,
   expect = {
-    { "main", what = "people who leave by the main exit", source = "15", band = { 15, 15 } },
-    { "secondary", what = "people who leave by the secondary exit", source = "8", band = { 8, 8 } },
-    { "wrong", what = "people at the other exit", source = "0", band = { 0, 0 } },
+    { "main", what = "people who leave by the main exit", source = "all 15", band = { 15, 15 } },
+    { "secondary", what = "people who leave by the secondary exit", source = "all 8", band = { 8, 8 } },
+    { "wrong", what = "people at the other exit", source = "nobody", band = { 0, 0 } },
   },
   pictures = { rooms = { "paths.png" } },
 }

@@ -12,12 +12,14 @@ return claim {
       ["groups.leader.set.premovement"] = 60 } },
   },
   quick = { used = { seeds = 3 }, new = { seeds = 3 } },
+  null = { text = "people who are used to neither exit", runs = { used = { set = { ["groups.people.set.used_to"] = 0 } } } },
   measure = function(run)
     return { used = run.used.summary.probes.west.forward, new = run.new.summary.probes.west.forward }
   end,
   expect = {
-    { "used", what = "people at the exit that they are used to, of 20", source = "20", band = { 20, 20 } },
-    { "new", what = "people at that exit who are not used to it", source = "fewer", band = { 0, 10 } },
+    { "used", what = "people at the exit that they are used to, of 20", source = "it is preferred; ours: all 20",
+      band = { 20, 20 } },
+    { "new", what = "people at that exit who are not used to it", source = "none; figure ours", band = { 0, 10 } },
   },
   pictures = { used = { "paths.png" } },
 }
