@@ -1,25 +1,27 @@
 -- Waves that travel along a row of equally spaced points, found in the series of values at the points. Claims call it.
 --
--- The series are cut into windows of 16 s and groups of 6 neighbouring points. In each, the Fourier components of the
--- series are added with the delays of a wave of speed c, once in each direction (a slant stack):
+-- The series are cut into windows of 16 s. In each, the Fourier components of all series are added with the delays of a
+-- wave of speed c, once in each direction (a slant stack):
 --
 --     P(c, f) = |sum over points j of X_j(f) exp(2 pi i f j d / c)|^2,   d the distance of two points
 --
 -- P(c, f) - P(-c, f), where positive, is power that travels one way, and the other way where it is negative: a
 -- standing oscillation, however strong, has equal power in both, and of two trains of waves that meet all the time the
--- weaker may be missed. The sum over all frequencies, windows and groups, divided by that of a pure wave, is the share
--- of variance that travels at the speed c. Noise has such a share too, by chance. So the share is compared with those
--- of surrogates: the same data with each series shifted in a circle by a random time, which keeps values and spectra
--- and leaves no relation between points.
+-- weaker may be missed. The sum over all frequencies and windows, divided by that of a pure wave, is the share of
+-- variance that travels at the speed c. Noise has such a share too, by chance. So the share is compared with those of
+-- surrogates: the same data with each series shifted in a circle by a random time, which keeps values and spectra and
+-- leaves no relation between points.
 local measure = require "measure"
 
 local waves = {}
 
 local WINDOW = 16 -- s
 local HIGHEST = 0.5 -- 1/s: highest frequency
-local GROUP = 6 -- points
 local SPEEDS = { 0.3, 0.4, 0.5, 0.65, 0.8, 1, 1.25, 1.6, 2, 2.5, 3 } -- m/s
 local SURROGATES = 99
+
+-- Values in a window.
+local function count_values(every) return math.floor(WINDOW / every + 0.5) end
 
 -- Generator of equally likely integers from 0 to n - 1 (Park and Miller), the same in every run.
 local function make_generator()
@@ -52,15 +54,20 @@ local function make_factors(length, bins)
   return factors
 end
 
--- Fourier components of `length` values of a series from `first` on, without their trend.
-local function transform(series, first, length, factors)
-  local part, re, im = {}, {}, {}
+-- The `length` values of a series from `first` on, without their trend.
+local function cut(series, first, length)
+  local part = {}
   for i = 1, length do part[i] = series[first + i - 1] end
-  part = measure.detrended(part)
+  return measure.detrended(part)
+end
+
+-- Fourier components of a list.
+local function transform(list, factors)
+  local re, im = {}, {}
   for b = 1, #factors do
     local x, y, cosines, sines = 0, 0, factors[b].cosines, factors[b].sines
-    for i = 1, length do
-      x, y = x + part[i] * cosines[i], y + part[i] * sines[i]
+    for i = 1, #list do
+      x, y = x + list[i] * cosines[i], y + list[i] * sines[i]
     end
     re[b], im[b] = x, y
   end
@@ -72,7 +79,7 @@ local function transform_windows(series, length, factors)
   local windows = {}
   for first = 1, #series[1] - length + 1, length // 2 do
     local window = {}
-    for j = 1, #series do window[j] = transform(series[j], first, length, factors) end
+    for j = 1, #series do window[j] = transform(cut(series[j], first, length), factors) end
     windows[#windows + 1] = window
   end
   return windows
@@ -90,12 +97,11 @@ local function shift_series(series, draw)
   return out
 end
 
--- P(c, f) - P(-c, f) of the group that begins at point `first`, for the component b, c > 0 towards later points.
--- `turn` is 2 pi f d / c.
-local function measure_excess(window, first, b, turn)
+-- P(c, f) - P(-c, f) of a window, for the component b, c > 0 towards later points. `turn` is 2 pi f d / c.
+local function measure_excess(window, b, turn)
   local c, s = math.cos(turn), math.sin(turn)
   local up_re, up_im, down_re, down_im, x, y = 0, 0, 0, 0, 1, 0
-  for j = first, first + GROUP - 1 do
+  for j = 1, #window do
     local re, im = window[j].re[b], window[j].im[b]
     up_re, up_im = up_re + re * x - im * y, up_im + re * y + im * x
     down_re, down_im = down_re + re * x + im * y, down_im - re * y + im * x
@@ -104,18 +110,16 @@ local function measure_excess(window, first, b, turn)
   return up_re * up_re + up_im * up_im - down_re * down_re - down_im * down_im
 end
 
--- Sum of GROUP times the power of all groups: what P(c, f) would add up to for a pure wave.
+-- What P(c, f) would add up to if all variance were one wave.
 local function sum_power(windows)
   local sum = 0
   for w = 1, #windows do
-    for first = 1, #windows[w] - GROUP + 1, GROUP // 2 do
-      for j = first, first + GROUP - 1 do
-        local part = windows[w][j]
-        for b = 1, #part.re do sum = sum + part.re[b] * part.re[b] + part.im[b] * part.im[b] end
-      end
+    for j = 1, #windows[w] do
+      local part = windows[w][j]
+      for b = 1, #part.re do sum = sum + part.re[b] * part.re[b] + part.im[b] * part.im[b] end
     end
   end
-  return GROUP * sum
+  return #windows[1] * sum
 end
 
 -- Powers that travel at one speed towards later and towards earlier points. Components whose waves are shorter than two
@@ -123,13 +127,11 @@ end
 local function sum_excess(windows, speed, apart)
   local up, down = 0, 0
   for w = 1, #windows do
-    for first = 1, #windows[w] - GROUP + 1, GROUP // 2 do
-      for b = 1, #windows[w][1].re do
-        local frequency = b / WINDOW
-        if frequency > speed / (2 * apart) then break end
-        local excess = measure_excess(windows[w], first, b, 2 * math.pi * frequency * apart / speed)
-        if excess > 0 then up = up + excess else down = down - excess end
-      end
+    for b = 1, #windows[w][1].re do
+      local frequency = b / WINDOW
+      if frequency > speed / (2 * apart) then break end
+      local excess = measure_excess(windows[w], b, 2 * math.pi * frequency * apart / speed)
+      if excess > 0 then up = up + excess else down = down - excess end
     end
   end
   return up, down
@@ -151,7 +153,7 @@ end
 -- of those towards earlier points: `share` of the variance, `speed` in m/s, and `ratio`, the share over the 95th
 -- percentile of the surrogates'. A ratio below 1 is no evidence of waves. Series shorter than a window give nil.
 function waves.find(series, every, apart)
-  local length = math.floor(WINDOW / every + 0.5)
+  local length = count_values(every)
   if #series[1] < length then return nil, nil end
   local factors, standard = make_factors(length, math.floor(HIGHEST * WINDOW + 0.5)), {}
   for j = 1, #series do standard[j] = standardise(series[j]) end
@@ -164,6 +166,19 @@ function waves.find(series, every, apart)
   up.ratio = up.share / measure.quantile(by_chance_up, 0.95)
   down.ratio = down.share / measure.quantile(by_chance_down, 0.95)
   return up, down
+end
+
+-- Deviation of positive series about their trend within windows, as a share of their means, over all of them. A wave
+-- with a share s of the variance has an amplitude of sqrt(2 s) times that. nil: the series are shorter than a window.
+function waves.sway(series, every)
+  local length, sum, count = count_values(every), 0, 0
+  for j = 1, #series do
+    local mean = measure.mean(series[j])
+    for first = 1, #series[j] - length + 1, length // 2 do
+      sum, count = sum + (measure.deviation(cut(series[j], first, length)) / mean) ^ 2, count + 1
+    end
+  end
+  return count > 0 and math.sqrt(sum / count) or nil
 end
 
 return waves

@@ -71,6 +71,11 @@ test("an oscillation that stands has no waves, nor one of all points at once", f
   truthy(earlier.ratio < 0.5)
 end)
 
+test("sway is the deviation over the mean, without a trend", function()
+  near(waves.sway(plant(function(_, t) return t / 7 + math.sin(2 * math.pi * t / 4) end), 0.25), 0.7071 / 15, 0.003)
+  equal(waves.sway({ { 1, 2, 3 } }, 0.25), nil)
+end)
+
 test("the same data give the same figures, and short series none", function()
   local pulses = make_pulses()
   local series = plant(function(j, t) return pulses(t - j) end)
