@@ -40,6 +40,20 @@ bool jox_parameter_level(JoxParameter parameter, const char *word, double *value
     return false;
 }
 
+bool jox_parameter_acts_in_literal(JoxParameter parameter) {
+    switch (parameter) {
+    case JOX_PARAM_yield:
+    case JOX_PARAM_damping:
+    case JOX_PARAM_brace:
+    case JOX_PARAM_time_gap:
+    case JOX_PARAM_haste:
+    case JOX_PARAM_turn:
+        return false;
+    default:
+        return true;
+    }
+}
+
 float jox_parameter_store(JoxParameter parameter, double value) {
     const JoxParameterInfo *info = &jox_parameters[parameter];
     if (value != value)

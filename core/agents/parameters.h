@@ -53,6 +53,9 @@ int jox_parameter_find(const char *name);
 bool jox_parameter_level(JoxParameter parameter, const char *word, double *value);
 /* Returns the n-th word of a parameter, from 0; NULL beyond the last. */
 const char *jox_parameter_word(JoxParameter parameter, uint32_t n);
+/* Returns whether a parameter has an effect in literal mode, which no equation of the paper has
+   otherwise. */
+bool jox_parameter_acts_in_literal(JoxParameter parameter);
 /* Converts a value in the parameter's unit to the form that columns store: itself, or an angle's
    cosine. The value is first clamped to [least, greatest]; NaN becomes the default. */
 float jox_parameter_store(JoxParameter parameter, double value);

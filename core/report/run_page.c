@@ -15,6 +15,7 @@
 #include "report/page_parts.h"
 #include "report/run_subject.h"
 #include "run/figure_listeners.h"
+#include "run/literal_notes.h"
 #include "run/orca_flow_note.h"
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
@@ -198,13 +199,22 @@ static void put_run_pictures(FILE *out, const JoScene *scene, const char *direct
         jox_html_figure(out, directory, "paths", "Paths of all people", false);
 }
 
-/* Writes a note if flows are measured of people who do not follow the walking law. */
-static void put_model_note(FILE *out, const JoScene *scene) {
+/* Writes a note if flows are measured of people who do not follow the walking law, and one for each
+   parameter that is set without effect in literal mode. */
+static void put_model_notes(FILE *out, const JoScene *scene) {
     JoxDiagnostics notes = {0};
-    char text[1024];
-    if (jox_run_note_orca_flow(scene, &notes)) {
-        snprintf(text, sizeof text, "Note: %s. %s.", notes.items[0].message, notes.items[0].hint);
-        jox_html_paragraph(out, text);
+    jox_run_note_orca_flow(scene, &notes);
+    jox_run_note_literal(scene, &notes);
+    for (size_t n = 0; n < notes.count; n++) {
+        const JoxDiagnostic *note = &notes.items[n];
+        JoxText text = {0};
+        jox_text_printf(&text, "Note: %s", note->message);
+        if (note->file && note->line > 0)
+            jox_text_printf(&text, " (%s:%d)", note->file, note->line);
+        jox_text_printf(&text, ".%s%s%s", note->hint ? " " : "", note->hint ? note->hint : "",
+                        note->hint ? "." : "");
+        jox_html_paragraph(out, text.data);
+        jox_text_free(&text);
     }
     jox_diag_free(&notes);
 }
@@ -281,7 +291,7 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
             "limits come from single persons and from what was found after disasters. Read the "
             "limits as places and times to look at, not as a count of injured; run several seeds "
             "before comparing plans.");
-        put_model_note(out, scene);
+        put_model_notes(out, scene);
         put_run_inputs(out, scene);
         jox_html_end(out);
     }

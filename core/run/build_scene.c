@@ -12,6 +12,7 @@
 #include "run/figure_listeners.h"
 #include "run/input_actions.h"
 #include "run/input_log.h"
+#include "run/literal_notes.h"
 #include "run/machine_names.h"
 #include "run/probe_listener.h"
 #include "run/read_scene.h"
@@ -147,6 +148,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     add_places(scene);
     if (!jox_run_load_machines(scene, diagnostics))
         return;
+    jox_run_note_literal(scene, diagnostics);
     JoxMachineRun *machines = &scene->world->machines;
     machines->call = jox_lua_call;
     machines->bracket = jox_lua_bracket_hooks;

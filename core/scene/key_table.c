@@ -116,7 +116,7 @@ static const JoxKey KEYS[] = {
 
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", TO(JoxSceneSpec, literal), .choices = "physical|literal",
-     .meaning = "literal: the equations as they were printed (core/paper.md); `yield` and `damping` then have no effect"},
+     .meaning = "literal: the equations as they were printed (core/paper.md); parameters that they do not have are noted, as they then have no effect"},
 #define X(name, unit, least, greatest, value, meant) \
     {"walking", #name, NUMBER, unit, least, greatest, #value, TO(JoxWalkLaw, name), .meaning = meant},
     JOX_WALK_CONSTANTS(X)

@@ -162,6 +162,18 @@ rules() { # ARGS...: prints the shares of agent-steps without a velocity, turned
 }
 rules --threads 1 >"$work/rules" && [ "$(rules --threads 2 --isa scalar)" = "$(cat "$work/rules")" ] && awk '{exit !(NF == 3 && $1 > 0 && $2 > 0 && $3 > 0)}' "$work/rules"; verdict "the summary counts both unprinted rules, alike over threads and instruction sets" $?
 rules --set forces.mode=literal | awk '{exit !(NF == 3 && $1 > 0 && $2 == 0 && $3 == 0)}'; verdict "  and neither acts in literal" $?
+cat >"$work/literal.yaml" <<'END'
+jostle: 1
+forces: {mode: literal}
+groups: {all: {behaviour: literal.lua, at: [[0, 0]], set: {brace: 100 N, mass: 80}}}
+END
+printf 'return machine { name = "literal", start = "A", defaults = { speed = 1 },\n  states = { A = { steer = hold, yield = 0 } } }\n' >"$work/literal.lua"
+expect "check notes a parameter without effect in literal mode" 0 "literal.yaml:3:60: note: 'brace' has no effect in literal mode" "$JOSTLE" check "$work/literal.yaml"
+grep -q "literal.lua:2: note: 'yield' has" "$work/out" && [ "$(grep -c "has no effect" "$work/out")" = 2 ]; verdict "  each once, and none that has an effect" $?
+expect "  a run does too" 0 "'brace' has no effect in literal mode" "$JOSTLE" run "$work/literal.yaml" --for 1 --no-half-step --report "$work/literal"
+grep -q "'brace' has no effect in literal mode\|&#39;brace&#39; has no effect" "$work/literal/index.html"; verdict "  and its report" $?
+expect "  and none is given in the default mode" 0 "" "$JOSTLE" run "$work/literal.yaml" --for 1 --set forces.mode=physical
+! grep -q "has no effect" "$work/out"; verdict "    of none" $?
 expect "  and the last lines tell them" 0 "aside, and the plans of" "$JOSTLE" run scenes/two-bottlenecks.yaml --for 5
 
 # Hostile behaviours: none hangs or ends a run, and each is named.

@@ -233,10 +233,12 @@ static void schemas_agree_with_table(void **state) {
     (void)state;
     JoxText text = {0};
     jox_scene_print_json_schema("scene", &text);
-    expect_text(text.data, "\"mode\": {\"description\": \"literal: the equations as they were "
-                           "printed (core/paper.md); `yield` and `damping` then have no "
-                           "effect; default physical\", \"default\": \"physical\", "
-                           "\"enum\": [\"physical\", \"literal\"]}");
+    expect_text(
+        text.data,
+        "\"mode\": {\"description\": \"literal: the equations as they were "
+        "printed (core/paper.md); parameters that they do not have are "
+        "noted, as they then have no effect; default physical\", \"default\": \"physical\", "
+        "\"enum\": [\"physical\", \"literal\"]}");
     expect_text(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"enum\": [\"calm\", "
                            "\"normal\", \"keen\"]}]}"); /* haste, and units of others */
     expect_text(text.data, "{\"$ref\": \"#/definitions/drawn\"}, {\"$ref\": "

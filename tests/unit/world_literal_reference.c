@@ -47,6 +47,7 @@ static void draw_parameters(JoWorld *w, uint32_t id) {
         {JOX_PARAM_neighbours, 0.0, 16.9},   {JOX_PARAM_max_speed, 1.0, 2.5},
         {JOX_PARAM_yield, 0.0, 1.0},         {JOX_PARAM_brace, 0.0, 400.0},
         {JOX_PARAM_turn, 0.0, 0.6},          {JOX_PARAM_damping, 0.0, 5.0},
+        {JOX_PARAM_time_gap, 0.0, 2.0},      {JOX_PARAM_haste, 0.0, 1.0},
     };
     JoxAgents *a = &w->state.agents;
     for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++) {
@@ -90,7 +91,8 @@ static void draw_person(JoWorld *w, Case *c, uint32_t id, double side) {
     };
 }
 
-/* Adds bodies of up to 4 x 2 x 2 glued blocks; blocks one above the other have the same disc. */
+/* Adds bodies of up to 4 x 2 x 2 glued blocks, too far from each other to collide and tilt; blocks
+   one above the other have the same disc. */
 static void draw_boxes(JoWorld *w, Case *c, double side) {
     for (uint32_t b = 0; b < c->box_count; b++) {
         JoxBodyDef box = jox_body_def();
@@ -106,12 +108,14 @@ static void draw_boxes(JoWorld *w, Case *c, double side) {
         box.shape.size[2] = height / layers;
         box.shape.bond = 1e9;
         box.mass = is_static ? 0.0 : draw(5.0, 200.0);
-        box.position[0] = draw(0.0, side) + 4.0 * b, box.position[1] = draw(0.0, side);
+        box.position[0] = draw(0.0, fmin(side, 2.0)) + 4.0 * b, box.position[1] = draw(0.0, side);
         box.position[2] = 0.5 * height;
         box.turn[2] = sin(0.5 * turn), box.turn[3] = cos(0.5 * turn);
         box.velocity[0] = velocity.x, box.velocity[1] = velocity.y;
+        box.spin[2] = is_static ? 0.0 : draw(-1.0, 1.0);
         box.restitution = draw(0.0, 1.0);
         assert_int_equal(jox_bodies_add(w->state.bodies, &box, NULL), b);
+        c->part_count += blocks[0] * blocks[1] * layers;
         const double *size = box.shape.size;
         c->boxes[b] =
             (Box){.half = half,
@@ -200,7 +204,8 @@ static bool is_far(V a, V b, double bound) {
     return length(sub(a, b)) > bound;
 }
 
-/* Compares the velocity of person i with that of the equations. */
+/* Compares the velocity of person i with that of the equations. Where there are more parts of
+   bodies than half-planes for them, it may violate one by 1 cm/s more. */
 static void compare_velocity(const Case *c, uint32_t i, V force, V made, Plane *planes,
                              uint32_t hard, Tally *tally) {
     const uint32_t count = list_planes(c, i, force, planes, hard);
@@ -213,7 +218,8 @@ static void compare_velocity(const Case *c, uint32_t i, V force, V made, Plane *
     }
     const double least = greatest_violation(planes + hard, count - hard, best);
     tally->failed += least > 1e-6;
-    tally->violations += greatest_violation(planes + hard, count - hard, made) > least + 1e-4;
+    const double slack = c->part_count > JOX_MOST_OBJECTS ? 1e-2 : 1e-4; /* m/s */
+    tally->violations += greatest_violation(planes + hard, count - hard, made) > least + slack;
     tally->velocities += is_far(made, best, 2e-3);
 }
 
@@ -268,7 +274,7 @@ static void steps_are_as_the_equations_say(void **state) {
     assert_in_range(tally.people, 20000, UINT32_MAX);
     assert_in_range(tally.forced, tally.people / 2, UINT32_MAX);
     assert_in_range(tally.failed, tally.people / 20, UINT32_MAX);
-    assert_in_range(tally.forces, 0, tally.people / 5000);
+    assert_in_range(tally.forces, 0, tally.people / 2000); /* normals of gaps of 1 mm */
     assert_in_range(tally.velocities, 0, tally.people / 500);
     assert_in_range(tally.passed_on, 0, tally.people / 1000);
     assert_int_equal(tally.violations, 0);

@@ -131,20 +131,20 @@ static bool is_replaced(const PartPlanes *p, const JoxHalfPlane *plane, const Jo
     return plane->offset - by->offset + p->speed_limit * turn <= slack;
 }
 
-/* Returns the index of a half-plane that replaces number k, which replaces none itself; else their
-   number. */
-static uint32_t find_replacement(const PartPlanes *p, uint32_t k) {
+/* Returns the index of a half-plane that replaces a given one, which is number `but` or not listed;
+   else their number. */
+static uint32_t find_replacement(const PartPlanes *p, const JoxHalfPlane *plane, uint32_t but) {
     uint32_t j = 0;
-    while (j < p->count &&
-           (p->replaces[k] || j == k || !is_replaced(p, &p->planes[k], &p->planes[j])))
+    while (j < p->count && (j == but || !is_replaced(p, plane, &p->planes[j])))
         j++;
     return j;
 }
 
-/* Drops half-planes that others replace: blocks one above the other have nearly the same. */
+/* Drops half-planes that others replace, as blocks one above the other have nearly the same; but
+   none that replaces another, so that errors do not add up. */
 static void drop_replaced(PartPlanes *p) {
     for (uint32_t k = 0; k < p->count;) {
-        const uint32_t by = find_replacement(p, k);
+        const uint32_t by = p->replaces[k] ? p->count : find_replacement(p, &p->planes[k], k);
         if (by == p->count) {
             k++;
             continue;
@@ -156,8 +156,17 @@ static void drop_replaced(PartPlanes *p) {
     }
 }
 
-/* Adds a half-plane unless every velocity within the speed limit meets it. If there is no room even
-   after drop_replaced, the one that most limits an agent at rest stays. */
+/* Returns where a half-plane goes for which there is no room: in place of the least restrictive one
+   for an agent at rest, or nowhere. */
+static uint32_t find_least_plane(const PartPlanes *p, const JoxHalfPlane *plane) {
+    uint32_t least = 0;
+    for (uint32_t k = 1; k < p->count; k++)
+        if (p->planes[k].offset < p->planes[least].offset)
+            least = k;
+    return plane->offset > p->planes[least].offset ? least : p->count;
+}
+
+/* Adds a half-plane unless every velocity within the speed limit meets it. */
 static void add_part_plane(PartPlanes *p, JoxHalfPlane plane) {
     if (plane.offset <= -p->speed_limit)
         return;
@@ -165,12 +174,14 @@ static void add_part_plane(PartPlanes *p, JoxHalfPlane plane) {
         drop_replaced(p);
     uint32_t at = p->count;
     if (at == p->most) {
+        const uint32_t by = find_replacement(p, &plane, p->count);
+        if (by < p->count) {
+            p->replaces[by] = true;
+            return;
+        }
         p->left_out = true;
-        at = 0;
-        for (uint32_t k = 1; k < p->count; k++)
-            if (p->planes[k].offset < p->planes[at].offset)
-                at = k;
-        if (plane.offset <= p->planes[at].offset)
+        at = find_least_plane(p, &plane);
+        if (at == p->count)
             return;
     } else {
         p->count++;
