@@ -216,17 +216,36 @@ JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnosti
     return NULL;
 }
 
-static void add_run_sets(JoxClaimRun *run, const char *const *sets, size_t count) {
-    run->sets = jox_realloc(run->sets, run->set_count + count, sizeof *run->sets);
+/* Returns whether the first `count` settings of a run set the path of `set` to another value than
+   `base` does. */
+static bool has_other_value(const JoxClaimRun *run, uint32_t count, const JoxClaimRun *base,
+                            const char *set) {
+    const size_t length = strcspn(set, "=") + 1;
+    for (uint32_t s = 0; s < count; s++) {
+        bool same = strncmp(run->sets[s], set, length) != 0;
+        for (uint32_t b = 0; b < base->set_count && !same; b++)
+            same = strcmp(run->sets[s], base->sets[b]) == 0;
+        if (!same)
+            return true;
+    }
+    return false;
+}
+
+/* Adds settings to a run, but not in place of those by which it differs from `base`. */
+static void add_run_sets(JoxClaimRun *run, const JoxClaimRun *base, const char *const *sets,
+                         size_t count) {
+    const uint32_t before = run->set_count;
+    run->sets = jox_realloc(run->sets, before + count, sizeof *run->sets);
     for (size_t s = 0; s < count; s++)
-        run->sets[run->set_count++] = jox_strdup(sets[s]);
+        if (!has_other_value(run, before, base, sets[s]))
+            run->sets[run->set_count++] = jox_strdup(sets[s]);
 }
 
 void jox_claim_add_sets(JoxClaim *claim, const char *const *sets, size_t count) {
     for (uint32_t r = 0; r < claim->run_count && count > 0; r++) {
-        add_run_sets(&claim->runs[r], sets, count);
         if (claim->null_runs)
-            add_run_sets(&claim->null_runs[r], sets, count);
+            add_run_sets(&claim->null_runs[r], &claim->runs[r], sets, count);
+        add_run_sets(&claim->runs[r], &claim->runs[r], sets, count);
     }
 }
 

@@ -90,7 +90,8 @@ JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnosti
    sentence in `why`; with `whole` also if a figure with a band was not returned. */
 bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, bool whole,
                        double *values, JoxText *why);
-/* Appends settings ("PATH=VALUE") to all runs of the claim. */
+/* Appends settings ("PATH=VALUE") to all runs of the claim and of its null, except those that the
+   null is made of. */
 void jox_claim_add_sets(JoxClaim *claim, const char *const *sets, size_t count);
 void jox_claim_free(JoxClaim *claim);
 

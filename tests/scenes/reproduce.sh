@@ -91,6 +91,8 @@ nulls=("$JOSTLE" reproduce --claims "$work/nulls" --out "$work/null" --quiet)
 expect "a claim whose null misses a band is in band" 0 "nobody): in band" "${nulls[@]}" speed
 says "the null's figure stands beside the claim's" "null 10, out"
 says "and a figure that the null meets is marked" "null 1, in band too"
+"${nulls[@]}" speed --set groups.walker.set.speed=1 --set groups.walker.set.speed=1.25 >"$work/out"
+says "--set leaves a null what it is made of" "null 10, out"
 expect "a claim whose null is in band proves nothing" 1 "NO EVIDENCE, its null is in band too" "${nulls[@]}"
 says "and counts as missed" "1 of 2 claims in band; these miss: mass"
 grep -q "Null, which must miss a band, 2 seeds: another speed" "$work/null/index.html" && grep -q "<td class=out>1, in band too" "$work/null/index.html"
