@@ -12,7 +12,8 @@ enum {
     MOST_COPIES = 4096,  /* copies of a body; also blocks of one */
     MOST_PIECES = 200000 /* bodies of a scene, counting their blocks and parts */
 };
-static const double CLOSEST = 0.01; /* m between copies along an axis */
+static const double CLOSEST = 0.01;    /* m between copies along an axis */
+static const double LEAST_MASS = 1e-9; /* kg of a part of a compound */
 
 void jox_key_read_turn(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const double half = jox_key_read_number(r, key, node) * JOX_DEGREE / 2;
@@ -107,6 +108,29 @@ void jox_key_read_part_shape(const JoxReader *r, const JoxKey *key, const JoxYam
         jox_owner_read(r, node, key->content, &((JoxBodyPart *)item)->shape);
 }
 
+/* Scales the masses of a compound's parts to the mass of the body, if that is given; without mass
+   the body is static. */
+static void set_compound_mass(const JoxReader *r, const JoxYaml *map, JoxBodyDraft *draft) {
+    JoxShape *shape = &draft->body.def.shape;
+    const JoxYaml *density = jox_yaml_get(map, "density");
+    if (density)
+        jox_scene_error(r, density, "bad-body", "Give its mass, or masses of its parts",
+                        "a compound has the masses of its parts, and no density");
+    if (!isfinite(draft->mass) || shape->part_count == 0)
+        return;
+    draft->body.def.still = !(draft->mass > 0);
+    double sum = 0;
+    for (uint32_t p = 0; p < shape->part_count; p++)
+        sum += shape->parts[p].mass;
+    JoxBodyPart *parts = jox_arena_take(r->arena, shape->part_count, sizeof *parts);
+    for (uint32_t p = 0; p < shape->part_count; p++) {
+        parts[p] = shape->parts[p];
+        if (draft->mass > 0) /* body/ takes no less than LEAST_MASS */
+            parts[p].mass = fmax(parts[p].mass * draft->mass / sum, LEAST_MASS);
+    }
+    shape->parts = parts;
+}
+
 /* Sets the mass from one of: the body's mass, its density, the mass of each block. */
 static void set_mass(const JoxReader *r, const JoxYaml *map, JoxBodyDraft *draft) {
     JoxBodyDef *def = &draft->body.def;
@@ -116,6 +140,8 @@ static void set_mass(const JoxReader *r, const JoxYaml *map, JoxBodyDraft *draft
         jox_scene_error(r, map, "bad-body", NULL, "a body has a mass or a density, not both");
     def->mass = mass ? draft->mass : density ? 0 : def->mass;
     def->density = density ? draft->density : 0;
+    if (def->shape.kind == JOX_SHAPE_COMPOUND)
+        set_compound_mass(r, map, draft);
     if (def->shape.kind != JOX_SHAPE_BLOCKS || !isfinite(each))
         return;
     if (jox_yaml_get(map, "mass") || jox_yaml_get(map, "density"))

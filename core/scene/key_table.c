@@ -182,7 +182,7 @@ static const JoxKey KEYS[] = {
     {"body", "name", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxBodyDraft, body.def.name, body.def.name), .meaning = "name, for events and messages"},
     {"body", "shape", TABLE, "", 0, 0, "!", TO(JoxBodyDraft, body.def.shape), .content = "shape",
      .meaning = "one of box, sphere, cylinder, hull, compound, blocks"},
-    {"body", "mass", NUMBER, "kg", 0, 1e7, "", TO(JoxBodyDraft, mass), .meaning = "0: it never moves; default 10 kg if no density is given"},
+    {"body", "mass", NUMBER, "kg", 0, 1e7, "", TO(JoxBodyDraft, mass), .meaning = "0: it never moves; default 10 kg if no density is given, and the sum of the parts of a compound"},
     {"body", "density", NUMBER, "kg/m3", 0.1, 30000, "", TO(JoxBodyDraft, density), .meaning = "in place of mass"},
     {"body", "at", POINT3, "m", -FAR, FAR, "!", TO(JoxBodyDraft, body.def.position), .meaning = "centre of the shape"},
     {"body", "turn", NUMBER, "deg", -1e4, 1e4, "0", READ_TO(jox_key_read_turn, JoxBodyDraft, body.def.turn, body.def.turn),
@@ -237,7 +237,7 @@ static const JoxKey KEYS[] = {
     {"part", "shape", TABLE, "", 0, 0, "!", READ(jox_key_read_part_shape), .content = "shape",
      .meaning = "as of a body, but neither a compound nor blocks"},
     {"part", "at", POINT3, "m", -FAR, FAR, "", TO(JoxBodyPart, position), .meaning = "position in the body's frame"},
-    {"part", "mass", NUMBER, "kg", 0.001, 1e7, "1", TO(JoxBodyPart, mass), .meaning = "mass of this part"},
+    {"part", "mass", NUMBER, "kg", 0.001, 1e7, "1", TO(JoxBodyPart, mass), .meaning = "mass of this part; where the body has a mass too, the parts share it in proportion to theirs"},
 
     {"group", "behaviour", TEXT, "", 0, 0, "", READ(jox_key_read_behaviour),
      .meaning = "a Lua file: beside the scene, in ../behaviours, or installed"},

@@ -207,6 +207,9 @@ static const struct Case {
      "bond: "
      "9, block_mass: @3}}}\n",
      "bad-body", NULL},
+    {"bodies:\n  - {density: @80, at: [0, 0, 1], shape: {compound: [{shape: {sphere: {radius: "
+     "1}}}]}}\n",
+     "bad-body", "masses of its parts"},
     {"bodies:\n  - {at: [0, 0, 1], shape: {compound: [{shape: @{blocks: {size: [1, 1, 1], count: "
      "[2, "
      "1, 1], bond: 9}}}]}}\n",

@@ -100,6 +100,35 @@ static void anchors_and_merge_keys(void **state) {
     jox_scene_free(scene);
 }
 
+/* A compound's mass is shared by its parts in proportion to theirs; with mass 0 it is static. */
+static void mass_of_compound_scales_parts(void **state) {
+    (void)state;
+    static const struct {
+        const char *mass;
+        double parts[2];
+        bool still;
+    } CASES[] = {{"", {6, 1}, false}, {"mass: 14, ", {12, 2}, false}, {"mass: 0, ", {6, 1}, true}};
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        char text[400];
+        snprintf(
+            text, sizeof text,
+            "jostle: 1\nbodies: [{%sat: [0, 0, 1], shape: {compound: [{shape: {sphere: {radius: "
+            "1}}, mass: 6}, {shape: {sphere: {radius: 1}}, at: [1, 0, 0]}]}}]\n",
+            CASES[c].mass);
+        JoxDiagnostics d = {0};
+        JoxSceneSpec *scene = jox_scene_read(write_test_file("main.yaml", text), NULL, &d);
+        if (!scene)
+            print_diagnostics(&d, text);
+        assert_non_null(scene);
+        const JoxBodyDef *def = &scene->bodies[0].def;
+        assert_int_equal(def->still, CASES[c].still);
+        for (int p = 0; p < 2; p++)
+            assert_float_equal(def->shape.parts[p].mass, CASES[c].parts[p], 1e-12);
+        jox_scene_free(scene);
+        jox_diag_free(&d);
+    }
+}
+
 static void included_files_give_missing_keys(void **state) {
     (void)state;
     char text[4400], *stander = realpath("behaviours/stander.lua", NULL);
@@ -184,6 +213,7 @@ int main(void) {
         cmocka_unit_test(overrides_change_only_their_path),
         cmocka_unit_test(anchors_and_merge_keys),
         cmocka_unit_test(edits_that_need_restart_are_listed),
+        cmocka_unit_test(mass_of_compound_scales_parts),
         cmocka_unit_test(included_files_give_missing_keys),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);

@@ -120,7 +120,7 @@ const JoxExample jox_scene_examples[] = {
      "  - {shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, 1]]}}, mass: 30, at: [9, 0, 0.5]}\n"
      "  - {shape: {blocks: {size: [0.5, 0.5, 0.5], count: [4, 1, 2], bond: 300}}, mass: 80, at: [15, 0, 0.5]}\n"
      "  - shape: {compound: [{shape: {sphere: {radius: 0.3}}}, {shape: {sphere: {radius: 0.2}}, at: [0, 0, 0.4]}]}\n"
-     "    density: 200\n"
+     "    mass: 12\n"
      "    at: [12, 0, 0.5]\n"},
     {"box", OPENING
      "bodies: [{shape: {box: {size: [1.2, 0.8, 1.5]}}, mass: 60, at: [0, 0, 0.75]}]\n"},
