@@ -79,3 +79,13 @@ test("a list without its trend keeps what sways about it", function()
   near(measure.slope(order, rest), 0, 1e-9)
   near(measure.deviation(rest), 1, 0.02)
 end)
+
+test("a run of the Tawaf is measured in its last half", function()
+  local run = measure.tawaf_run { seeds = 2, duration = 100, set = { ["forces.enabled"] = false } }
+  equal(run.seeds, 2)
+  equal(run.duration, 100)
+  equal(run.set["heatmap.from"], 50)
+  equal(run.set["probes.fields.from"], 50)
+  equal(run.set["forces.enabled"], false)
+  equal(measure.tawaf_run({}).set["heatmap.from"], 300)
+end)
