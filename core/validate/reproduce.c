@@ -199,6 +199,7 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
                     *claim->level ? ", " : "", claim->level,
                     def->list                 ? ""
                     : !outcome->inside        ? ": MISSES"
+                    : outcome->null.failure   ? ": NO EVIDENCE, its null could not be measured"
                     : outcome->proves_nothing ? ": NO EVIDENCE, its null is in band too"
                                               : ": in band");
     if (claim->null_text && def->list)
@@ -228,7 +229,7 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
         else
             jox_text_printf(&out, ", band %.4g to %.4g: %s%s", figure->low, figure->high,
                             v->inside ? "in" : "OUT", v->thin ? ", thin" : "");
-        if (!figure->reported && claim->null_runs) {
+        if (!figure->reported && claim->null_runs && !outcome->null.failure) {
             jox_text_add(&out, "; null ");
             append_figure(&out, outcome->null.verdicts[f].mean);
             jox_text_add(&out, outcome->null.verdicts[f].inside ? ", in band too" : ", out");

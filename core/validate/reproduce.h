@@ -52,6 +52,7 @@ static inline bool jox_outcome_holds(const JoxOutcome *outcome) {
 /* Returns the verdict on a claim in words. */
 static inline const char *jox_outcome_verdict(const JoxOutcome *outcome) {
     return !outcome->inside          ? "misses"
+           : outcome->null.failure   ? "no evidence: the null could not be measured"
            : outcome->proves_nothing ? "no evidence: the null is in band too"
                                      : "in band";
 }

@@ -134,7 +134,10 @@ static void put_overview(FILE *out, const JoxReproduction *all) {
     jox_html_table_end(out);
 }
 
-static void put_test_figure(FILE *out, const JoxClaimFigure *figure, const JoxVerdict *v) {
+/* Writes a row of a test's figure, with the figure of the wrong input if there is one. */
+static void put_test_figure(FILE *out, const JoxOutcome *outcome, uint32_t f) {
+    const JoxClaimFigure *figure = &outcome->claim->figures[f];
+    const JoxVerdict *v = &outcome->own.verdicts[f];
     char bound[JOX_BOUND_SIZE], seeds[JOX_SEEDS_SIZE];
     jox_html_row(out);
     jox_html_cell(out, *figure->what ? figure->what : figure->name);
@@ -149,6 +152,10 @@ static void put_test_figure(FILE *out, const JoxClaimFigure *figure, const JoxVe
         jox_html_cell(out, "reported");
     else
         put_test_verdict(out, v->inside, v->thin);
+    if (outcome->null.runs)
+        jox_html_cell_number(out, outcome->null.verdicts[f].mean, figure->unit);
+    if (outcome->null.runs && !figure->reported)
+        fputs(outcome->null.verdicts[f].inside ? ", passes" : ", fails", out);
 }
 
 /* Writes the section of a test: text, source, plan, figures and pictures. */
@@ -164,13 +171,22 @@ static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     jox_html_text(out, claim->source);
     fputs(".<br>Haste of the people: ", out);
     jox_html_text(out, *claim->level ? claim->level : "as the scene says");
+    if (claim->null_text) {
+        fputs(".<br>Wrong input, with which the test must fail: ", out);
+        jox_html_text(out, claim->null_text);
+    }
     fputs(".</small></p>\n", out);
     if (outcome->own.failure)
         jox_html_paragraph(out, outcome->own.failure);
+    if (outcome->null.failure)
+        jox_html_paragraph(out, outcome->null.failure);
     put_test_plan(out, all, outcome);
-    jox_html_table(out, "figure|criterion|mean|95 % bound|95 % of runs|most|runs|verdict");
+    jox_html_table(out, outcome->null.runs
+                            ? "figure|criterion|mean|95 % bound|95 % of runs|most|runs|verdict|"
+                              "with the wrong input"
+                            : "figure|criterion|mean|95 % bound|95 % of runs|most|runs|verdict");
     for (uint32_t f = 0; f < claim->figure_count; f++)
-        put_test_figure(out, &claim->figures[f], &outcome->own.verdicts[f]);
+        put_test_figure(out, outcome, f);
     jox_html_table_end(out);
     jox_reproduce_put_pictures(out, all, outcome);
 }
@@ -189,7 +205,8 @@ bool jox_reproduce_write_standards(const JoxReproduction *all, JoxText *error) {
         "speeds, sizes and times before people move are set as the test states them. Each figure "
         "is the mean over runs that differ only by the seed of their random numbers, with its "
         "95 % bound. A verdict is thin if other seeds might change it. Tests that fail are shown "
-        "as failing.");
+        "as failing. Each is also run with a wrong input: one that passes with it as well shows "
+        "nothing, and fails.");
     jox_html_paragraph(
         out, "Set-ups and criteria are those of open implementations of the tests, which are named "
              "with each; the texts of the standards themselves were not consulted. A test says "

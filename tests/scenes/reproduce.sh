@@ -128,6 +128,8 @@ expect "unless it must be sure" 1 "band 1 to inf: OUT, thin" "${nulls[@]}" sure
 rm "$work/nulls/mean.lua" "$work/nulls/sure.lua"
 sed -i 's/set = {/sets = {/' "$work/nulls/mass.lua"
 expect "a misspelt key of null is an error" 3 "null has no 'sets'; did you mean 'set'?" "${nulls[@]}"
+sed -i 's/sets = {/set = {/; s/\["groups.walker.set.mass"\]/["groups.walker.set.masses"]/' "$work/nulls/mass.lua"
+expect "a claim whose null cannot be measured proves nothing" 1 "NO EVIDENCE, its null could not be measured" "${nulls[@]}" mass
 rm "$work/nulls/mass.lua"
 write_null_claim speed 1
 expect "--quick leaves one seed to runs without smaller ones" 0 "measured 8 (8 to 8, 1 seed)" "${nulls[@]}" speed --quick
