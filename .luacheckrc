@@ -47,6 +47,7 @@ std = {
     "seek",
     "field",
     "away_from",
+    "dodge",
     "orbit",
     "queue",
     "along",

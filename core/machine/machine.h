@@ -162,6 +162,7 @@ typedef enum JoxSteerKind {
     JOX_STEER_HOLD, /* stand still */
     JOX_STEER_SEEK, /* to the nearest point of target (line, gate: to a point drawn per agent) */
     JOX_STEER_AWAY_FROM, /* straight away from target */
+    JOX_STEER_DODGE,     /* out of target's line of motion, until that is args[0] metres away */
     JOX_STEER_ORBIT,     /* round a place counter-clockwise; args: see JoxOrbitArg */
     JOX_STEER_QUEUE,     /* to the agent's place in the queue */
     JOX_STEER_FOLLOW,    /* behind target, args[0] metres */

@@ -381,6 +381,12 @@ function field(a1) end
 ---@return jostle.Steering
 function away_from(a1) end
 
+--- `dodge(target [, metres])`: sideways, out of the line along which the target comes, until that passes at this distance, m; to the nearer side, or to the other one if a wall is in the way
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2? number
+---@return jostle.Steering
+function dodge(a1, a2) end
+
 --- `orbit(place [, options])`: round a place, counter-clockwise. Options: inward, density_near, density_far, far and beyond set how dense the crowd about it may be
 ---@return jostle.Steering
 function orbit(...) end

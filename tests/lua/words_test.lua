@@ -168,3 +168,24 @@ test("what cannot be is refused, with the place and a way out", function()
   wrong(M .. 'states = { A = { steer = seek(home:in_state("A")) } } }', "nothing of a target")
   wrong(M .. 'states = { A = { steer = drift(400, 0) } } }', "from -100 to 100")
 end)
+
+test("a target that comes is dodged to the nearer side, or to the other one where a wall is", function()
+  local DODGER = [[return machine { name = "dodger", start = "Go", defaults = { perception = 20 }, states = {
+    Go = { steer = dodge(nearest "ball"), ignore = "ball" } } }]]
+  -- Where an agent at x = 10 stands, of y = 10 at first, once a ball that comes along `line` has passed.
+  local function stands_after(line, speed, walls)
+    local game = yard({ one = { behaviour = DODGER, at = { { 10, 10 } } } }, walls)
+    game.bodies = { { tags = { "ball" }, shape = { sphere = { radius = 0.11 } }, mass = 0.4, at = { 4, line, 2.5 },
+      velocity = { speed, 0, 6 } } }
+    local s = scene(game)
+    s:run(1.5)
+    return s:agents("one")[1].y
+  end
+  near(stands_after(9.7, 6), 10.7, 0.15)  -- out of the line by 1 m
+  near(stands_after(10.3, 6), 9.3, 0.15)
+  truthy(stands_after(10, 6) < 9.3)       -- right of its motion, if straight ahead
+  near(stands_after(8.9, 6), 10, 0.02)    -- it passes clear
+  near(stands_after(9.7, -6), 10, 0.02)   -- it goes away
+  local WALL_ABOVE = { { line = { { 8, 10.5 }, { 12, 10.5 } } } }
+  near(stands_after(9.8, 6, WALL_ABOVE), 8.8, 0.15)
+end)

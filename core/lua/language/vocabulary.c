@@ -125,6 +125,9 @@ const JoxWord jox_words[] = {
      "is nearest by that way", "field \"post\""},
     {"away_from", "t", STEER, JOX_STEER_AWAY_FROM, 0, "away_from(target)", "",
      "straight away from the target", "away_from(nearest \"ball\")"},
+    {"dodge", "t?d", STEER, JOX_STEER_DODGE, 0, "dodge(target [, metres])", "",
+     "sideways, out of the line along which the target comes, until that passes at this distance, "
+     "m; to the nearer side, or to the other one if a wall is in the way", "dodge(nearest \"ball\", 0.8)"},
     {"orbit", "*", STEER, JOX_STEER_ORBIT, 0, "orbit(place [, options])", "",
      "round a place, counter-clockwise. Options: inward, density_near, density_far, far and "
      "beyond set how dense the crowd about it may be", "orbit(\"yard\", { far = 20 })"},
@@ -197,6 +200,7 @@ const JoxWordNumber jox_word_numbers[] = {
     {"orbit", "density_far", 0, 20, 4.6, "1/m2"},
     {"orbit", "far", 0.1, 10000, 40, "m"},
     {"orbit", "beyond", 0, 10000, 50, "m"},
+    {"dodge", "metres", 0, 100, 1, "m"},
     {"follow", "metres", 0, 1000, 1, "m"},
     {"together", "metres", 0, 1000, 1, "m"},
     {"formation", "metres", 0.1, 100, 0.7, "m"},

@@ -116,6 +116,26 @@ static JoxV2 steer_together(const JoxMachineRun *run, uint32_t i, const JoxSteer
     return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
 }
 
+/* Returns the direction out of the line on which the target comes nearer, until that is args[0] m
+   away: to the side of the line on which the agent is (right of the target's motion if it is on
+   the line), or to the other one if only there no wall is in the way. */
+static JoxV2 steer_dodge(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    const JoxSpot spot = jox_target_find(run, i, term->target);
+    const JoxV2 at = {a->x[i], a->y[i]}, from = jox_sub(at, (JoxV2){spot.x, spot.y});
+    const JoxV2 motion = {spot.vx, spot.vy}, left = jox_left(jox_unit(motion));
+    const float aside = jox_dot(from, left), side = aside > 0.0f ? 1.0f : -1.0f;
+    const float clear = (float)term->args[0];
+    if (!spot.found || !(jox_dot(from, motion) > 0.0f) || fabsf(aside) >= clear)
+        return (JoxV2){0.0f, 0.0f};
+    const JoxV2 near = jox_scale(left, side), far = jox_scale(left, -side);
+    JoxV2 normal;
+    const bool turns =
+        jox_meets_wall(run, at, jox_add(at, jox_scale(near, clear - fabsf(aside))), &normal) &&
+        !jox_meets_wall(run, at, jox_add(at, jox_scale(far, clear + fabsf(aside))), &normal);
+    return turns ? far : near;
+}
+
 /* Returns the way to a point args[0] m from the target, on the agent's side. */
 static JoxV2 steer_follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
@@ -180,6 +200,8 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
         return spot.found ? jox_unit((JoxV2){a->x[i] - spot.x, a->y[i] - spot.y})
                           : (JoxV2){0.0f, 0.0f};
     }
+    case JOX_STEER_DODGE:
+        return steer_dodge(run, i, term);
     case JOX_STEER_QUEUE:
         return steer_queue(run, i, term);
     case JOX_STEER_FOLLOW:
