@@ -1,26 +1,48 @@
--- Dodge-ball: runs from a flying ball, kicks one that lies in its own court. By ORCA: not fit for capacities.
--- A ball that hits a defender is a point for the other side: the defender stands for a second, and counts it in `hits`.
-local ball = nearest "ball"
-local mine_to_kick = grounded(ball) & inside(ball, own.court)
-local mine = memory { hits = 0 }
+-- Dodge-ball: keeps away from the ball, dodges it when it comes flying, kicks one that lies in its own court. By ORCA: not
+-- fit for capacities. A ball that hits a defender is a point for the other side: the defender stands for a second,
+-- and counts it in `hits`. A person may drive it; if nobody does for 8 s, it plays by itself until it is driven again.
+local ball, foe = nearest "ball", nearest "opponents"
+local mine = memory { hits = 0, dodges = 0 }
+local driven = now.driven:above(0)
+local flies_at_me = incoming(ball, 0.6) & ~grounded(ball)
+local REBOUND = 0.8 -- s after a kick, in which the ball may come back from the player's own body or wall
+
+-- The faster the run-up, the harder the kick; the farther the opponent, the higher.
+local kick = { ball, at = foe, impulse = 5 + own.run_up * now.speed, lift = clamp(2.5 * distance(foe), 8, 25) }
 
 return machine {
-  name = "dodgeball", version = 2, start = "Defense",
+  name = "dodgeball", version = 3, start = "Defense",
   defaults = { speed = 2.5, max_speed = 4, perception = 30, horizon = 2, mass = 70 },
+  -- Share of flying balls that are noticed; time until the player moves, s; speed of a kick per speed of the run-up.
+  own = { attention = 0.7, reaction = 0.3, run_up = 2 },
 
   states = {
-    -- The ball that an agent has just kicked may still touch it for a moment.
-    Defense = { steer = away_from(ball),
-      { to = "Hit",     when = hit_by(ball) & after(0.3) },
-      { to = "Attack",  when = mine_to_kick } },
+    -- A ball that the player has not noticed is not avoided.
+    Defense = { steer = 0.6 * seek(home) + 0.4 * away_from(ball), face = ball, ignore = "ball",
+      { to = "Play",   when = driven },
+      { to = "Hit",    when = hit_by(ball) & after(REBOUND) },
+      { to = "Attack", when = grounded(ball) & inside(ball, own.court) },
+      { to = "Notice", when = flies_at_me & after(REBOUND), chance = own.attention } },
 
-    -- While the ball is approached it is not avoided, nor are agents in the way; faster runners kick
-    -- harder.
-    Attack = { steer = seek(ball), approach = ball, ignore = "ball", speed = 3,
-      kick = { ball, at = nearest "opponents", impulse = 2 + 2 * now.speed },
-      { to = "Defense", when = kicked(ball) | grounded(ball) & ~inside(ball, own.court) } },
+    Notice = { steer = 0.6 * seek(home), face = ball, ignore = "ball", lasts = own.reaction,
+      { to = "Play",    when = driven },
+      { to = "Hit",     when = hit_by(ball) },
+      { to = "Dodge",   when = lasted } },
+
+    Dodge = { steer = dodge(ball, 0.8), face = ball, speed = 4,
+      { to = "Play",    when = driven },
+      { to = "Hit",     when = hit_by(ball) },
+      { to = "Defense", when = grounded(ball) | after(1), set = { dodges = mine.dodges + 1 } } },
+
+    -- While the ball is approached it is not avoided, nor are agents in the way.
+    Attack = { steer = seek(ball), approach = ball, ignore = "ball", speed = 3.5, kick = kick,
+      { to = "Play",    when = driven },
+      { to = "Defense", when = kicked(ball) | ~inside(ball, own.court) } },
 
     Hit = { steer = hold, lasts = 1, set = { hits = mine.hits + 1 },
       { to = "Defense", when = lasted } },
+
+    Play = { steer = player, approach = ball, speed = 3, kick = kick,
+      { to = "Defense", when = stuck(8) & ~driven } },
   },
 }

@@ -241,6 +241,8 @@ typedef struct JoxBodiesReport {
     uint32_t break_count;
     double hit_impulse, hit_residual; /* N s: sum of the hits' impulses; momentum in the plane that
                                          body and disc did not exchange equally */
+    double hit_body_change, hit_person_change; /* m/s: sums over the hits of the change of velocity
+                                                  in the plane, of the body and of the disc */
     uint32_t substeps;
     double bullet_s; /* wall time of Bullet's own steps, s; 0 unless jox_bodies_set_timed */
 } JoxBodiesReport;

@@ -180,7 +180,8 @@ struct JoxBodies {
     uint32_t object_contact_capacity;
     JoxDiscHit *hits;
     uint32_t hit_count, hit_capacity;
-    double hit_impulse, hit_residual; /* totals of the step, N s */
+    double hit_impulse, hit_residual;          /* totals of the step, N s */
+    double hit_body_change, hit_person_change; /* likewise, m/s */
     JoxBodyGone *gone;
     uint32_t gone_count, gone_capacity;
     JoxContactLoad *contact_loads; /* contacts of bonded bodies in a substep */

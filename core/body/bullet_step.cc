@@ -67,6 +67,8 @@ static void apply_person_hit(JoxBodies *b, uint32_t row, JoxDisc *discs, const J
     JOX_ASSERT(!(residual > 1e-5 * (j + r->shape.mass * before.length() +
                                     d->mass * jox_length(jox_v2(was_x, was_y)))));
     b->hit_residual += residual;
+    b->hit_body_change += hypot(double(change.x()), double(change.y()));
+    b->hit_person_change += hypot(double(d->vx - was_x), double(d->vy - was_y));
     jox_reserve(b->hits, b->hit_capacity, b->hit_count + 1);
     b->hits[b->hit_count++] =
         JoxDiscHit{hit->disc, row, jox_v3(at.getOrigin() + arm), JoxV2{-j * n.x(), -j * n.y()}};
@@ -142,7 +144,7 @@ void jox_bodies_set_timed(JoxBodies *b, bool timed) {
 JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t disc_count) {
     JoxBodiesReport report = {};
     b->hit_count = b->gone_count = b->break_count = 0;
-    b->hit_impulse = b->hit_residual = 0;
+    b->hit_impulse = b->hit_residual = b->hit_body_change = b->hit_person_change = 0;
     b->restored = false;
     if (!b->world || !b->live || !(dt > 0 && dt <= 1))
         return report;
@@ -192,6 +194,8 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     report.break_count = b->break_count;
     report.hit_impulse = b->hit_impulse;
     report.hit_residual = b->hit_residual;
+    report.hit_body_change = b->hit_body_change;
+    report.hit_person_change = b->hit_person_change;
     report.substeps = n;
     return report;
 }

@@ -87,6 +87,8 @@ static void apply_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
     exchange->contacts += report->hit_count;
     exchange->impulse += report->hit_impulse;
     exchange->residual += report->hit_residual;
+    exchange->body_change += report->hit_body_change;
+    exchange->person_change += report->hit_person_change;
     s->statistics->hits += report->hit_count;
 }
 

@@ -31,6 +31,8 @@ typedef struct JoxExchange {
     uint64_t contacts;
     double impulse;  /* sum of magnitudes, N s */
     double residual; /* sum over the steps of the magnitude of what does not cancel, N s */
+    /* m/s: sums over the hits by fast bodies of the magnitudes of changes of velocity. */
+    double body_change, person_change;
 } JoxExchange;
 
 /* Bonds between blocks of bodies. */

@@ -381,8 +381,7 @@ def reloads(browser, folder):
 def plays(browser):
     """the player is driven by keys until it kicks the ball"""
     scene = read("scenes", "dodgeball.yaml").replace("input: dodgeball.input\n", "")
-    folder = temporary_copy({"scenes/dodgeball.yaml": scene, "behaviours/dodgeball_player.lua": read("behaviours", "dodgeball_player.lua"),
-                             "behaviours/dodgeball.lua": read("behaviours", "dodgeball.lua")})
+    folder = temporary_copy({"scenes/dodgeball.yaml": scene, "behaviours/dodgeball.lua": read("behaviours", "dodgeball.lua")})
     session = Session("run", os.path.join(folder, "scenes/dodgeball.yaml"), "--view")
     try:
         browser.open(session)

@@ -8,7 +8,7 @@ kill_at=$PWD/tests/scenes/kill_at.py
 calls=write,pwrite64,fsync,fdatasync,rename,ftruncate,openat,unlink
 mkdir -p "$work/tree/scenes" "$work/tree/behaviours"
 cp scenes/dodgeball.* "$work/tree/scenes/"
-cp behaviours/dodgeball.lua behaviours/dodgeball_player.lua "$work/tree/behaviours/"
+cp behaviours/dodgeball.lua "$work/tree/behaviours/"
 cd "$work" || exit 1
 
 # contents: prints everything of a recording. strangers: prints rows that another recording lacks up to the last frame.
