@@ -29,8 +29,8 @@ return claim {
     .. "but it dies away.",
   level = "normal",
   calibrated = "the shove's greatest force was chosen on the mean of the five displacements, the share of a push "
-    .. "that feet hold in view of it, and the delay of what is passed on on how fast it travels; the shove's course over "
-    .. "time is the measured one",
+    .. "that feet hold in view of it, the delay with which pushes are passed on by how fast they travel; the shove's "
+    .. "course over time is the measured one",
   runs = {
     free = { scene = "../push-row.yaml", seeds = 1 }, fine = { scene = "../push-row.yaml", dt = 0.01, seeds = 1 },
     coarse = { scene = "../push-row.yaml", dt = 0.05, seeds = 1 },
