@@ -82,7 +82,7 @@ typedef struct JoxClaim {
 } JoxClaim;
 
 /* Loads a claim file; returns NULL with diagnostics. With `quick`, the claim's smaller runs
-   replace the full ones, and runs without a smaller one keep one seed. jox_claim_free frees the
+   replace the full ones, and runs for which it gives no seeds have one. jox_claim_free frees the
    claim. */
 JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnostics);
 /* Calls `measure` once. folders[r] is the folder in which run r left summary.json and its CSV

@@ -164,8 +164,8 @@ static bool is_named(const JoxClaimRun *run, const char *const *names, uint32_t 
     return false;
 }
 
-/* Reads `quick`: smaller settings per run, which with `quick` replace the full ones; runs that it
-   does not name then keep one seed. False means that no smaller run would show the result. */
+/* Reads `quick`: smaller settings per run, which with `quick` replace the full ones; runs then have
+   one seed unless it gives them more. False means that no smaller run would show the result. */
 static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
     int top = lua_gettop(L), type = lua_getfield(L, -1, "quick");
     claim->too_long = type == LUA_TBOOLEAN && !lua_toboolean(L, -1);
@@ -175,10 +175,11 @@ static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
     uint32_t count = 0;
     const char **names = type == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
     for (uint32_t n = 0; n < count; n++) {
-        JoxClaimRun *run = find_run(L, claim, "quick", names[n]);
+        JoxClaimRun *run = find_run(L, claim, "quick", names[n]), base = *run;
+        base.seeds = 1; /* unless it says more */
         claim->spare = (JoxClaimRun){.name = run->name};
         lua_getfield(L, -1, names[n]);
-        read_run(L, claim, run, &claim->spare);
+        read_run(L, claim, &base, &claim->spare);
         lua_pop(L, 1);
         if (quick) {
             JoxClaimRun full = *run;

@@ -134,6 +134,8 @@ rm "$work/nulls/mass.lua"
 write_null_claim speed 1
 expect "--quick leaves one seed to runs without smaller ones" 0 "measured 8 (8 to 8, 1 seed)" "${nulls[@]}" speed --quick
 says "and to their nulls" "null, 1 seed: another speed"
+sed -i 's/null = /quick = { walk = { duration = 15 } }, null = /' "$work/nulls/speed.lua"
+expect "and to runs that are only shorter" 0 "measured 8 (8 to 8, 1 seed)" "${nulls[@]}" speed --quick
 expect "a claim of one seed is not cut" 0 "1 of 1 claims in band" "$JOSTLE" reproduce R1 --quick --quiet --out "$work/null"
 ! grep -q published "$work/out"; verdict "and is not said to be" $?
 
