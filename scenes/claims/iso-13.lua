@@ -7,9 +7,9 @@ for i = 1, #PEOPLE do
   local name = "of_" .. PEOPLE[i]
   runs[name] = { scene = "../iso-13.yaml", seeds = "101-105", set = { ["groups.people.count"] = PEOPLE[i] } }
   quick[name] = { seeds = 1 }
-  expect[2 * i - 1] = { "speed_" .. PEOPLE[i], unit = "m/s", reported = true,
+  expect[2 * i - 1] = { "speed_" .. PEOPLE[i], unit = "m/s", source = "none", reported = true,
     what = string.format("mean speed of %d people", PEOPLE[i]) }
-  expect[2 * i] = { "flow_" .. PEOPLE[i], unit = "1/(m s)", reported = true,
+  expect[2 * i] = { "flow_" .. PEOPLE[i], unit = "1/(m s)", source = "none", reported = true,
     what = string.format("specific flow of %d people", PEOPLE[i]) }
   speeds[i] = { PEOPLE[i] / 120, "speed_" .. PEOPLE[i] }
   flows[i] = { PEOPLE[i] / 120, "flow_" .. PEOPLE[i] }

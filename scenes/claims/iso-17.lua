@@ -19,7 +19,7 @@ return claim {
   expect = {
     { "short", what = "people who take the shorter way, of 10", source = "all 10", band = { 10, 10 } },
     { "long", what = "people who take the longer way", source = "nobody", band = { 0, 0 } },
-    { "last", unit = "s", what = "until the last is on it", reported = true },
+    { "last", unit = "s", what = "until the last is on it", source = "none", reported = true },
   },
   pictures = { room = { "paths.png" } },
 }

@@ -22,8 +22,8 @@ return claim {
   expect = {
     { "longer", unit = "s", what = "how much longer it takes", source = "longer; 0.05 s ours", band = { 0.05 } },
     { "people", what = "people who get through", source = "all 25", band = { 25, 25 } },
-    { "with", unit = "s", what = "until the last is through, with", reported = true },
-    { "without", unit = "s", what = "the same, without", reported = true },
+    { "with", unit = "s", what = "until the last is through, with", source = "none", reported = true },
+    { "without", unit = "s", what = "the same, without", source = "none", reported = true },
   },
   pictures = { with = { "paths.png" } },
 }

@@ -17,7 +17,7 @@ return claim {
   expect = {
     { "people", what = "people of the party who get out", source = "all 5", band = { 5, 5 } },
     { "apart", unit = "s", what = "from the first to the last of them", source = "10 or less", band = { 0, 10 } },
-    { "last", unit = "s", what = "until the last is out", reported = true },
+    { "last", unit = "s", what = "until the last is out", source = "none", reported = true },
   },
   pictures = { room = { "paths.png" } },
 }

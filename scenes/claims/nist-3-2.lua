@@ -18,8 +18,8 @@ return claim {
   end,
   expect = {
     { "more", what = "how many more of 20 use the second exit", source = "more; 0.5 ours", band = { 0.5, 20 } },
-    { "led", what = "people at the second exit, with somebody who leads", reported = true },
-    { "alone", what = "the same, with nobody", reported = true },
+    { "led", what = "people at the second exit, with somebody who leads", source = "none", reported = true },
+    { "alone", what = "the same, with nobody", source = "none", reported = true },
   },
   pictures = { led = { "paths.png" } },
 }

@@ -19,7 +19,7 @@ return claim {
   expect = {
     { "used", what = "people at the exit that they are used to, of 20", source = "it is preferred; ours: all 20",
       band = { 20, 20 } },
-    { "new", what = "people at that exit who are not used to it", source = "none; figure ours", band = { 0, 10 } },
+    { "new", what = "people at that exit who are not used to it", source = "ours", band = { 0, 10 } },
   },
   pictures = { used = { "paths.png" } },
 }

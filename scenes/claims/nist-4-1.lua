@@ -16,7 +16,7 @@ return claim {
   expect = {
     { "first", what = "people at the exit that is shut", source = "nobody", band = { 0, 0 } },
     { "second", what = "people at the other one, of 20", source = "all 20", band = { 20, 20 } },
-    { "last", unit = "s", what = "until the last is out", reported = true },
+    { "last", unit = "s", what = "until the last is out", source = "none", reported = true },
   },
   pictures = { lost = { "paths.png" } },
 }

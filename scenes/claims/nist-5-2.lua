@@ -21,7 +21,7 @@ return claim {
   expect = {
     { "flow", unit = "1/s", what = "flow through the exit, normal people", source = "1.33 or less", band = { 0, 1.33 } },
     { "calm", unit = "1/s", what = "the same, calm people", source = "1.33 or less; calm is ours", band = { 0, 1.33 } },
-    { "keen", unit = "1/s", what = "the same, people in a hurry", reported = true },
+    { "keen", unit = "1/s", what = "the same, people in a hurry", source = "none", reported = true },
     { "people", what = "people who leave", source = "all 100", band = { 100, 100 } },
   },
   pictures = { exit = { "exit.png", "density.png" } },

@@ -22,7 +22,7 @@ return claim {
     { "time", unit = "s", what = "time for 40 m, dt 0.05 s", source = "26 to 34", band = { 26, 34 } },
     { "time_fine", unit = "s", what = "the same, dt 0.01 s", source = "26 to 34; other dt ours", band = { 26, 34 } },
     { "time_coarse", unit = "s", what = "the same, dt 0.2 s", source = "26 to 34; other dt ours", band = { 26, 34 } },
-    { "walls", what = "times that it came within 0.1 m of a wall", source = "none; figure ours", band = { 0, 0 } },
+    { "walls", what = "times that it came within 0.1 m of a wall", source = "ours", band = { 0, 0 } },
   },
   pictures = { walk = { "paths.png" } },
 }

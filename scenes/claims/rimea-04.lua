@@ -18,9 +18,9 @@ for i = 1, #densities do
     source = string.format("%.2f (Weidmann)", math.max(0, weidmann(d))) }
   measured[i] = { d, name }
 end
-expect[#expect + 1] = { "rises", source = "compare with the literature; ours: steady fall", band = { 0, 0 },
+expect[#expect + 1] = { "rises", source = "ours: they fall", band = { 0, 0 },
   what = "densities at which people are not slower than at the one before" }
-expect[#expect + 1] = { "areas", source = "three areas; no threshold, band ours", band = { 0, 0.15 },
+expect[#expect + 1] = { "areas", source = "ours: three areas agree", band = { 0, 0.15 },
   what = "greatest difference of the flow in an area from that in all three, at 1 to 4 people per square metre" }
 expect[#expect + 1] = { "flow", unit = "1/(m s)", reported = true, what = "greatest specific flow",
   source = "1.2 (Weidmann), 0.9 (F2)" }

@@ -28,11 +28,10 @@ return claim {
     { "round_fine", what = "the same, dt 0.01 s", source = "all 20; other dt ours", band = { 20, 20 } },
     { "round_coarse", what = "the same, dt 0.1 s", source = "all 20; other dt ours", band = { 20, 20 } },
     { "walls", what = "times that the middle of a person came within 0.1 m of a wall, dt 0.05 s",
-      source = "no wall crossed; 0.1 m ours",
-      band = { 0, 0 } },
+      source = "no wall crossed; 0.1 m ours", band = { 0, 0 } },
     { "walls_fine", what = "the same, dt 0.01 s", source = "no wall crossed; 0.1 m ours", band = { 0, 0 } },
     { "walls_coarse", what = "the same, dt 0.1 s", source = "no wall crossed; 0.1 m ours", band = { 0, 0 } },
-    { "last", unit = "s", what = "when the last is round it, dt 0.05 s", reported = true },
+    { "last", unit = "s", what = "when the last is round it, dt 0.05 s", source = "none", reported = true },
   },
   pictures = { corner = { "paths.png", "corner.png" } },
 }

@@ -30,8 +30,8 @@ return claim {
   expect = {
     { "ratio", what = "time by two doors over time by four", source = "about 2; 1.6 to 2.4 by JuPedSim", band = { 1.6, 2.4 } },
     { "people", what = "people who got out, the fewer of both", source = "all 1000", band = { 1000, 1000 } },
-    { "four", unit = "s", what = "until the last is out, four doors", reported = true },
-    { "two", unit = "s", what = "the same, two doors", reported = true },
+    { "four", unit = "s", what = "until the last is out, four doors", source = "none", reported = true },
+    { "two", unit = "s", what = "the same, two doors", source = "none", reported = true },
   },
   pictures = { four = { "density.png", "west_south.png" }, two = { "density.png" } },
 }

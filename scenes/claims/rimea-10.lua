@@ -20,7 +20,7 @@ return claim {
       band = { 15, 15 } },
     { "secondary", what = "people of the other rooms who leave by the secondary exit", source = "all 8", band = { 8, 8 } },
     { "wrong", what = "people at the other exit", source = "nobody", band = { 0, 0 } },
-    { "last", unit = "s", what = "until the last has left", reported = true },
+    { "last", unit = "s", what = "until the last has left", source = "none", reported = true },
   },
   pictures = { rooms = { "paths.png" } },
 }

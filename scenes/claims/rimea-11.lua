@@ -23,9 +23,9 @@ return claim {
   expect = {
     { "out", what = "people who got out", source = "all 1000", band = { 1000, 1000 } },
     { "near", what = "share of them by the nearer door", source = "more than half, not all; 0.9 ours", band = { 0.5, 0.9 } },
-    { "sooner", unit = "s", what = "how much earlier the first is through the nearer door", source = "none; figure ours",
+    { "sooner", unit = "s", what = "how much earlier the first is through the nearer door", source = "ours",
       band = { 0.05 } },
-    { "last", unit = "s", what = "until the last is out", reported = true },
+    { "last", unit = "s", what = "until the last is out", source = "none", reported = true },
   },
   pictures = { hall = { "density.png", "near.png", "far.png" } },
 }

@@ -17,8 +17,8 @@ return claim {
   expect = {
     { "longer", unit = "s", what = "how much longer the first room takes to empty",
       source = "slower by the long one; 0.05 s ours", band = { 0.05 } },
-    { "short", unit = "s", what = "until it is empty, opening 0.2 m long", reported = true },
-    { "long", unit = "s", what = "the same, 5 m", reported = true },
+    { "short", unit = "s", what = "until it is empty, opening 0.2 m long", source = "none", reported = true },
+    { "long", unit = "s", what = "the same, 5 m", source = "none", reported = true },
   },
   pictures = { short = { "opening.png" }, long = { "opening.png", "density.png" } },
 }

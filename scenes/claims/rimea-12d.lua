@@ -15,8 +15,7 @@ for i = 1, #WIDE do
   measured[i] = { WIDE[i], name }
 end
 expect[#expect + 1] = { "falls", what = "widths at which the flow is not greater than at the one before",
-  source = "rises with width",
-  band = { 0, 0 } }
+  source = "rises with width", band = { 0, 0 } }
 
 return claim {
   id = "R12d", title = "RiMEA 12d: how wide the opening is",

@@ -20,12 +20,11 @@ return claim {
   end,
   expect = {
     { "over", unit = "s", what = "how much longer than along the inner way, until the last is there",
-      source = "longer than 44 m; 0.05 s ours",
-      band = { 0.05 } },
+      source = "longer than 44 m; 0.05 s ours", band = { 0.05 } },
     { "under", unit = "s", what = "how much less long than along the outer way", source = "less long than 75.4 m; 0.05 s ours",
       band = { 0.05 } },
     { "people", what = "people who arrive, of 500", source = "all 500", band = { 500, 500 } },
-    { "corner", unit = "s", what = "round the corner, until the last is there", reported = true },
+    { "corner", unit = "s", what = "round the corner, until the last is there", source = "none", reported = true },
   },
   pictures = { corner = { "paths.png" }, straight = { "paths.png" } },
 }

@@ -23,8 +23,7 @@ for i = 1, #ENVELOPE do
   measured[i], low[i], middle[i], high[i] = { e[1], name }, { e[1], e[2] }, { e[1], e[3] }, { e[1], e[4] }
 end
 expect[#expect + 1] = { "inside", what = "share of densities at which the mean speed lies within the envelope",
-  source = "0.75 or more",
-  band = { 0.75, 1 } }
+  source = "0.75 or more", band = { 0.75, 1 } }
 
 return claim {
   id = "R16", title = "RiMEA 16: one behind the other",
