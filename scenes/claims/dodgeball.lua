@@ -44,7 +44,8 @@ end
 -- Checks the logged game against its rules, from the time on when nobody is driven (in state Play) any more.
 local function judge(run)
   local log, players = run.csv("actions"), {}
-  local out = { judged = 0, broken = 0, points = 0, dodges = 0, missed = 0, kicks = 0, began = 0 }
+  local out = { judged = 0, broken = 0, points = 0, dodges = 0, missed = 0, kicks = 0, began = 0,
+    peaks = 0, height = 0, highest = 0, flights = 0, air = 0 }
   local runs_up = {} -- speed of the kicker and of the ball after the kick, for balls that lay nearly still
   for i = 1, log.n do
     local e = {}
@@ -68,6 +69,10 @@ local function judge(run)
       if e.from == "Attack" and who.ran and e.body == who.ball then runs_up[#runs_up + 1] = { who.ran, e.body_speed } end
       if e.state == "Attack" then who.kicks = 0 end
       who.since, who.ran = e.time, nil
+    elseif e.what == "peaks" then
+      out.peaks, out.height, out.highest = out.peaks + 1, out.height + e.body_z, math.max(out.highest, e.body_z)
+    elseif e.what == "lands" then
+      out.flights, out.air = out.flights + 1, out.air + e.time - who.kicked
     elseif e.what == "hit" then
       who.hit = e.time
       -- A hit on a defender has to be a point by the end of the next step.
@@ -119,6 +124,8 @@ return claim {
       judged = duel.judged, judged_many = crowd.judged + bouncing.judged,
       broken = duel.broken, broken_many = crowd.broken + bouncing.broken, broken_fine = small.broken,
       points = duel.points / duel.minutes, dodges = duel.dodges / duel.minutes, kicks = duel.kicks / duel.minutes,
+      flights = duel.flights / duel.minutes, air = duel.air / duel.flights, height = duel.height / duel.peaks,
+      highest = math.max(duel.highest, crowd.highest, small.highest),
       points_many = crowd.points, points_bouncing = bouncing.points, kicks_many = crowd.kicks,
       missed = duel.missed + crowd.missed + small.missed + bouncing.missed,
       score = math.abs(duel.points - duel.counted) + math.abs(crowd.points - crowd.counted)
@@ -136,6 +143,10 @@ return claim {
     { "grows", what = "speed of a kicked ball over that of the run-up, slope, 500 balls",
       source = "grows; 2 in the machine, ours", band = { 1.5, 2.5 } },
     { "kicks", unit = "1/min", what = "kicks, one ball", source = "ours", band = { 6 } },
+    { "flights", unit = "1/min", what = "kicked balls that flew and came down, one ball", source = "ours", band = { 6 } },
+    { "air", unit = "s", what = "mean time from the kick to the ground, one ball", source = "ours", band = { 0.5, 1.5 } },
+    { "height", unit = "m", what = "mean greatest height of a flight, one ball", source = "ours", band = { 0.5, 2 } },
+    { "highest", unit = "m", what = "greatest height of all; the walls are 6 m", source = "ours", band = { 0, 6 } },
     { "dodges", unit = "1/min", what = "balls that were dodged, one ball", source = "ours", band = { 1 } },
     { "points", unit = "1/min", what = "points, one ball", source = "ours", band = { 1, 4 } },
     { "missed", what = "hits on a defender that were no point", source = "ours", band = { 0, 0 } },

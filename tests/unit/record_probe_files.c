@@ -136,6 +136,53 @@ static void log_has_each_action(void **state) {
     jox_probe_free(p);
 }
 
+/* Two people kick a body each: the one flies, is at its highest and comes down, the other rolls. */
+static void log_follows_flights_of_kicked_bodies(void **state) {
+    (void)state;
+    static const JoxProbeDef DEF = {
+        .name = "probe", .kind = JOX_PROBE_LOG, .until = INFINITY, .every = 1};
+    static const struct {
+        float z, rising;
+        bool grounded;
+    } FLIGHT[] = {{0.1f, 0, true},      {0.3f, 2, false},     {0.5f, 1, false},
+                  {0.6f, -0.1f, false}, {0.4f, -2, false},    {0.1f, 1, true},
+                  {0.2f, 0.5f, false},  {0.2f, -0.5f, false}, {0.1f, 0, true}}; /* a bounce */
+    JoxObject rows[2] = {{.id = 7, .live = true, .moves = true, .round = 0.1f},
+                         {.id = 8, .live = true, .moves = true, .round = 0.1f, .grounded = true}};
+    const JoxObjects objects = {.rows = rows, .count = 2};
+    uint32_t kicked[2] = {0, 0};
+    JoxProbe *p = jox_probe_create(&DEF);
+    reset_crowd(2);
+    crowd.objects = &objects;
+    crowd.kicked = kicked;
+    show_crowd(p, 0.1);
+    kicked[0] = 1;
+    kicked[1] = 2;
+    for (int n = 0; n < (int)(sizeof FLIGHT / sizeof *FLIGHT); n++) {
+        rows[0].position.z = FLIGHT[n].z;
+        rows[0].velocity.z = FLIGHT[n].rising;
+        rows[0].grounded = FLIGHT[n].grounded;
+        show_crowd(p, 0.2 + 0.1 * n);
+        kicked[0] = kicked[1] = 0;
+    }
+    assert_near(figure_value(p, "kicks"), 2, 0);
+    assert_near(figure_value(p, "flights"), 1, 0);
+    char text[2048] = "";
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    jox_probe_csv(p, file);
+    rewind(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    assert_non_null(strstr(text, "\n0.5000,peaks,0,,Walk,Walk,0.0000,0.0000,0.0000,"
+                                 "7,0.0000,0.0000,0.6000,0.1000,"));
+    assert_non_null(strstr(text, "\n0.7000,lands,0,,Walk,Walk,0.0000,0.0000,0.0000,"
+                                 "7,0.0000,0.0000,0.1000,1.0000,"));
+    assert_null(strstr(strstr(text, "lands") + 1, "lands"));
+    assert_null(strstr(strstr(text, "peaks") + 1, "peaks"));
+    jox_probe_free(p);
+}
+
 static void steady_frames_allocate_nothing(void **state) {
     (void)state;
     static const JoxV2 POINTS[] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
@@ -167,6 +214,7 @@ int main(void) {
         cmocka_unit_test(summary_is_json),
         cmocka_unit_test(steady_frames_allocate_nothing),
         cmocka_unit_test(log_has_each_action),
+        cmocka_unit_test(log_follows_flights_of_kicked_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

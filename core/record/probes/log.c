@@ -1,15 +1,15 @@
 /* Probe `log`: events of single people: a person enters a state, kicks or throws a body, or is hit
-   by a fast one. A row gives person and body as they were at the beginning of the step, which is
-   what the person's machine saw; for a new state, the body is the moving one nearest to the
-   person. */
+   by a fast one; the highest point and the end of the flight of a body that a person kicked or
+   threw. A row gives person and body as they were at the beginning of the step, which is what the
+   person's machine saw; for a new state, the body is the moving one nearest to the person. */
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 
-typedef enum { ENTERS, KICKS, HIT } Event;
-static const char *const EVENT_NAMES[] = {"enters", "kicks", "hit"};
+typedef enum { ENTERS, KICKS, HIT, PEAKS, LANDS, EVENTS } Event;
+static const char *const EVENT_NAMES[] = {"enters", "kicks", "hit", "peaks", "lands"};
 
 typedef struct Before { /* a person in the last frame */
     float x, y, speed;
@@ -29,6 +29,12 @@ typedef struct Action {
     uint8_t grounded;
 } Action;
 
+typedef struct Flight { /* of a body in the air that a person kicked or threw */
+    uint32_t row, body; /* row in the objects, and id */
+    uint32_t person;    /* key */
+    uint32_t rises;     /* 0 or 1: it has not begun to fall */
+} Flight;
+
 typedef struct Log {
     char **names; /* names of states and groups, copied: a reload may free those of the frame */
     uint32_t name_count, name_capacity;
@@ -38,7 +44,9 @@ typedef struct Log {
     uint32_t before_capacity;
     Action *actions;
     uint32_t count, capacity;
-    uint32_t counts[3];
+    Flight *flights;
+    uint32_t flight_count, flight_capacity;
+    uint32_t counts[EVENTS];
 } Log;
 
 /* Returns the index of a name, adding a copy of it if it is new. */
@@ -103,6 +111,53 @@ static void add_action(Log *log, const JoxFrame *frame, uint32_t i, Event event,
     action->grounded = body->grounded;
 }
 
+/* Begins the flight of the body in row `row`; ends one that it had. */
+static void begin_flight(Log *log, const JoxFrame *frame, uint32_t person, uint32_t row) {
+    if (!frame->objects || row >= frame->objects->count)
+        return;
+    const uint32_t body = frame->objects->rows[row].id;
+    uint32_t n = 0;
+    while (n < log->flight_count && log->flights[n].body != body)
+        n++;
+    if (n == log->flight_count) {
+        JOX_RESERVE(log->flights, log->flight_capacity, n + 1);
+        log->flight_count++;
+    }
+    log->flights[n] = (Flight){.row = row, .body = body, .person = person, .rises = 1};
+}
+
+/* Returns the index of a person in a frame; UINT32_MAX if it has left. */
+static uint32_t find_person(const JoxFrame *frame, uint32_t key) {
+    for (uint32_t i = 0; i < frame->count; i++)
+        if (frame->key[i] == key)
+            return i;
+    return UINT32_MAX;
+}
+
+/* Adds rows for flights that are at their highest point or end, and drops those that have ended: on
+   the ground, in somebody's hands, or with the body or person gone. */
+static void follow_flights(Log *log, const JoxFrame *frame) {
+    uint32_t kept = 0;
+    for (uint32_t n = 0; n < log->flight_count; n++) {
+        Flight flight = log->flights[n];
+        const uint32_t i = find_person(frame, flight.person);
+        const JoxObject *body = frame->objects && flight.row < frame->objects->count
+                                    ? &frame->objects->rows[flight.row]
+                                    : NULL;
+        if (!body || !body->live || body->id != flight.body || body->held || i == UINT32_MAX)
+            continue;
+        if (flight.rises && body->velocity.z <= 0.0f && !body->grounded) {
+            add_action(log, frame, i, PEAKS, (int32_t)flight.row);
+            flight.rises = 0;
+        }
+        if (body->grounded && !flight.rises)
+            add_action(log, frame, i, LANDS, (int32_t)flight.row);
+        if (!body->grounded)
+            log->flights[kept++] = flight;
+    }
+    log->flight_count = kept;
+}
+
 static void take_log_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
                            const uint8_t *seen) {
     Log *log = state;
@@ -112,14 +167,17 @@ static void take_log_frame(const JoxProbeDef *def, void *state, const JoxFrame *
     JOX_RESERVE(log->states, log->state_capacity, frame->state_count + 1);
     for (uint32_t s = 0; frame->state && s < frame->state_count; s++)
         log->states[s] = intern_name(log, frame->states[s]);
+    follow_flights(log, frame);
     for (uint32_t i = 0; i < frame->count; i++) {
         Before *before = &log->before[frame->key[i]];
         const uint32_t now = frame->state ? log->states[frame->state[i]] : 0;
         if (seen[i] && before->known) {
             if (now != before->state)
                 add_action(log, frame, i, ENTERS, find_nearest_body(frame, before));
-            if (frame->kicked && frame->kicked[i])
+            if (frame->kicked && frame->kicked[i]) {
                 add_action(log, frame, i, KICKS, (int32_t)frame->kicked[i] - 1);
+                begin_flight(log, frame, frame->key[i], frame->kicked[i] - 1);
+            }
             if (frame->struck && frame->struck[i])
                 add_action(log, frame, i, HIT, (int32_t)frame->struck[i] - 1);
         }
@@ -134,6 +192,8 @@ static void add_log_figures(const JoxProbeDef *def, const void *state, JoxFigure
     jox_figure_add(out, "entered", "entries into states", "", log->counts[ENTERS]);
     jox_figure_add(out, "kicks", "kicks and throws of bodies", "", log->counts[KICKS]);
     jox_figure_add(out, "hits", "hits of people by bodies", "", log->counts[HIT]);
+    jox_figure_add(out, "flights", "flights of kicked and thrown bodies that came down", "",
+                   log->counts[LANDS]);
 }
 
 /* Returns whether all names of actions are in the table, as after a restore. */
@@ -144,7 +204,7 @@ static bool are_actions_valid(const Log *log) {
     for (uint32_t n = 0; n < log->count; n++) {
         const Action *action = &log->actions[n];
         if (action->group >= log->name_count || action->state >= log->name_count ||
-            action->before.state >= log->name_count || (uint32_t)action->event >= 3)
+            action->before.state >= log->name_count || (uint32_t)action->event >= EVENTS)
             return false;
     }
     return true;
@@ -164,11 +224,12 @@ static void list_log_sections(void *state, JoxSections *s) {
     }
     JOX_SECTION_ROOM(s, "before", log->before, log->before_capacity);
     JOX_SECTION_ARRAY(s, "actions", log->actions, log->count, log->capacity);
+    JOX_SECTION_ARRAY(s, "flights", log->flights, log->flight_count, log->flight_capacity);
     JOX_SECTION(s, "counts", log->counts);
     if (!s->failed && !are_actions_valid(log))
         jox_sections_fail(s, "actions", "an action has an unknown state or group");
     if (s->failed)
-        log->count = log->before_capacity = 0;
+        log->count = log->before_capacity = log->flight_count = 0;
 }
 
 static void write_log_csv(const JoxProbeDef *def, const void *state, FILE *out) {
@@ -200,12 +261,13 @@ static void plot_log(const JoxProbeDef *def, const void *state, bool walls, JoxT
     }
     jox_text_printf(out, "set xlabel 'time (s)'\nset ylabel 'person'\nset yrange [-0.5:*]\n"
                          "set key outside\nplot ");
-    static const char *const COLOURS[] = {"#1f77b4", "#2ca02c", "#d62728"};
-    for (int w = 0; w < 3; w++)
+    static const char *const COLOURS[EVENTS] = {"#1f77b4", "#2ca02c", "#d62728", "#9467bd",
+                                                "#8c564b"};
+    for (int w = 0; w < EVENTS; w++)
         jox_text_printf(out,
                         "%scsv skip 1 using 1:(strcol(2) eq '%s' ? $3 : NaN) with points pt 7 "
                         "ps %.1f lc '%s' title '%s'",
-                        w ? ", " : "", EVENT_NAMES[w], 1.6 - 0.4 * w, COLOURS[w], EVENT_NAMES[w]);
+                        w ? ", " : "", EVENT_NAMES[w], 1.6 - 0.3 * w, COLOURS[w], EVENT_NAMES[w]);
     jox_text_printf(out, "\n");
 }
 
@@ -220,6 +282,6 @@ const JoxProbeCalls jox_probe_log = {
     .frame = take_log_frame,
     .pace = JOX_PACE_ALL,
     .owned = {JOX_OWNED(Log, names), JOX_OWNED(Log, states), JOX_OWNED(Log, before),
-              JOX_OWNED(Log, actions)},
+              JOX_OWNED(Log, actions), JOX_OWNED(Log, flights)},
     .release = free_log_names,
 };
