@@ -79,7 +79,6 @@ same_files() {
 tree=$work/probed
 mkdir -p "$tree"
 cp -r scenes behaviours "$tree/"
-sed -i 's/^probes:/probes:\n  pieces: {bodies: true}/' "$tree/scenes/office.yaml"
 sed -i 's/^probes:/probes:\n  swirl: {oscillation: {area: [[-2, -2], [4, 2]], span: 2}, every: 0.1}/' "$tree/scenes/running-through.yaml"
 same_files "a report of bodies, with a log of what was done to them, goes on" --report scenes/dodgeball.yaml 7 11
 same_files "a report with maps, areas and flows goes on" --report scenes/station.yaml 5 9
