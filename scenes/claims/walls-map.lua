@@ -8,7 +8,7 @@ for i = 1, #masses do
   for k = 1, #strengths do
     local m, b = masses[i], strengths[k]
     local name = name_of(m, b)
-    runs[name] = { scene = "../wall-breaking.yaml", seeds = 1, duration = 60,
+    runs[name] = { scene = "../wall-breaking.yaml", seeds = 3, duration = 60,
       set = { ["bodies.0.shape.blocks.block_mass"] = m, ["bodies.0.shape.blocks.bond"] = b } }
     if k == 1 then null_runs[name] = { set = { ["forces.enabled"] = false } } end
     if k == #strengths then null_runs[name] = { set = { ["bodies.0.shape.blocks.bond"] = strengths[1] } } end
@@ -36,7 +36,9 @@ return claim {
   level = "keen",
   held_out = "all cells of the map but those of claim 3, on which the throng's push and waiting were chosen",
   runs = runs, quick = false,
-  null = { text = "forces off with the weakest bonds, and those in place of the strongest", runs = null_runs },
+  null = {
+    text = "forces off with the weakest bonds, and those in place of the strongest", runs = null_runs, seeds = 1,
+  },
   measure = function(run)
     local out, shares = {}, {}
     for k = 1, #strengths do
@@ -58,8 +60,8 @@ return claim {
   end,
   expect = expect,
   tried = {
-    "Only the wall of 25 kg blocks breaks with bonds of 5000 N: 11 % of them with seeds 101 and 102, 2 % with 103. "
-      .. "The paper does not say how strong its glue is.",
+    "Of bonds of 5000 N, blocks of 8 kg lose 1, 3 and 6 % with seeds 101 to 103, those of 25 kg 0, 5 and 4 %. The "
+      .. "paper does not say how strong its glue is.",
   },
   plots = {
     { name = "broken", title = "Share of the bonds that broke within a minute",
