@@ -1,5 +1,5 @@
--- Dodge-ball: keeps away from the ball, dodges it when it comes flying, kicks one that lies in its own court. By ORCA: not
--- fit for capacities. A ball that hits a defender is a point for the other side: the defender stands for a second,
+-- Dodge-ball: keeps away from the ball, dodges it when it comes flying, kicks one that lies in its own court. By ORCA:
+-- not fit for capacities. A ball that hits a defender is a point for the other side: the defender stands for a second,
 -- and counts it in `hits`. A person may drive it; if nobody does for 8 s, it plays by itself until it is driven again.
 local ball, foe = nearest "ball", nearest "opponents"
 local mine = memory { hits = 0, dodges = 0 }
