@@ -11,7 +11,6 @@ return claim {
     calm = { scene = "../room-exit.yaml", seeds = "101-110", set = { ["groups.people.set.haste"] = "calm" } },
     keen = { scene = "../room-exit.yaml", seeds = "101-110", set = { ["groups.people.set.haste"] = "keen" } },
   },
-  quick = { exit = { seeds = 3 }, calm = { seeds = 3 }, keen = { seeds = 3 } },
   null = { text = "an exit of 1.5 m", set = { ["walls.0.line.0.1"] = 1.75, ["walls.0.line.5.1"] = 3.25,
     ["probes.exit.flow.0.1"] = 3.25, ["probes.exit.flow.1.1"] = 1.75 } },
   measure = function(run)

@@ -8,7 +8,6 @@ return claim {
   level = "normal", held_out = measure.walking_law,
   runs = { short = { scene = "../rimea-12.yaml", seeds = "101-110" },
     long = { scene = "../rimea-12-long.yaml", seeds = "101-110" } },
-  quick = { short = { seeds = 3 }, long = { seeds = 3 } },
   null = { text = "an opening 0.2 m long in both runs", runs = { long = { scene = "../rimea-12.yaml" } } },
   measure = function(run)
     local short, long = run.short.summary.probes.opening.last, run.long.summary.probes.opening.last

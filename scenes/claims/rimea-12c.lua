@@ -7,7 +7,6 @@ return claim {
     .. "it lets through.",
   level = "normal", held_out = measure.walking_law,
   runs = { three = { scene = "../rimea-12-three.yaml", seeds = "101-110" } },
-  quick = { three = { seeds = 3 } },
   null = { text = "a second opening of 0.7 m",
     set = { ["walls.3.solid.2.1"] = 4.65, ["walls.3.solid.3.1"] = 4.65, ["walls.4.solid.0.1"] = 5.35,
       ["walls.4.solid.1.1"] = 5.35 } },
