@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "simd/four.h"
 
 enum { MOST_CELLS = 1 << 20 };
 static const float SLACK = 1e-5f; /* relative to coordinates: exceeds the rounding of distances */
@@ -88,7 +89,9 @@ static void enter_edge(JoxWallGrid *g, uint32_t edge) {
                 continue;
             }
             g->edges[--*first] = edge;
-            g->nearest[*first] = (JoxNearEdge){jox_maxf(0.0f, away), edge};
+            g->nearest[*first] =
+                (JoxNearEdge){jox_maxf(0.0f, away), edge, g->walls->vertices[edge].point,
+                              get_edge_end(g->walls, edge)->point};
         }
 }
 
@@ -134,7 +137,7 @@ void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
     for (size_t c = 1; c <= cells; c++)
         g->first[c] += g->first[c - 1];
     g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
-    g->nearest = jox_alloc(g->first[cells] + 1, sizeof *g->nearest);
+    g->nearest = jox_alloc(g->first[cells] + 4, sizeof *g->nearest); /* four are loaded at once */
     for (uint32_t e = walls->count; e-- > 0;) /* backwards, as lists are filled from their end */
         enter_edge(g, e);
     sort_by_distance(g);
@@ -181,14 +184,51 @@ bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {
     return (p_side > 0.0f) != (q_side > 0.0f) && (a_side > 0.0f) != (b_side > 0.0f);
 }
 
+/* Four edges of a cell, m. */
+typedef struct FourEdges {
+    JoxFour x, y, end_x, end_y; /* start and end */
+    JoxFour way_x, way_y;       /* from start to end */
+    JoxFourMask there;          /* which of them the cell has */
+} FourEdges;
+
+/* Loads four edges, of which the cell has the first `left`. */
+static inline FourEdges load_edges(const JoxNearEdge *near, uint32_t left) {
+    const JoxFourMask numbers = {0, 1, 2, 3};
+    JoxFour ends[4];
+    for (int k = 0; k < 4; k++)
+        ends[k] = jox_load_four(&near[k].start.x);
+    jox_transpose_four(ends);
+    return (FourEdges){.x = ends[0],
+                       .y = ends[1],
+                       .end_x = ends[2],
+                       .end_y = ends[3],
+                       .way_x = ends[2] - ends[0],
+                       .way_y = ends[3] - ends[1],
+                       .there = numbers < (int)left};
+}
+
+/* Returns whether the segment p -> q crosses any of four edges, as jox_segments_cross does. */
+static inline bool is_any_crossed(const FourEdges *e, JoxV2 p, JoxV2 q) {
+    const JoxFour p_side = e->way_x * (p.y - e->y) - e->way_y * (p.x - e->x);
+    const JoxFour q_side = e->way_x * (q.y - e->y) - e->way_y * (q.x - e->x);
+    const JoxFourMask apart = ((p_side > 0.0f) ^ (q_side > 0.0f)) & e->there;
+    if (!jox_any_of_four(apart))
+        return false;
+    const JoxV2 way = jox_sub(q, p);
+    const JoxFour start_side = way.x * (e->y - p.y) - way.y * (e->x - p.x);
+    const JoxFour end_side = way.x * (e->end_y - p.y) - way.y * (e->end_x - p.x);
+    return jox_any_of_four(apart & ((start_side > 0.0f) ^ (end_side > 0.0f)));
+}
+
 bool jox_wall_grid_has_wall_between(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
     const float d2 = jox_length2(jox_sub(to, from));
     uint32_t count;
     const JoxNearEdge *near = jox_wall_grid_nearest(g, from, &count);
-    for (uint32_t k = 0; k < count && near[k].away * near[k].away <= d2; k++)
-        if (jox_segments_cross(from, to, g->walls->vertices[near[k].edge].point,
-                               get_edge_end(g->walls, near[k].edge)->point))
+    for (uint32_t k = 0; k < count && near[k].away * near[k].away <= d2; k += 4) {
+        const FourEdges edges = load_edges(near + k, count - k);
+        if (is_any_crossed(&edges, from, to))
             return true;
+    }
     return false;
 }
 
@@ -198,13 +238,13 @@ float jox_wall_grid_unhidden_distance2(const JoxWallGrid *g, JoxV2 from) {
     const JoxNearEdge *near = jox_wall_grid_nearest(g, from, &count);
     float least = INFINITY;
     for (uint32_t k = 0; k < count && near[k].away < least; k++) {
-        const JoxWallVertex *v = &g->walls->vertices[near[k].edge];
-        const JoxV2 out = jox_sub(from, v->point);
-        const float beside = fabsf(jox_det(v->direction, out));
+        const JoxV2 direction = g->walls->vertices[near[k].edge].direction;
+        const JoxV2 out = jox_sub(from, near[k].start);
+        const float beside = fabsf(jox_det(direction, out));
         if (beside > least)
             continue;
-        const JoxV2 whole = jox_sub(g->walls->vertices[v->next].point, v->point);
-        const float along = jox_dot(v->direction, out), length = jox_dot(v->direction, whole);
+        const float along = jox_dot(direction, out);
+        const float length = jox_dot(direction, jox_sub(near[k].end, near[k].start));
         const float beyond = jox_maxf(-along, along - length);
         const float far = beyond > 0.0f ? jox_length(jox_v2(beside, beyond)) : beside;
         least = jox_minf(far - SLACK * (fabsf(out.x) + fabsf(out.y) + size), least);

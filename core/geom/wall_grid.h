@@ -10,11 +10,12 @@
 #include "geom/walls.h"
 #include "simd/isa.h"
 
-/* An edge that a cell lists: no point of the cell is nearer to it than `away` m, rounding
-   included. */
+/* An edge that a cell lists: no point of the cell is nearer to it than `away`, rounding included.
+   The ends come last, so that one load fetches both. m. */
 typedef struct JoxNearEdge {
     float away;
     uint32_t edge;
+    JoxV2 start, end;
 } JoxNearEdge;
 
 /* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. The grid

@@ -4,7 +4,9 @@
 #ifndef JOX_SIMD_FOUR_H
 #define JOX_SIMD_FOUR_H
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 typedef float JoxFour __attribute__((vector_size(16)));
@@ -21,6 +23,13 @@ static inline JoxFour jox_load_four(const float *from) {
     JoxFour a;
     memcpy(&a, from, sizeof a);
     return a;
+}
+
+/* Returns whether the mask marks any element. */
+static inline bool jox_any_of_four(JoxFourMask marks) {
+    uint64_t halves[2];
+    memcpy(halves, &marks, sizeof halves);
+    return (halves[0] | halves[1]) != 0;
 }
 
 /* Returns the greater of each pair of elements; `b` if they are equal. */

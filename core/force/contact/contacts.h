@@ -40,6 +40,12 @@ void jox_contacts_solve(JoxForces *forces);
 void jox_literal_contacts(JoxForces *forces);
 /* crush_load.c: measures compression and load of one agent from the impulses. */
 void jox_load_measure(JoxForces *forces, uint32_t agent);
+/* crush_load_wide.c: returns the greatest length, N, over half-planes, of the sum of the forces
+   within; the lists are padded with zeros to whole packets. */
+typedef float JoxGreatestPushKernel(const float *x, const float *y, uint32_t count);
+#define X(name, isa) JoxGreatestPushKernel jox_greatest_push_##name;
+JOX_ISAS(X)
+#undef X
 /* crush_load.c: returns whether neither walls nor pushes press on any of agents [begin, end). */
 bool jox_have_no_loads(const JoxForces *forces, uint32_t begin, uint32_t end);
 /* planes.c: makes the half-planes of contacts. */

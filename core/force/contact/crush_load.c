@@ -12,34 +12,17 @@
 #include "base/assert.h"
 #include "force/contact/contacts.h"
 #include "force/push/pushes.h"
-#include "simd/four.h"
+
+#define X(name, isa) [isa] = jox_greatest_push_##name,
+static JoxGreatestPushKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
 enum { MOST_FORCES = 64 };
 
-/* Four forces, or four sums of forces, N. */
-typedef struct Forces {
-    JoxFour x, y;
-} Forces;
-
-static inline JoxFour fill_four(float x) {
-    return (JoxFour){x, x, x, x};
-}
-
-/* Adds a force to the marked ones of four sums. */
-static inline void add_where(Forces *sums, JoxFourMask marks, Forces force) {
-    sums->x += jox_keep_four(marks, force.x);
-    sums->y += jox_keep_four(marks, force.y);
-}
-
-static inline JoxFour keep_greater_length2(JoxFour most, Forces of) {
-    const JoxFour length2 = of.x * of.x + of.y * of.y;
-    return jox_keep_four(length2 > most, length2) + jox_keep_four(length2 <= most, most);
-}
-
-/* Forces that press on one agent, N, padded with zeros to a multiple of four. */
+/* Forces that press on one agent, N, padded with zeros to whole packets. */
 typedef struct Pressing {
     uint32_t count;
-    float x[MOST_FORCES + 4], y[MOST_FORCES + 4];
+    float x[MOST_FORCES + JOX_LANES], y[MOST_FORCES + JOX_LANES];
 } Pressing;
 
 static inline JoxV2 get_force(const Pressing *p, uint32_t k) {
@@ -51,29 +34,10 @@ static inline bool has_room(const Pressing *p) {
     return p->count < MOST_FORCES;
 }
 
-/* Returns the greatest squared length of the sums of forces on either side of four borders, each
-   along one force; forces on a border are tried on the left, on the right and on neither side. */
-static JoxFour find_border_pushes(Forces border, const Pressing *p, JoxFour most2) {
-    const JoxFour zero = {0.0f};
-    Forces left = {zero, zero}, right = left, along = left;
-    for (uint32_t m = 0; m < p->count; m++) {
-        const Forces here = {fill_four(p->x[m]), fill_four(p->y[m])};
-        const JoxFour side = border.x * here.y - border.y * here.x;
-        const JoxFour ahead = border.x * here.x + border.y * here.y;
-        add_where(&left, side > zero, here);
-        add_where(&right, side < zero, here);
-        add_where(&along, (side == zero) & (ahead > zero), here);
-    }
-    most2 = keep_greater_length2(keep_greater_length2(most2, left), right);
-    left = (Forces){left.x + along.x, left.y + along.y};
-    right = (Forces){right.x + along.x, right.y + along.y};
-    return keep_greater_length2(keep_greater_length2(most2, left), right);
-}
-
 /* Returns the greatest length, over half-planes, of the sum of the forces within, which equals the
    greatest sum of positive parts over directions. Only borders along a force matter; it may lie
    within or outside of the half-plane. */
-static float find_greatest_push(const Pressing *p) {
+static float find_greatest_push(const JoxForces *f, const Pressing *p) {
     const JoxV2 one = get_force(p, 0), other = get_force(p, 1);
     if (p->count == 0)
         return 0.0f;
@@ -82,12 +46,7 @@ static float find_greatest_push(const Pressing *p) {
     if (p->count == 2)
         return sqrtf(jox_maxf(jox_length2(jox_add(one, other)),
                               jox_maxf(jox_length2(one), jox_length2(other))));
-    JoxFour most2 = {0.0f};
-    for (uint32_t k = 0; k < p->count; k += 4) {
-        const Forces border = {jox_load_four(p->x + k), jox_load_four(p->y + k)};
-        most2 = find_border_pushes(border, p, most2);
-    }
-    return sqrtf(jox_maxf(jox_maxf(most2[0], most2[1]), jox_maxf(most2[2], most2[3])));
+    return KERNELS[f->isa](p->x, p->y, p->count);
 }
 
 /* Adds a force if it counts; without a branch, which would be mispredicted. */
@@ -125,8 +84,8 @@ static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
                      pushed->sorted[k].from_id != f->step.agents->id[i]);
     if ((reaction.x != 0.0f || reaction.y != 0.0f) && has_room(out))
         add_force_if(out, reaction, true);
-    memset(out->x + out->count, 0, 4 * sizeof *out->x);
-    memset(out->y + out->count, 0, 4 * sizeof *out->y);
+    memset(out->x + out->count, 0, JOX_LANES * sizeof *out->x);
+    memset(out->y + out->count, 0, JOX_LANES * sizeof *out->y);
 }
 
 bool jox_have_no_loads(const JoxForces *f, uint32_t begin, uint32_t end) {
@@ -152,6 +111,6 @@ void jox_load_measure(JoxForces *f, uint32_t i) {
     for (uint32_t k = 0; k < pressing.count; k++)
         sum += jox_length(get_force(&pressing, k));
     a->compression[i] = sum / jox_circumference(jox_param(a, JOX_PARAM_radius, i));
-    a->load[i] = find_greatest_push(&pressing);
+    a->load[i] = find_greatest_push(f, &pressing);
     JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
 }
