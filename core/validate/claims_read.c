@@ -13,7 +13,9 @@
 enum { FIRST_SEED = 101, FEW_SEEDS = 3 }; /* default seeds of a run */
 
 static bool read_bool_field(lua_State *L, const char *key) {
-    lua_getfield(L, -1, key);
+    const int type = lua_getfield(L, -1, key);
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
+        luaL_error(L, "%s is true or false", key);
     bool value = lua_toboolean(L, -1);
     lua_pop(L, 1);
     return value;
@@ -215,14 +217,24 @@ static void read_null_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun
     lua_settop(L, top);
 }
 
-/* Checks that `runs` of the table `null` on top names runs of the claim. */
-static void check_null_names(lua_State *L, const JoxClaim *claim) {
+/* Checks that the table `null` on top has either `set` or `runs`, and that `runs` has tables by
+   names of the claim's runs. */
+static void check_null(lua_State *L, const JoxClaim *claim) {
     int top = lua_gettop(L);
     uint32_t count = 0;
-    const char **names =
-        lua_getfield(L, top, "runs") == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
-    for (uint32_t n = 0; n < count; n++)
+    const bool sets = lua_getfield(L, top, "set") != LUA_TNIL;
+    const int type = lua_getfield(L, top, "runs");
+    if (sets && type != LUA_TNIL)
+        luaL_error(L, "null has either set, which holds for all runs, or runs, not both");
+    if (type != LUA_TNIL && type != LUA_TTABLE)
+        luaL_error(L, "null: runs = { name = { set = { ... } } }, by the names of runs");
+    const char **names = type == LUA_TTABLE ? list_text_keys(L, &count) : NULL;
+    for (uint32_t n = 0; n < count; n++) {
         find_run(L, claim, "null", names[n]);
+        if (lua_getfield(L, -1, names[n]) != LUA_TTABLE)
+            luaL_error(L, "null: run '%s' is a table", names[n]);
+        lua_pop(L, 1);
+    }
     lua_settop(L, top);
 }
 
@@ -244,12 +256,14 @@ static void read_null(lua_State *L, JoxClaim *claim, bool quick) {
     claim->null_text = jox_claim_read_text(L, "null", "text", true);
     const double seeds = jox_claim_read_number(L, "null", "seeds", FEW_SEEDS);
     claim->null_runs = jox_alloc(claim->run_count, sizeof *claim->null_runs);
-    check_null_names(L, claim);
+    if (seeds < 1.0 || seeds != floor(seeds))
+        luaL_error(L, "null: seeds is a whole number from 1 on");
+    check_null(L, claim);
     for (uint32_t r = 0; r < claim->run_count; r++) {
         JoxClaimRun *null = &claim->null_runs[r];
         read_null_run(L, claim, &claim->runs[r], null);
         if (quick || null->seeds > seeds)
-            null->seeds = quick || seeds < 1.0 ? 1 : (uint32_t)seeds;
+            null->seeds = quick ? 1 : (uint32_t)seeds;
     }
     lua_settop(L, top);
 }

@@ -121,6 +121,11 @@ void jox_reproduce_load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics
     if (all->outcome_count)
         jox_sort(all->outcomes, all->outcome_count, sizeof *all->outcomes, compare_claim_ids, NULL,
                  NULL);
+    for (uint32_t o = 1; o < all->outcome_count; o++)
+        if (strcmp(all->outcomes[o].claim->id, all->outcomes[o - 1].claim->id) == 0)
+            jox_diag_error(diagnostics, ((JoxPosition){all->outcomes[o].claim->path, 0, 0, 0}),
+                           "same-claim", NULL, "%s has the id %s, too",
+                           all->outcomes[o - 1].claim->path, all->outcomes[o].claim->id);
     for (uint32_t o = 0; o < all->outcome_count; o++)
         if (all->outcomes[o].claim->cut)
             jox_text_printf(&all->cut, "%s%s", all->cut.length ? ", " : "",
