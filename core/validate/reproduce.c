@@ -106,7 +106,7 @@ static const char *find_failure(const JoxReproduction *all, const JoxClaim *clai
 
 /* Computes the verdict on a figure from its values. As runs with fewer seeds repeat theirs, values
    that repeat with the seeds of a run count once. A figure that never changes does not tell from
-   which runs it is. */
+   which runs it is. A null misses a band by its mean alone. */
 static JoxVerdict judge_figure(const JoxClaim *claim, const JoxMeasured *m, const double *values,
                                const JoxClaimFigure *figure) {
     uint32_t seeds = m->seeds;
@@ -122,7 +122,10 @@ static JoxVerdict judge_figure(const JoxClaim *claim, const JoxMeasured *m, cons
             seeds = period;
     }
     JoxVerdict verdict = jox_verdict(values, seeds, figure->low, figure->high);
-    verdict.inside &= !figure->sure || !verdict.thin;
+    if (figure->sure && m->runs == claim->runs) {
+        verdict.thin |= isfinite(verdict.mean) && !isfinite(verdict.bound); /* of one seed */
+        verdict.inside &= !verdict.thin;
+    }
     if (!changes)
         verdict.most_seeds = m->seeds;
     return verdict;
@@ -130,7 +133,7 @@ static JoxVerdict judge_figure(const JoxClaim *claim, const JoxMeasured *m, cons
 
 /* Measures the figures of a claim with each seed of its runs, or of its null's, and computes the
    verdicts. Runs with fewer seeds repeat theirs. Without its cause a figure may not exist: the null
-   may leave it out, and misses its band. */
+   may leave it out. */
 static void measure_runs(const JoxReproduction *all, const JoxClaim *claim, JoxMeasured *m) {
     const char *failure = find_failure(all, claim, m);
     double *values = jox_alloc(claim->figure_count, sizeof *values);
@@ -172,8 +175,8 @@ static void measure_claim(const JoxReproduction *all, JoxOutcome *outcome) {
             continue;
         outcome->inside &= outcome->own.verdicts[f].inside;
         outcome->thin |= outcome->own.verdicts[f].thin;
-        outcome->proves_nothing &=
-            outcome->null.failure || !claim->null_runs || outcome->null.verdicts[f].inside;
+        if (claim->null_runs && !outcome->null.failure)
+            outcome->proves_nothing &= !jox_verdict_misses(&outcome->null.verdicts[f]);
     }
 }
 
@@ -200,7 +203,7 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
                     def->list                 ? ""
                     : !outcome->inside        ? ": MISSES"
                     : outcome->null.failure   ? ": NO EVIDENCE, its null could not be measured"
-                    : outcome->proves_nothing ? ": NO EVIDENCE, its null is in band too"
+                    : outcome->proves_nothing ? ": NO EVIDENCE, its null misses no band"
                                               : ": in band");
     if (claim->null_text && def->list)
         jox_text_printf(&out, "   null: %s\n", claim->null_text);
@@ -230,9 +233,12 @@ static void print_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) 
             jox_text_printf(&out, ", band %.4g to %.4g: %s%s", figure->low, figure->high,
                             v->inside ? "in" : "OUT", v->thin ? ", thin" : "");
         if (!figure->reported && claim->null_runs && !outcome->null.failure) {
+            const JoxVerdict *null = &outcome->null.verdicts[f];
             jox_text_add(&out, "; null ");
-            append_figure(&out, outcome->null.verdicts[f].mean);
-            jox_text_add(&out, outcome->null.verdicts[f].inside ? ", in band too" : ", out");
+            append_figure(&out, null->mean);
+            jox_text_add(&out, null->inside               ? ", in band too"
+                               : jox_verdict_misses(null) ? ", out"
+                                                          : ", not measured");
         }
         jox_text_add(&out, "\n");
     }

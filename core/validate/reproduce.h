@@ -42,7 +42,7 @@ typedef struct JoxOutcome {
     JoxClaim *claim;
     JoxMeasured own, null;
     bool inside, thin;   /* all figures are in band; the verdict on a figure is thin */
-    bool proves_nothing; /* all figures of the null are in band too */
+    bool proves_nothing; /* no figure of the null misses its band */
 } JoxOutcome;
 
 /* Returns whether a claim is in band and its null is not. */
@@ -53,7 +53,7 @@ static inline bool jox_outcome_holds(const JoxOutcome *outcome) {
 static inline const char *jox_outcome_verdict(const JoxOutcome *outcome) {
     return !outcome->inside          ? "misses"
            : outcome->null.failure   ? "no evidence: the null could not be measured"
-           : outcome->proves_nothing ? "no evidence: the null is in band too"
+           : outcome->proves_nothing ? "no evidence: the null misses no band"
                                      : "in band";
 }
 

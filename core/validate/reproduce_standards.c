@@ -155,7 +155,10 @@ static void put_test_figure(FILE *out, const JoxOutcome *outcome, uint32_t f) {
     if (outcome->null.runs)
         jox_html_cell_number(out, outcome->null.verdicts[f].mean, figure->unit);
     if (outcome->null.runs && !figure->reported)
-        fputs(outcome->null.verdicts[f].inside ? ", passes" : ", fails", out);
+        fputs(outcome->null.verdicts[f].inside                 ? ", passes"
+              : jox_verdict_misses(&outcome->null.verdicts[f]) ? ", fails"
+                                                               : ", not measured",
+              out);
 }
 
 /* Writes the section of a test: text, source, plan, figures and pictures. */

@@ -16,6 +16,8 @@ void jox_reproduce_put_band(FILE *out, const JoxClaimFigure *figure, const char 
         fprintf(out, "at least %.4g", figure->low);
     else
         fprintf(out, "%.4g to %.4g", figure->low, figure->high);
+    if (figure->sure)
+        fputs(", with the 95 % bound", out);
 }
 
 const char *jox_figure_verdict(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
@@ -75,11 +77,12 @@ bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, Jox
             fprintf(out, "%s | %s | ", bound, jox_seeds_write(seeds, v->seeds, v->most_seeds));
             jox_reproduce_put_band(out, figure, "");
             fprintf(out, " | %s | ", jox_figure_verdict(figure, v));
-            if (all->outcomes[o].null.runs)
-                fprintf(out, "%.4g%s", all->outcomes[o].null.verdicts[f].mean,
-                        !figure->reported && all->outcomes[o].null.verdicts[f].inside
-                            ? ", in band too"
-                            : "");
+            const JoxVerdict *null = &all->outcomes[o].null.verdicts[f];
+            if (all->outcomes[o].null.runs && !isfinite(null->mean))
+                fputs("not measured", out);
+            else if (all->outcomes[o].null.runs)
+                fprintf(out, "%.4g%s", null->mean,
+                        !figure->reported && null->inside ? ", in band too" : "");
             fputs(" |\n", out);
         }
     for (uint32_t o = 0; o < all->outcome_count; o++) {

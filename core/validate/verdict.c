@@ -36,6 +36,10 @@ JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double 
     return v;
 }
 
+bool jox_verdict_misses(const JoxVerdict *verdict) {
+    return isfinite(verdict->mean) && !verdict->inside;
+}
+
 void jox_bound_write(char out[JOX_BOUND_SIZE], double bound) {
     *out = 0;
     if (isfinite(bound))

@@ -13,11 +13,15 @@ typedef struct JoxVerdict {
     /* number of runs that the values come from, or the fewest and most if the values do not tell */
     uint32_t seeds, most_seeds;
     bool inside; /* the mean is in the band; of a figure that must be `sure`, its bound too */
-    bool thin;   /* an edge of the band is within the confidence interval */
+    /* an edge of the band is within the confidence interval; a figure that must be `sure` has none
+     */
+    bool thin;
 } JoxVerdict;
 
 /* Computes the verdict on a figure from its values, one per seed, and its band. */
 JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double high);
+/* Returns whether the figure was measured and is not in its band. */
+bool jox_verdict_misses(const JoxVerdict *verdict);
 enum { JOX_BOUND_SIZE = 24, JOX_SEEDS_SIZE = 32 };
 /* Writes a bound as "+- 0.47", with two digits or as a whole number; "" if it is not finite. */
 void jox_bound_write(char out[JOX_BOUND_SIZE], double bound);

@@ -93,7 +93,7 @@ says "the null's figure stands beside the claim's" "null 10, out"
 says "and a figure that the null meets is marked" "null 1, in band too"
 "${nulls[@]}" speed --set groups.walker.set.speed=1 --set groups.walker.set.speed=1.25 >"$work/out"
 says "--set leaves a null what it is made of" "null 10, out"
-expect "a claim whose null is in band proves nothing" 1 "NO EVIDENCE, its null is in band too" "${nulls[@]}"
+expect "a claim whose null is in band proves nothing" 1 "NO EVIDENCE, its null misses no band" "${nulls[@]}"
 says "and counts as missed" "1 of 2 claims in band; these miss: mass"
 grep -q "Null, which must miss a band, 2 seeds: another speed" "$work/null/index.html" && grep -q "<td class=out>1, in band too" "$work/null/index.html"
 verdict "the page shows both" $?
@@ -125,7 +125,28 @@ sed 's/time = [^,]*,/time = run.walk.summary.seed - 100,/; s/null = .*//; s/band
 sed 's/unit = "s", band/sure = true, band/; s/"mean"/"sure"/' "$work/nulls/mean.lua" >"$work/nulls/sure.lua"
 expect "a mean in band is enough" 0 "measured 1.5 +- 6.4" "${nulls[@]}" mean
 expect "unless it must be sure" 1 "band 1 to inf: OUT, thin" "${nulls[@]}" sure
-rm "$work/nulls/mean.lua" "$work/nulls/sure.lua"
+expect "which one seed cannot tell" 1 "band 1 to inf: OUT, thin" "${nulls[@]}" sure --seeds 102
+grep -q "| at least 1, with the 95 % bound | misses, thin |" "$work/null/table.md"; verdict "and the table says that it must be" $?
+sed -i '/expect/i null = { text = "one lighter", set = { ["groups.walker.set.mass"] = 60 } },' "$work/nulls/sure.lua"
+"${nulls[@]}" sure >"$work/out"; says "a null is not out of a band for being unsure" "null 1.5, in band too"
+cp "$work/nulls/mean.lua" "$work/nulls/twin.lua"
+expect "two claims of one id are an error" 3 "mean.lua has the id mean, too" "${nulls[@]}" mean
+rm "$work/nulls/mean.lua" "$work/nulls/sure.lua" "$work/nulls/twin.lua"
+# ---- nulls that say nothing ----
+sed 's/"mass"/"absent"/; s/time = /time = run.walk.summary.probes.way.mean < 9 and /' "$work/nulls/mass.lua" >"$work/nulls/absent.lua"
+sed -i 's/set.mass"\] = 80/set.speed"] = 1/; s/rows = [^}]*}/rows = 1 }/; s/< 9 and/> 9 and 0\/0 or/' "$work/nulls/absent.lua"
+expect "a null that lacks a figure is no evidence" 1 "NO EVIDENCE, its null misses no band" "${nulls[@]}" absent
+says "and its figure is said not to be measured" "in; null -, not measured"
+grep -q "| in band | not measured |" "$work/null/table.md"; verdict "also in the table" $?
+refuse_null() { # NAME, MESSAGE, NULL
+    sed "s/null = .*/null = $3,/" "$work/nulls/mass.lua" >"$work/nulls/wrong.lua"
+    expect "$1" 3 "$2" "${nulls[@]}" wrong
+    rm "$work/nulls/wrong.lua"
+}
+refuse_null "a null with settings of all and of some runs is an error" "not both" '{ text = "x", set = {}, runs = { walk = {} } }'
+refuse_null "a run of a null is a table" "run 'walk' is a table" '{ text = "x", runs = { walk = 1 } }'
+refuse_null "a null has a seed" "a whole number from 1 on" '{ text = "x", seeds = 0, set = {} }'
+rm "$work/nulls/absent.lua"
 sed -i 's/set = {/sets = {/' "$work/nulls/mass.lua"
 expect "a misspelt key of null is an error" 3 "null has no 'sets'; did you mean 'set'?" "${nulls[@]}"
 sed -i 's/sets = {/set = {/; s/\["groups.walker.set.mass"\]/["groups.walker.set.masses"]/' "$work/nulls/mass.lua"
