@@ -32,6 +32,28 @@ local function make_generator()
   end
 end
 
+-- Fails unless the values are often enough for the highest frequency, finite, and as many in each series.
+local function check_series(series, every)
+  if not (every > 0 and every <= 0.5 / HIGHEST) then
+    error(("waves: a value every %g s, but frequencies up to %g Hz need one every %g s"):format(every, HIGHEST,
+      0.5 / HIGHEST), 0)
+  end
+  for j = 1, #series do
+    if #series[j] ~= #series[1] then
+      error(("waves: series 1 has %d values, series %d has %d"):format(#series[1], j, #series[j]), 0)
+    end
+    for i = 1, #series[j] do
+      local value = series[j][i]
+      if value - value ~= 0 then error(("waves: value %d of series %d is %g"):format(i, j, value), 0) end
+    end
+  end
+end
+
+-- A share over that which chance gives; 0 without a share, as of constant series.
+local function compare_shares(found, by_chance)
+  return found > 0 and found / measure.quantile(by_chance, 0.95) or 0
+end
+
 -- The series without its trend, with deviation 1; a constant one becomes 0.
 local function standardise(series)
   local out = measure.detrended(series)
@@ -153,6 +175,8 @@ end
 -- of those towards earlier points: `share` of the variance, `speed` in m/s, and `ratio`, the share over the 95th
 -- percentile of the surrogates'. A ratio below 1 is no evidence of waves. Series shorter than a window give nil.
 function waves.find(series, every, apart)
+  if #series < 2 or apart <= 0 then error("waves: a direction needs two points, and a distance between them", 0) end
+  check_series(series, every)
   local length = count_values(every)
   if #series[1] < length then return nil, nil end
   local factors, standard = make_factors(length, math.floor(HIGHEST * WINDOW + 0.5)), {}
@@ -163,14 +187,15 @@ function waves.find(series, every, apart)
     local later, earlier = find_shares(transform_windows(shift_series(standard, draw), length, factors), apart)
     by_chance_up[i], by_chance_down[i] = later.share, earlier.share
   end
-  up.ratio = up.share / measure.quantile(by_chance_up, 0.95)
-  down.ratio = down.share / measure.quantile(by_chance_down, 0.95)
+  up.ratio = compare_shares(up.share, by_chance_up)
+  down.ratio = compare_shares(down.share, by_chance_down)
   return up, down
 end
 
 -- Deviation of positive series about their trend within windows, as a share of their means, over all of them. A wave
 -- with a share s of the variance has an amplitude of sqrt(2 s) times that. nil: the series are shorter than a window.
 function waves.sway(series, every)
+  check_series(series, every)
   local length, sum, count = count_values(every), 0, 0
   for j = 1, #series do
     local mean = measure.mean(series[j])
