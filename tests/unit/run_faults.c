@@ -221,6 +221,21 @@ static void lost_changes_of_memory_are_counted(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- the closing paragraph ---- */
+
+static void lost_body_is_said_in_a_sentence(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_scene_text(YARD_WITH_PEOPLE(1) "bodies: [{shape: {sphere: {radius: 0.2}}, at: [9999, "
+                                            "0, 5], velocity: [50, 0, 0]}]\n",
+                        MACHINE_START "\"A\", states = { A = { steer = hold } } }\n");
+    step_scene(scene, 4);
+    char *closing = jo_scene_closing(scene);
+    assert_non_null(strstr(closing, " There was 1 body lost."));
+    jo_free(closing);
+    jo_scene_free(scene);
+}
+
 /* ---- sources ---- */
 
 static void three_hundred_sources_count_separately(void **state) {
@@ -262,6 +277,7 @@ int main(void) {
         cmocka_unit_test(failed_world_names_agents_without_a_machine),
         cmocka_unit_test(lua_can_read_agents_without_a_machine),
         cmocka_unit_test(lost_changes_of_memory_are_counted),
+        cmocka_unit_test(lost_body_is_said_in_a_sentence),
         cmocka_unit_test(three_hundred_sources_count_separately),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);

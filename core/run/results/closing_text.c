@@ -75,8 +75,8 @@ static void say_events(const JoScene *scene, JoxText *out) {
         {s->kicks, "kick"},
         {s->throws, "throw"},
         {s->dropped, "body dropped for want of room|bodies dropped for want of room"},
-        {s->people_lost, "person was lost|people were lost"},
-        {s->bodies_lost, "body was lost|bodies were lost"},
+        {s->people_lost, "person lost|people lost"},
+        {s->bodies_lost, "body lost|bodies lost"},
         {s->parts_left_out,
          "agent-step in which not all parts of bodies near by were avoided|agent-steps in which "
          "not all parts of bodies near by were avoided"},
