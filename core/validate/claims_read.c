@@ -21,8 +21,8 @@ static bool read_bool_field(lua_State *L, const char *key) {
     return value;
 }
 
-/* Lists the text keys of the table on top in ascending order. The texts belong to the table; the
-   list is left below it on the stack, so that Lua frees it even after an error. */
+/* Lists the keys of the table on top, which must be texts, in ascending order. The texts belong to
+   the table; the list is left below it on the stack, so that Lua frees it even after an error. */
 static const char **list_text_keys(lua_State *L, uint32_t *count) {
     uint32_t most = 0;
     *count = 0;
@@ -30,9 +30,11 @@ static const char **list_text_keys(lua_State *L, uint32_t *count) {
         most++;
     const char **keys = lua_newuserdatauv(L, (most + 1) * sizeof *keys, 0);
     lua_insert(L, -2);
-    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
-        if (lua_type(L, -2) == LUA_TSTRING)
-            keys[(*count)++] = lua_tostring(L, -2);
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
+        if (lua_type(L, -2) != LUA_TSTRING)
+            luaL_error(L, "settings, runs and pictures are given by name: [\"PATH\"] = VALUE");
+        keys[(*count)++] = lua_tostring(L, -2);
+    }
     if (*count)
         jox_sort_texts(keys, *count);
     return keys;

@@ -146,6 +146,7 @@ refuse_null() { # NAME, MESSAGE, NULL
 refuse_null "a null with settings of all and of some runs is an error" "not both" '{ text = "x", set = {}, runs = { walk = {} } }'
 refuse_null "a run of a null is a table" "run 'walk' is a table" '{ text = "x", runs = { walk = 1 } }'
 refuse_null "a null has a seed" "a whole number from 1 on" '{ text = "x", seeds = 0, set = {} }'
+refuse_null "a setting has a path" 'are given by name: ["PATH"] = VALUE' '{ text = "x", set = { "groups.walker.set.mass=60" } }'
 rm "$work/nulls/absent.lua"
 sed -i 's/set = {/sets = {/' "$work/nulls/mass.lua"
 expect "a misspelt key of null is an error" 3 "null has no 'sets'; did you mean 'set'?" "${nulls[@]}"
