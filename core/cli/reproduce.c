@@ -12,7 +12,7 @@ typedef struct Reproduce {
 
 static const CliOption OPTIONS[] = {
     {"standards", NULL,
-     "run the tests of RiMEA, IMO and NIST, and write a page of them for authorities, "
+     "run the tests of RiMEA, IMO, NIST and ISO, and write a page of them for authorities, "
      "standards.html",
      CLI_TO(Reproduce, def.standards)},
     {"quick", NULL,

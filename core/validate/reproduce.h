@@ -59,7 +59,7 @@ static inline const char *jox_outcome_verdict(const JoxOutcome *outcome) {
 
 /* Stands on the pages of quick runs before the ids of the claims that were cut. */
 #define JOX_SAYS_QUICK                                                                             \
-    " Verdicts of quick runs are not the published ones. Cut to fewer seeds or shorter runs: "
+    "Verdicts of quick runs are not the published ones. Cut to fewer seeds or shorter runs: "
 
 typedef struct JoxReproduction {
     const JoReproduceDef *def;

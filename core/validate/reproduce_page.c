@@ -283,7 +283,7 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
     jox_html_text(out, when);
     fputs(".", out);
     if (all->cut.length) {
-        fputs(JOX_SAYS_QUICK, out);
+        fputs(" " JOX_SAYS_QUICK, out);
         jox_html_text(out, all->cut.data);
         fputs(".", out);
     }

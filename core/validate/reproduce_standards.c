@@ -178,11 +178,17 @@ static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
         fputs(".<br>Wrong input, with which the test must fail: ", out);
         jox_html_text(out, claim->null_text);
     }
+    if (*claim->no_null) {
+        fputs(".<br>No wrong input: ", out);
+        jox_html_text(out, claim->no_null);
+    }
     fputs(".</small></p>\n", out);
     if (outcome->own.failure)
         jox_html_paragraph(out, outcome->own.failure);
     if (outcome->null.failure)
         jox_html_paragraph(out, outcome->null.failure);
+    else if (outcome->inside && outcome->proves_nothing)
+        jox_html_paragraph(out, "It does not fail with the wrong input, and so shows nothing.");
     put_test_plan(out, all, outcome);
     jox_html_table(out, outcome->null.runs
                             ? "figure|criterion|mean|95 % bound|95 % of runs|most|runs|verdict|"
@@ -202,14 +208,20 @@ bool jox_reproduce_write_standards(const JoxReproduction *all, JoxText *error) {
     jox_reproduce_describe_run(all, when, sizeof when);
     jox_html_begin(out, "Tests of standards");
     jox_html_paragraph(out, when);
+    if (all->cut.length) {
+        JoxText quick = {0};
+        jox_text_printf(&quick, JOX_SAYS_QUICK "%s.", all->cut.data);
+        jox_html_paragraph(out, quick.data);
+        jox_text_free(&quick);
+    }
     jox_html_paragraph(
         out,
         "All people follow one walking law with one set of constants, which no test changes; "
         "speeds, sizes and times before people move are set as the test states them. Each figure "
         "is the mean over runs that differ only by the seed of their random numbers, with its "
         "95 % bound. A verdict is thin if other seeds might change it. Tests that fail are shown "
-        "as failing. Each is also run with a wrong input: one that passes with it as well shows "
-        "nothing, and fails.");
+        "as failing. Each that has a wrong input is also run with it: one that does not fail with "
+        "it shows nothing, and fails.");
     jox_html_paragraph(
         out, "Set-ups and criteria are those of open implementations of the tests, which are named "
              "with each; the texts of the standards themselves were not consulted. A test says "

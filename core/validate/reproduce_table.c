@@ -42,7 +42,7 @@ bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, Jox
     jox_quote_put(out, jox_quote_markdown, when);
     fputc('.', out);
     if (all->cut.length) {
-        fputs(JOX_SAYS_QUICK, out);
+        fputs(" " JOX_SAYS_QUICK, out);
         jox_quote_put(out, jox_quote_markdown, all->cut.data);
         fputc('.', out);
     }

@@ -138,6 +138,12 @@ sed -i 's/set.mass"\] = 80/set.speed"] = 1/; s/rows = [^}]*}/rows = 1 }/; s/< 9 
 expect "a null that lacks a figure is no evidence" 1 "NO EVIDENCE, its null misses no band" "${nulls[@]}" absent
 says "and its figure is said not to be measured" "in; null -, not measured"
 grep -q "| in band | not measured |" "$work/null/table.md"; verdict "also in the table" $?
+sed 's/"absent"/"R99"/' "$work/nulls/absent.lua" >"$work/nulls/test.lua"
+sed 's/"absent"/"R98"/; s/null = .*/no_null = "nothing is wrong",/' "$work/nulls/absent.lua" >"$work/nulls/bare.lua"
+"${nulls[@]}" R98 R99 --standards >"$work/out" 2>&1
+grep -q "It does not fail with the wrong input" "$work/null/standards.html" && grep -q "No wrong input: nothing is wrong" "$work/null/standards.html"
+verdict "the page of standards says why a test shows nothing, and why one has no wrong input" $?
+rm "$work/nulls/test.lua" "$work/nulls/bare.lua"
 refuse_null() { # NAME, MESSAGE, NULL
     sed "s/null = .*/null = $3,/" "$work/nulls/mass.lua" >"$work/nulls/wrong.lua"
     expect "$1" 3 "$2" "${nulls[@]}" wrong
