@@ -42,4 +42,7 @@ return claim {
     { "clockwise", what = "people who went a lap clockwise", source = "0", band = { 0, 0 } },
   },
   pictures = { few = { "turns.png" } },
+  tried = {
+    "leaving by the nearest gate, and walking on with the stream until it is near: 3.8 %, with the gate not drawn at random",
+  },
 }
