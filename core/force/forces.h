@@ -87,24 +87,10 @@ static inline JoxV2 jox_sum_terms(const JoxAgents *a, uint32_t i, uint32_t roles
     return sum;
 }
 
-/* Returns the part of others' pushes that an agent's feet do not hold, N. */
-static inline JoxV2 jox_unheld_pushes(const JoxAgents *a, uint32_t i) {
-    JoxV2 others = jox_sum_terms(a, i, JOX_FORCE_BRACED);
-    float size = jox_length(others),
-          held = jox_stands(a, i) ? 0.0f : jox_param(a, JOX_PARAM_brace, i);
-    return jox_scale(others, size > held ? (size - held) / size : 0.0f);
-}
-
 /* Returns an agent's velocity before the step, m/s. */
 static inline JoxV2 jox_velocity_before(const JoxForces *f, uint32_t i) {
     const JoxMotion *motion = &f->step.neighbours->motions[i];
     return (JoxV2){motion->vx, motion->vy};
-}
-
-/* Returns the force that moves an agent before contacts are solved, N: the free terms, plus the
-   pushes of others that its feet do not hold. */
-static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
-    return jox_add(jox_sum_terms(a, i, JOX_FORCE_FREE), jox_unheld_pushes(a, i));
 }
 
 /* Returns the most agents that any chunk has. */

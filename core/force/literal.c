@@ -43,15 +43,14 @@ static void make_force_plane(JoxForces *f, uint32_t i) {
 
 void jox_literal_sum(JoxForces *f, uint32_t i) {
     JoxAgents *a = f->step.agents;
-    const float dt = (float)f->step.timing.dt, mass = jox_param(a, JOX_PARAM_mass, i);
     const JoxV2 force = jox_sum_terms(a, i, JOX_FORCE_ALL); /* (10) */
-    const JoxV2 given = jox_add(jox_moving_force(a, i), jox_sum_terms(a, i, JOX_FORCE_CONTACT));
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);
     a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
     a->force_x[i] = force.x;
     a->force_y[i] = force.y;
-    a->forced_x[i] = a->vx[i] + given.x * dt / mass;
-    a->forced_y[i] = a->vy[i] + given.y * dt / mass;
+    const JoxV2 forced = find_forced_velocity(f, i);
+    a->forced_x[i] = forced.x;
+    a->forced_y[i] = forced.y;
     if (force.x != 0.0f || force.y != 0.0f)
         make_force_plane(f, i);
 }

@@ -25,7 +25,8 @@ static inline JoxVector jox_sum_terms_lanes(const JoxAgents *a, uint32_t i, uint
     return sum;
 }
 
-/* jox_unheld_pushes, by lane; `others`: sum of the braced terms, N. */
+/* Returns the part of others' pushes that the feet do not hold, N; `others`: sum of the braced
+   terms, N. */
 static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVector others,
                                          JoxMask stands) {
     const JoxFloats zero = jf_set(0.0f), size = jf_sqrt(jv_dot(others, others));
@@ -34,7 +35,8 @@ static inline JoxVector jox_unheld_lanes(const JoxAgents *a, uint32_t i, JoxVect
     return jv_scale(others, jf_select(jf_lt(held, size), share, zero));
 }
 
-/* jox_moving_force, by lane. */
+/* Returns the forces that move agents before contacts are solved, N: the free terms, plus the
+   pushes of others that the feet do not hold. */
 static inline JoxVector jox_moving_lanes(const JoxAgents *a, uint32_t i, JoxMask stands) {
     const JoxVector others = jox_sum_terms_lanes(a, i, JOX_FORCE_BRACED);
     return jv_add(jox_sum_terms_lanes(a, i, JOX_FORCE_FREE),

@@ -72,6 +72,20 @@ static void plain_bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 mo
     a->speed_limit[i] = jox_maxf(most, jox_length((JoxV2){a->forced_x[i], a->forced_y[i]}));
 }
 
+/* Returns the part of others' pushes that an agent's feet do not hold, N. */
+static inline JoxV2 find_unheld_pushes(const JoxAgents *a, uint32_t i) {
+    JoxV2 others = jox_sum_terms(a, i, JOX_FORCE_BRACED);
+    float size = jox_length(others),
+          held = jox_stands(a, i) ? 0.0f : jox_param(a, JOX_PARAM_brace, i);
+    return jox_scale(others, size > held ? (size - held) / size : 0.0f);
+}
+
+/* Returns the force that moves an agent before contacts are solved, N: the free terms, plus the
+   pushes of others that its feet do not hold. */
+static inline JoxV2 find_moving_force(const JoxAgents *a, uint32_t i) {
+    return jox_add(jox_sum_terms(a, i, JOX_FORCE_FREE), find_unheld_pushes(a, i));
+}
+
 /* (10) to (12) for agent i. `decay`: cached from the agent before. */
 static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     JoxAgents *a = f->step.agents;
@@ -81,7 +95,7 @@ static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     JoxV2 force = plain_sum_terms(a, i);
     a->force_x[i] = force.x;
     a->force_y[i] = force.y;
-    JoxV2 moving = jox_moving_force(a, i);
+    JoxV2 moving = find_moving_force(a, i);
     a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass;
     a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass;
     if ((force.x == 0.0f && force.y == 0.0f) || !plain_is_felt(f, i, jox_length(force)))
@@ -101,7 +115,7 @@ static float plain_shortfall(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDeca
     float inverse_mass = 1.0f / jox_param(a, JOX_PARAM_mass, i);
     float damping = jox_param(a, JOX_PARAM_damping, i);
     JoxV2 others = jox_sum_terms(a, i, JOX_FORCE_BRACED);
-    JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
+    JoxV2 held = jox_sub(others, find_unheld_pushes(a, i));
     JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
     float along = jox_maxf(0.0f, jox_dot(jox_velocity_before(f, i), unit));
     float worn = along * (1.0f - jox_decay(decay, damping, dt));
