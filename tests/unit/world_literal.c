@@ -469,29 +469,6 @@ static void equation_12_bounds_along_the_force(void **state) {
     }
 }
 
-/* No equation prints that feet hold others' pushes: not a bit of a run depends on `brace`. */
-static void bracing_changes_nothing(void **state) {
-    (void)state;
-    float x[2][8], y[2][8];
-    for (int braced = 0; braced < 2; braced++) {
-        JoWorld *w = make(true, 0.05, 8);
-        for (uint32_t id = 0; id < 8; id++) {
-            place(w, id, 0.41 * id, 0.03 * (id * 5 % 8), 0.0, 0.0);
-            want(w, id, 1.3, 0.1);
-            set(w, id, JOX_PARAM_push, 60.0);
-            set(w, id, JOX_PARAM_brace, braced ? 200.0 : 0.0);
-        }
-        jo_world_step(w, 100);
-        for (uint32_t id = 0; id < 8; id++) {
-            x[braced][id] = w->state.agents.x[at(w, id)];
-            y[braced][id] = w->state.agents.y[at(w, id)];
-        }
-        jo_world_free(w);
-    }
-    assert_memory_equal(x[0], x[1], sizeof x[0]);
-    assert_memory_equal(y[0], y[1], sizeof y[0]);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equation_1_permits_what_all_permit),
@@ -511,7 +488,6 @@ int main(void) {
         cmocka_unit_test(equation_10_adds_up),
         cmocka_unit_test(equation_11_is_not_damped),
         cmocka_unit_test(equation_12_bounds_along_the_force),
-        cmocka_unit_test(bracing_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -281,7 +281,41 @@ static void steps_are_as_the_equations_say(void **state) {
     assert_in_range(tally.contradictory, 0, 20);
 }
 
+/* Steps a random world in which a parameter has one value for all; writes the positions by id. */
+static void step_with(JoxParameter parameter, double value, uint32_t walls, V *out) {
+    Case c = {.person_count = MOST_PEOPLE, .wall_count = walls};
+    JoWorld *w = make_world(&c, 2.0);
+    const JoxAgents *a = &w->state.agents;
+    for (uint32_t i = 0; i < c.person_count; i++)
+        jox_param_set(&w->state.agents, parameter, find_row(w, i),
+                      jox_parameter_store(parameter, value));
+    jo_world_step(w, 20);
+    for (uint32_t i = 0; i < c.person_count; i++)
+        out[i] = read_pair(a->x, a->y, find_row(w, i));
+    jo_world_free(w);
+}
+
+static void parameters_that_no_equation_has_change_no_bit(void **state) {
+    (void)state;
+    static const struct {
+        JoxParameter parameter;
+        double value;
+    } unused[] = {{JOX_PARAM_brace, 400.0}, {JOX_PARAM_turn, 0.6},     {JOX_PARAM_damping, 5.0},
+                  {JOX_PARAM_yield, 1.0},   {JOX_PARAM_time_gap, 2.0}, {JOX_PARAM_haste, 1.0}};
+    for (uint32_t k = 0; k < 4 * sizeof unused / sizeof *unused; k++) {
+        V without[MOST_PEOPLE], with[MOST_PEOPLE];
+        const uint64_t begin = draws;
+        step_with(unused[k / 4].parameter, 0.0, k % 4, without);
+        draws = begin;
+        step_with(unused[k / 4].parameter, unused[k / 4].value, k % 4, with);
+        assert_memory_equal(without, with, sizeof with);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_as_the_equations_say)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steps_are_as_the_equations_say),
+        cmocka_unit_test(parameters_that_no_equation_has_change_no_bit),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
