@@ -114,13 +114,13 @@ typedef struct JoxObjectGrid {
 
 /* A convex part of a body, as its bounding sphere seen from above. */
 typedef struct JoxObjectPart {
-    JoxV2 at, velocity; /* of the sphere's centre, m and m/s */
+    JoxV2 at, velocity; /* position and velocity of the sphere's centre, m and m/s */
     float radius;       /* m */
 } JoxObjectPart;
 
 /* An iterator over the parts of a body whose spheres come within reach of a point. */
 typedef struct JoxPartWalk {
-    uint32_t row, next; /* of the body; number of the next part */
+    uint32_t row, next; /* row of the body, and number of its next part */
     JoxV2 point;        /* m */
     float reach;        /* m */
 } JoxPartWalk;

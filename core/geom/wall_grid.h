@@ -26,7 +26,7 @@ typedef struct JoxWallGrid {
     JoxV2 low;
     uint32_t columns, rows;
     uint32_t *first;      /* columns * rows + 1 indices into edges */
-    uint32_t *edges;      /* of each cell in ascending order */
+    uint32_t *edges;      /* edges of each cell, in ascending order */
     JoxNearEdge *nearest; /* the same, nearest to the cell first */
 } JoxWallGrid;
 

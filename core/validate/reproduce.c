@@ -123,7 +123,7 @@ static JoxVerdict judge_figure(const JoxClaim *claim, const JoxMeasured *m, cons
     }
     JoxVerdict verdict = jox_verdict(values, seeds, figure->low, figure->high);
     if (figure->sure && m->runs == claim->runs) {
-        verdict.thin |= isfinite(verdict.mean) && !isfinite(verdict.bound); /* of one seed */
+        verdict.thin |= isfinite(verdict.mean) && !isfinite(verdict.bound); /* one seed */
         verdict.inside &= !verdict.thin;
     }
     if (!changes)

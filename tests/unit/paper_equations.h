@@ -62,7 +62,7 @@ typedef struct Case {
     Box boxes[MOST_BODIES];
     Wall walls[MOST_WALLS];
     uint32_t person_count, box_count, wall_count;
-    uint32_t part_count; /* parts of all boxes, also those one above the other */
+    uint32_t part_count; /* number of parts, over all boxes */
 } Case;
 
 /* A half-plane of permitted velocities: normal . v >= offset. */

@@ -100,4 +100,16 @@ static inline JoxProbeDef default_probe_def(JoxProbeKind kind, const JoxV2 *poin
                          .rows = 0.4};
 }
 
+/* Writes a probe's CSV file to `text`, cut to its size. */
+static inline void read_probe_csv(const JoxProbe *probe, char *text, size_t size) {
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    jox_probe_csv(probe, file);
+    rewind(file);
+    const size_t length = fread(text, 1, size - 1, file);
+    assert_true(length > 0);
+    text[length] = 0;
+    fclose(file);
+}
+
 #endif

@@ -120,13 +120,8 @@ static void log_has_each_action(void **state) {
     assert_near(figure_value(p, "entered"), 1, 0);
     assert_near(figure_value(p, "kicks"), 1, 0);
     assert_near(figure_value(p, "hits"), 1, 0);
-    char text[1024] = "";
-    FILE *file = tmpfile();
-    assert_non_null(file);
-    jox_probe_csv(p, file);
-    rewind(file);
-    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
-    fclose(file);
+    char text[1024];
+    read_probe_csv(p, text, sizeof text);
     assert_non_null(strstr(text, "\n0.2000,enters,0,,Walk,Wait,0.0000,0.0000,0.0000,"
                                  "7,2.0000,0.0000,0.1000,0.0000,1.9000,1\n"));
     assert_non_null(strstr(text, "\n0.3000,kicks,0,,Wait,Wait,0.5000,0.0000,0.0000,"
@@ -167,13 +162,8 @@ static void log_follows_flights_of_kicked_bodies(void **state) {
     }
     assert_near(figure_value(p, "kicks"), 2, 0);
     assert_near(figure_value(p, "flights"), 1, 0);
-    char text[2048] = "";
-    FILE *file = tmpfile();
-    assert_non_null(file);
-    jox_probe_csv(p, file);
-    rewind(file);
-    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
-    fclose(file);
+    char text[2048];
+    read_probe_csv(p, text, sizeof text);
     assert_non_null(strstr(text, "\n0.5000,peaks,0,,Walk,Walk,0.0000,0.0000,0.0000,"
                                  "7,0.0000,0.0000,0.6000,0.1000,"));
     assert_non_null(strstr(text, "\n0.7000,lands,0,,Walk,Walk,0.0000,0.0000,0.0000,"

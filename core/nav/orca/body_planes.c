@@ -119,7 +119,7 @@ typedef struct PartPlanes {
     JoxHalfPlane *planes;
     uint32_t count, most;
     float speed_limit;               /* m/s */
-    bool replaces[JOX_MOST_NEAREST]; /* another one was dropped in favour of this one */
+    bool replaces[JOX_MOST_NEAREST]; /* a similar plane was dropped for this one */
     bool left_out;                   /* one was dropped that might matter */
 } PartPlanes;
 

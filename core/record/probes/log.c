@@ -29,7 +29,7 @@ typedef struct Action {
     uint8_t grounded;
 } Action;
 
-typedef struct Flight { /* of a body in the air that a person kicked or threw */
+typedef struct Flight { /* a body in the air that a person kicked or threw */
     uint32_t row, body; /* row in the objects, and id */
     uint32_t person;    /* key */
     uint32_t rises;     /* 0 or 1: it has not begun to fall */

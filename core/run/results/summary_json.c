@@ -219,7 +219,7 @@ static void add_exchange(JoxJson *json, const JoxStatistics *s) {
     jox_json_whole(json, "contacts", e->contacts);
     jox_json_digits(json, "impulse", e->impulse, 6);
     jox_json_digits(json, "residual", e->residual / e->impulse, 3);
-    if (e->person_change > 0) /* of a body over that of a person it hits */
+    if (e->person_change > 0) /* change of a body over that of the person hit */
         jox_json_digits(json, "velocity_ratio", e->body_change / e->person_change, 6);
     jox_json_end(json);
 }
