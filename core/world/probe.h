@@ -26,7 +26,7 @@
       "block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}",      \
       "true: distance of each person from its first position, and speed at which a push travels")            \
     X(BODIES, bodies, FLAG, "onset", "pieces:  {bodies: true, onset: 25 cm}",                        \
-      "true: distance of each body from its first position, its turn about the vertical and its tilt; bodies that are driven are left out") \
+      "true: distance of each body from its first position, its turn about the vertical and its tilt; bodies that are fixed or driven are left out") \
     X(MAP, map, TABLE, "every", "fields:  {map: {}, every: 2}",                                     \
       "fields: density, speed, crowd pressure, compression")                                        \
     X(WINDING, winding, POINT, "", "laps:    {winding: [0, 0]}",                                    \

@@ -403,6 +403,28 @@ static void rotate_object(JoxObject *object, double yaw, double tilt) {
         object->turn[k] = (float)turn[k];
 }
 
+static void fixed_and_driven_bodies_are_left_out(void **state) {
+    (void)state;
+    JoxProbeDef def = default_probe_def(JOX_PROBE_BODIES, NULL, 0);
+    JoxProbe *p = jox_probe_create(&def);
+    reset_crowd(1);
+    JoxObject rows[] = {{.id = 0, .live = true, .moves = true, .turn = {0, 0, 0, 1}},
+                        {.id = 1, .live = true, .name = "pillar", .turn = {0, 0, 0, 1}},
+                        {.id = 2, .live = true, .kinematic = true, .turn = {0, 0, 0, 1}}};
+    const JoxObjects objects = {.rows = rows, .count = 3};
+    crowd.objects = &objects;
+    show_crowd(p, 0);
+    for (int r = 0; r < 3; r++)
+        rows[r].position.x = r == 1 ? 0.0f : 2.0f;
+    show_crowd(p, 1);
+    assert_near(figure_value(p, "bodies"), 1, 0);
+    assert_near(figure_value(p, "mean"), 2, 1e-6);
+    char text[1000];
+    read_probe_csv(p, text, sizeof text);
+    assert_null(strstr(text, "pillar"));
+    jox_probe_free(p);
+}
+
 static void bodies_move_turn_and_topple(void **state) {
     (void)state;
     JoxProbeDef def = default_probe_def(JOX_PROBE_BODIES, NULL, 0);
@@ -462,6 +484,7 @@ int main(void) {
         cmocka_unit_test(turns_are_counted),
         cmocka_unit_test(failures_are_shares),
         cmocka_unit_test(lanes_have_order_parameter),
+        cmocka_unit_test(fixed_and_driven_bodies_are_left_out),
         cmocka_unit_test(bodies_move_turn_and_topple),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,12 +1,10 @@
-/* Probe `bodies`: how far each body that is not driven has moved, turned about the vertical axis,
-   and tilted, since it was first seen; at the end, and at most. The rotation since then is split
-   into a tilt (the angle between the axis that was vertical and the vertical) and a turn about the
-   vertical before the tilt. */
+/* Probe `bodies`: how far each body that can be pushed has moved, turned about the vertical axis,
+   and tilted, since it was first seen; at the end, and at most. Bodies that are fixed or driven are
+   left out. */
 #include <math.h>
 
 #include "base/mem.h"
-#include "base/number/elementary.h"
-#include "base/number/pi.h"
+#include "base/number/rotation.h"
 #include "record/probes/probe_parts.h"
 
 static const float TURNED = 10.0f;  /* degrees: turns beyond this count */
@@ -32,24 +30,6 @@ static float measure_distance(const Body *b) {
     return jox_length(jox_v2(b->at.x - b->from.x, b->at.y - b->from.y));
 }
 
-/* Sets turn and tilt from the rotation now * first^-1, a quaternion x, y, z, w. */
-static void measure_rotation(Body *b, const float now[4]) {
-    const float *f = b->first_turn;
-    const double x = (double)now[0] * f[3] - (double)now[3] * f[0] - (double)now[1] * f[2] +
-                     (double)now[2] * f[1];
-    const double y = (double)now[1] * f[3] - (double)now[3] * f[1] - (double)now[2] * f[0] +
-                     (double)now[0] * f[2];
-    const double z = (double)now[2] * f[3] - (double)now[3] * f[2] - (double)now[0] * f[1] +
-                     (double)now[1] * f[0];
-    const double w = (double)now[3] * f[3] + (double)now[0] * f[0] + (double)now[1] * f[1] +
-                     (double)now[2] * f[2];
-    const double upright = sqrt(z * z + w * w), tilted = sqrt(x * x + y * y);
-    double turned = upright > 0.0 ? 2.0 * jox_atan2(z, w) : 0.0;
-    turned -= JOX_TURN * floor(turned / JOX_TURN + 0.5);
-    b->turned = (float)(turned * 180.0 / JOX_PI);
-    b->tilt = (float)(2.0 * jox_atan2(tilted, upright) * 180.0 / JOX_PI);
-}
-
 /* Keeps a copy of a body's name when it is first seen: the body may be gone at the end. */
 static void keep_name(Bodies *s, const JoxObject *object) {
     JOX_RESERVE(s->names, s->name_capacity, object->id + 1);
@@ -65,7 +45,7 @@ static void take_bodies_frame(const JoxProbeDef *def, void *state, const JoxFram
     (void)def, (void)seen;
     for (uint32_t o = 0; frame->objects && o < frame->objects->count; o++) {
         const JoxObject *object = &frame->objects->rows[o];
-        if (!object->live || object->kinematic)
+        if (!object->live || !object->moves)
             continue;
         JOX_RESERVE_ZEROED(s->bodies, s->capacity, object->id + 1);
         Body *b = &s->bodies[object->id];
@@ -77,7 +57,9 @@ static void take_bodies_frame(const JoxProbeDef *def, void *state, const JoxFram
         }
         b->at = object->position;
         b->peak = jox_maxf(b->peak, measure_distance(b));
-        measure_rotation(b, object->turn);
+        const JoxTurnAndTilt since = jox_split_rotation(b->first_turn, object->turn);
+        b->turned = (float)since.turned;
+        b->tilt = (float)since.tilt;
         b->peak_tilt = jox_maxf(b->peak_tilt, b->tilt);
     }
 }

@@ -9,8 +9,7 @@
 #include "base/format/plurals.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "base/number/elementary.h"
-#include "base/number/pi.h"
+#include "base/number/rotation.h"
 #include "jostle_tools.h"
 #include "record/aggregate.h"
 #include "record/danger/trust.h"
@@ -232,12 +231,11 @@ static void add_displacement(JoxJson *json, const JoScene *scene, uint32_t body)
                          jox_bodies_find(scene->world->state.bodies, body), &pose))
         return;
     double x = pose.position.x - def->position[0], y = pose.position.y - def->position[1];
-    /* Turn about the vertical, without what the body has tipped over. */
-    double turned =
-        2 * jox_atan2(pose.turn[2], pose.turn[3]) - 2 * jox_atan2(def->turn[2], def->turn[3]);
-    turned = (turned - 2 * JOX_PI * floor(turned / (2 * JOX_PI) + 0.5)) * 180 / JOX_PI;
+    /* Bodies of scenes are turned about the vertical alone, and not at all if all is zero. */
+    const bool turned = def->turn[2] != 0 || def->turn[3] != 0;
+    const float first[4] = {0, 0, (float)def->turn[2], turned ? (float)def->turn[3] : 1.0f};
     jox_json_digits(json, "moved", sqrt(x * x + y * y), 6);
-    jox_json_digits(json, "turned", turned, 6);
+    jox_json_digits(json, "turned", jox_split_rotation(first, pose.turn).turned, 6);
 }
 
 /* Adds the bonds of blocks, for scenes that have any. */
