@@ -173,6 +173,8 @@ static void measure_claim(const JoxReproduction *all, JoxOutcome *outcome) {
     for (uint32_t f = 0; f < claim->figure_count; f++) {
         if (claim->figures[f].reported)
             continue;
+        outcome->count.banded++;
+        outcome->count.inside += outcome->own.verdicts[f].inside;
         outcome->inside &= outcome->own.verdicts[f].inside;
         outcome->thin |= outcome->own.verdicts[f].thin;
         if (claim->null_runs && !outcome->null.failure)
@@ -290,6 +292,8 @@ static bool run_and_measure(JoxReproduction *all, size_t *missed, JoError *error
         measure_claim(all, &all->outcomes[o]);
         print_outcome(all->def, &all->outcomes[o]);
         *missed += !jox_outcome_holds(&all->outcomes[o]);
+        all->count.inside += all->outcomes[o].count.inside;
+        all->count.banded += all->outcomes[o].count.banded;
     }
     JoxText why = {0}, out = {0};
     const bool good = jox_reproduce_write(all, &why) &&
@@ -302,6 +306,9 @@ static bool run_and_measure(JoxReproduction *all, size_t *missed, JoError *error
         if (!jox_outcome_holds(&all->outcomes[o]))
             jox_text_printf(&out, "%s%s",
                             n++ ? ", " : "; these miss: ", all->outcomes[o].claim->id);
+    if (all->count.banded)
+        jox_text_add(&out, "\n");
+    jox_reproduce_add_counts(all, &out);
     if (all->cut.length)
         jox_text_printf(&out,
                         "\nverdicts of --quick are not the published ones; cut to fewer seeds or "

@@ -37,10 +37,16 @@ typedef struct JoxMeasured {
     char *failure;                /* reason if it could not be measured, or NULL */
 } JoxMeasured;
 
+/* Number of figures with a band, and how many of them are in it. */
+typedef struct JoxFigureCount {
+    uint32_t inside, banded;
+} JoxFigureCount;
+
 /* A claim with its jobs and the verdicts on its figures. */
 typedef struct JoxOutcome {
     JoxClaim *claim;
     JoxMeasured own, null;
+    JoxFigureCount count;
     bool inside, thin;   /* all figures are in band; the verdict on a figure is thin */
     bool proves_nothing; /* no figure of the null misses its band */
 } JoxOutcome;
@@ -65,7 +71,8 @@ typedef struct JoxReproduction {
     const JoReproduceDef *def;
     JoxOutcome *outcomes;
     uint32_t outcome_count;
-    JoxJob *jobs; /* jobs of all claims */
+    JoxFigureCount count; /* of all claims */
+    JoxJob *jobs;         /* jobs of all claims */
     uint32_t job_count;
     size_t job_capacity;
     char program_sha256[65];
@@ -111,6 +118,9 @@ void jox_reproduce_put_pictures(FILE *out, const JoxReproduction *all, const Jox
    sentence in `error`. */
 bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, JoxText *error);
 bool jox_reproduce_write_json(const JoxReproduction *all, JoxText *error);
+/* Appends the number of figures in band, of all claims and of each: "3 of 4 figures in band
+   (75.0 %): B1 2 of 2, B2 1 of 2"; nothing if no figure has a band. */
+void jox_reproduce_add_counts(const JoxReproduction *all, JoxText *out);
 /* Writes a figure's band, or `dash` if it has none; returns the verdict on it in words. */
 void jox_reproduce_put_band(FILE *out, const JoxClaimFigure *figure, const char *dash);
 const char *jox_figure_verdict(const JoxClaimFigure *figure, const JoxVerdict *verdict);

@@ -17,18 +17,27 @@ static bool is_in_group(const JoxClaim *claim, const char *group) {
     return strcmp(group, isdigit((unsigned char)*claim->id) ? "paper" : "real") == 0;
 }
 
-/* Returns whether the def selects a claim, by id, group, file name or path, or selects all. */
-static bool is_wanted_claim(const JoReproduceDef *def, const JoxClaim *claim) {
+/* Returns whether a word of the caller names a claim itself: its id, file name or path. */
+static bool is_named(const JoxClaim *claim, const char *asked) {
+    const char *file = jox_path_name(claim->path);
+    const size_t stem = jox_path_stem(file);
+    return strcmp(asked, claim->id) == 0 || strcmp(asked, claim->also) == 0 ||
+           strcmp(asked, claim->path) == 0 || (strncmp(asked, file, stem) == 0 && asked[stem] == 0);
+}
+
+/* Returns whether the def selects a claim, by name or group, or selects all. Sets found[c] of each
+   word c that selects it. `named`: a word names the claim itself. */
+static bool select_claim(const JoReproduceDef *def, const JoxClaim *claim, bool *found,
+                         bool *named) {
+    bool wanted = def->claim_count == 0 && (!def->standards || jox_claim_is_standard(claim));
+    *named = false;
     for (size_t c = 0; c < def->claim_count; c++) {
-        const char *file = jox_path_name(claim->path);
-        size_t stem = jox_path_stem(file);
-        if (strcmp(def->claims[c], claim->id) == 0 || strcmp(def->claims[c], claim->also) == 0 ||
-            is_in_group(claim, def->claims[c]) ||
-            (strncmp(def->claims[c], file, stem) == 0 && def->claims[c][stem] == 0) ||
-            strcmp(def->claims[c], claim->path) == 0)
-            return true;
+        const bool by_name = is_named(claim, def->claims[c]);
+        if (by_name || is_in_group(claim, def->claims[c]))
+            wanted = found[c] = true;
+        *named |= by_name;
     }
-    return def->claim_count == 0 && (!def->standards || jox_claim_is_standard(claim));
+    return wanted;
 }
 
 /* Lists the paths of the Lua files in a folder, for the caller to free. */
@@ -101,12 +110,14 @@ void jox_reproduce_load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics
     JoxText ids = {0};
     size_t count, capacity = 0;
     char **files = list_claim_files(all->def->folder, &count);
+    bool *found = jox_alloc(all->def->claim_count + 1, sizeof *found);
     for (size_t f = 0; f < count; f++) {
         JoxClaim *claim = jox_claim_load(files[f], all->def->quick, diagnostics);
-        bool wanted = claim && is_wanted_claim(all->def, claim);
+        bool named;
+        bool wanted = claim && select_claim(all->def, claim, found, &named);
         if (claim)
             jox_text_printf(&ids, "%s ", claim->id);
-        if (wanted && all->def->quick && claim->too_long && all->def->claim_count == 0) {
+        if (wanted && all->def->quick && claim->too_long && !named) {
             jox_text_printf(&all->left_out, "%s%s", all->left_out.length ? ", " : "", claim->id);
             wanted = false;
         }
@@ -134,17 +145,13 @@ void jox_reproduce_load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics
         jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claims",
                        "Run it in the project's folder, or name one: --claims DIR",
                        "there are no claims in this folder");
-    for (size_t c = 0; c < all->def->claim_count && diagnostics->errors == 0; c++) {
-        bool found = false;
-        JoReproduceDef one = {.claims = &all->def->claims[c], .claim_count = 1};
-        for (uint32_t o = 0; o < all->outcome_count; o++)
-            found |= is_wanted_claim(&one, all->outcomes[o].claim);
-        if (!found)
+    for (size_t c = 0; c < all->def->claim_count && diagnostics->errors == 0; c++)
+        if (!found[c])
             add_no_claim_error(all->def->claims[c], files, count, &ids, all->def->folder,
                                diagnostics);
-    }
     for (size_t f = 0; f < count; f++)
         jox_free(files[f]);
     jox_free(files);
+    jox_free(found);
     jox_text_free(&ids);
 }

@@ -287,7 +287,11 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
         jox_html_text(out, all->cut.data);
         fputs(".", out);
     }
-    fputs("</p>\n<div class=scroll><table><tr><th>claim<th>what<th>source<th>verdict</tr>\n", out);
+    fprintf(out, "</p>\n<p>%u of %u figures with a band are in it.", all->count.inside,
+            all->count.banded);
+    fputs("</p>\n<div class=scroll><table><tr><th>claim<th>what<th>source<th>figures in band"
+          "<th>verdict</tr>\n",
+          out);
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
         fprintf(out, "<tr><td><a href=\"#c%u\">", o);
@@ -296,7 +300,8 @@ static bool write_claims_page(const JoxReproduction *all, const char *when, JoxT
         jox_html_text(out, outcome->claim->title);
         fputs("<td>", out);
         jox_html_text(out, outcome->claim->source);
-        fprintf(out, "<td class=%s>%s</tr>\n", jox_outcome_holds(outcome) ? "in" : "out",
+        fprintf(out, "<td class=n>%u of %u<td class=%s>%s</tr>\n", outcome->count.inside,
+                outcome->count.banded, jox_outcome_holds(outcome) ? "in" : "out",
                 jox_outcome_verdict(outcome));
     }
     fputs("</table></div>\n", out);

@@ -20,6 +20,22 @@ void jox_reproduce_put_band(FILE *out, const JoxClaimFigure *figure, const char 
         fputs(", with the 95 % bound", out);
 }
 
+void jox_reproduce_add_counts(const JoxReproduction *all, JoxText *out) {
+    const char *before = ": ";
+    if (all->count.banded == 0)
+        return;
+    jox_text_printf(out, "%u of %u figures in band (%.1f %%)", all->count.inside, all->count.banded,
+                    100.0 * all->count.inside / all->count.banded);
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        const JoxFigureCount *count = &all->outcomes[o].count;
+        if (count->banded == 0)
+            continue;
+        jox_text_printf(out, "%s%s %u of %u", before, all->outcomes[o].claim->id, count->inside,
+                        count->banded);
+        before = ", ";
+    }
+}
+
 const char *jox_figure_verdict(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
     if (figure->reported)
         return "reported";
@@ -46,6 +62,12 @@ bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, Jox
         jox_quote_put(out, jox_quote_markdown, all->cut.data);
         fputc('.', out);
     }
+    JoxText counts = {0};
+    jox_reproduce_add_counts(all, &counts);
+    if (counts.length)
+        fputs("\n\n", out);
+    jox_quote_put(out, jox_quote_markdown, counts.length ? counts.data : "");
+    jox_text_free(&counts);
     fputs(
         "\n\n| claim | haste | constants | figure | source | mean | 95 % | seeds | band | verdict "
         "| null |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
@@ -102,7 +124,12 @@ bool jox_reproduce_write_table(const JoxReproduction *all, const char *when, Jox
     return jox_plot_close(out, "table.md", error);
 }
 
-/* Writes results.json: verdicts by claim and figure. */
+static void write_json_count(JoxJson *json, const JoxFigureCount *count) {
+    jox_json_integer(json, "figures_in_band", count->inside);
+    jox_json_integer(json, "figures_with_band", count->banded);
+}
+
+/* Writes results.json: verdicts by claim and figure, and, as "all", the count of all figures. */
 bool jox_reproduce_write_json(const JoxReproduction *all, JoxText *error) {
     JoxText text = {0};
     JoxJson json = jox_json_begin(&text, 1);
@@ -112,6 +139,7 @@ bool jox_reproduce_write_json(const JoxReproduction *all, JoxText *error) {
         jox_json_object(&json, outcome->claim->id);
         jox_json_bool(&json, "inside", outcome->inside);
         jox_json_bool(&json, "proves_nothing", outcome->proves_nothing);
+        write_json_count(&json, &outcome->count);
         jox_json_object(&json, "figures");
         for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
             const JoxVerdict *v = &outcome->own.verdicts[f];
@@ -130,6 +158,9 @@ bool jox_reproduce_write_json(const JoxReproduction *all, JoxText *error) {
         jox_json_end(&json);
         jox_json_end(&json);
     }
+    jox_json_object(&json, "all");
+    write_json_count(&json, &all->count);
+    jox_json_end(&json);
     jox_json_end(&json);
     jox_text_append(&text, "\n", 1);
     FILE *out = jox_plot_open(all->def->out, "results.json", error);

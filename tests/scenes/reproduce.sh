@@ -210,12 +210,21 @@ expect "--list names claims and runs nothing" 0 "G  It walks (nobody)" "${run[@]
 sed 's/id = "G"/id = "BAD"/; s/7.9, 8.1/1, 2/; s/-- .*//' "$work/claims/good.lua" >"$work/claims/bad.lua"
 expect "a claim out of band is exit status 1" 1 "1 of 2 claims in band; these miss: BAD" "${run[@]}"
 says "its figure is marked OUT" "band 1 to 2: OUT"
+says "figures in band are counted, in all and by claim" "7 of 8 figures in band (87.5 %): BAD 3 of 4, G 4 of 4"
+grep -q "7 of 8 figures with a band are in it" "$work/rep/index.html" && grep -q "<td class=n>3 of 4<td class=out>misses" "$work/rep/index.html" && grep -qF "7 of 8 figures in band (87.5 %): BAD 3 of 4" "$work/rep/table.md"
+verdict "on the page and in the table, too" $?
+[ "$(sqlite3 :memory: "select json_extract(t, '\$.BAD.figures_in_band', '\$.all.figures_in_band', '\$.all.figures_with_band') from (select readfile('$work/rep/results.json') as t)")" = "[3,7,8]" ]
+verdict "and in results.json" $?
 grep -q 'class=out>misses' "$work/rep/index.html"; verdict "the page says so" $?
 grep -qF '<li>Walking &lt;faster&gt;: 3 m/s, no better</li>' "$work/rep/index.html" && grep -qF -- '- Waiting' "$work/rep/table.md" && grep -qF 'BAD misses. What was tried:' "$work/rep/table.md" && ! grep -qF 'G misses' "$work/rep/table.md"; verdict "the page shows what was tried" $?
 grep -qF "Walking &lt;faster>" "$work/rep/table.md" && ! grep -qF "<faster>" "$work/rep/table.md"; verdict "the table quotes it" $?
 expect "one claim by its id" 0 "1 of 1 claims in band" "${run[@]}" G
 expect "one claim by its file" 1 "0 of 1 claims in band; these miss: BAD" "${run[@]}" bad
 expect "no such claim" 3 "there is no claim 'X'" "${run[@]}" X
+sed 's/"BAD"/"long"/; s/^  quick = .*/  quick = false,/' "$work/claims/bad.lua" >"$work/claims/long.lua"
+expect "--quick leaves a claim of a group out that has no quick runs" 1 "left out with --quick: long" "${run[@]}" real --quick
+expect "unless it is named" 1 "these miss: long" "${run[@]}" long --quick
+rm "$work/claims/long.lua"
 rm "$work/claims/bad.lua"
 # fails NAME TEXT [SED...]: the good claim with changes; a miss that says why
 fails() {
