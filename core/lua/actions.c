@@ -167,11 +167,13 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
         jox_read_check(b, table, full, keys, key_count, true);
         lua_rawgeti(L, table, 1);
         JoxNode *body = jox_node_get(L, -1);
-        if (body && body->kind == JOX_NODE_TARGET)
+        if (body && body->kind == JOX_NODE_TARGET) {
             what = jox_build_target(b, body);
-        else if (!body || body->kind != JOX_NODE_ERROR)
+            jox_read_check_moves(b, full, action, what);
+        } else if (!body || body->kind != JOX_NODE_ERROR) {
             jox_build_error(b, jox_read_at(b, full), "bad-value", hint,
                             "%s needs the body as its first item", action);
+        }
         lua_pop(L, 1);
         *at = jox_read_target(b, table, full, "at");
         jox_read_join(part, full, info->name);
@@ -254,8 +256,8 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
         jox_build_error(b, jox_read_at(b, full), "missing-key",
                         "Example: throw = { nearest \"ball\", at = goal, speed = 6 }",
                         "throw needs `at`, a target");
-    state->take = jox_read_target(b, index, path, "take");
-    state->grasp = jox_read_target(b, index, path, "grasp");
+    state->take = jox_read_mover(b, index, path, "take");
+    state->grasp = jox_read_mover(b, index, path, "grasp");
     read_grip(b, index, path, state);
     read_become(b, index, path, state);
 }

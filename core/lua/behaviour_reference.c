@@ -1,5 +1,6 @@
 #include "lua/behaviour_reference.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -49,10 +50,13 @@ static void print_words(JoxText *out, const struct Section *section) {
         jox_text_printf(out, "` | %s | ", word->unit);
         print_cell(out, word->meaning);
         const JoxWordNumber *number;
-        for (uint32_t n = 0; (number = jox_word_number(word->name, n)); n++)
+        for (uint32_t n = 0; (number = jox_word_number(word->name, n)); n++) {
             jox_text_printf(out, "%s`%s` %g to %g%s%s", n ? ", " : "; ", number->name,
                             number->least, number->greatest, *number->unit ? " " : "",
                             number->unit);
+            if (!isnan(number->standard))
+                jox_text_printf(out, ", default %g", number->standard);
+        }
         jox_text_add(out, " | `");
         print_cell(out, word->example);
         jox_text_add(out, "` |\n");
@@ -145,6 +149,7 @@ static const char *get_word_class(const JoxWord *word) {
 static const char *get_argument_type(char letter) {
     return letter == 'p'   ? "string|jostle.Target|jostle.Number"
            : letter == 't' ? "string|jostle.Target|jostle.Number"
+           : letter == 'm' ? "jostle.Target"
            : letter == 'n' ? "number|jostle.Number"
            : letter == 'd' ? "number"
                            : "string";

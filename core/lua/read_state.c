@@ -288,7 +288,7 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     state->push_when = jox_read_condition(b, full, NULL);
     state->push_toward = jox_read_target(b, index, path, "push_toward");
     state->face = jox_read_target(b, index, path, "face");
-    state->approach = jox_read_target(b, index, path, "approach");
+    state->approach = jox_read_mover(b, index, path, "approach");
     state->ignore = jox_read_tags(b, index, path, "ignore", false);
     state->push_only = jox_read_tags(b, index, path, "push_only", false);
     state->on_enter = jox_read_hook(b, index, path, "on_enter");

@@ -229,6 +229,21 @@ int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *ke
     return target;
 }
 
+void jox_read_check_moves(JoxBuild *b, const char *path, const char *key, int16_t target) {
+    if (target >= 0 && !jox_target_kind_moves(b->machine->targets[target].kind))
+        jox_build_error(b, jox_read_at(b, path), "bad-value",
+                        "Write nearest \"ball\", or another tag",
+                        "'%s' needs a body or an agent, not a place", key);
+}
+
+int16_t jox_read_mover(JoxBuild *b, int index, const char *path, const char *key) {
+    char full[256];
+    jox_read_join(full, path, key);
+    const int16_t target = jox_read_target(b, index, path, key);
+    jox_read_check_moves(b, full, key, target);
+    return target;
+}
+
 /* Adds the bit of the tag on top of the stack to `mask`. */
 static void add_tag_bit(JoxBuild *b, const char *path, bool is_set, uint64_t *mask) {
     lua_State *L = b->script->vm.L;

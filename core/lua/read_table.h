@@ -89,6 +89,10 @@ JoxValue jox_read_parameter(JoxBuild *build, const char *path, const JoxParamete
 int32_t jox_read_condition(JoxBuild *build, const char *path, int32_t *hook);
 /* Reads a target under a key, a place's name or a target value; returns its index or -1. */
 int16_t jox_read_target(JoxBuild *build, int index, const char *path, const char *key);
+/* Reports the target of a key, -1: none, if it is a place where a body or an agent is wanted. */
+void jox_read_check_moves(JoxBuild *build, const char *path, const char *key, int16_t target);
+/* Reads a target under a key that is a body or an agent; returns its index or -1. */
+int16_t jox_read_mover(JoxBuild *build, int index, const char *path, const char *key);
 /* Returns the bits of a tag or list of tags, which are given to agents (`is_set`) or asked for. */
 uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char *key, bool is_set);
 /* Reads the table at `index` into a state whose name is set. */

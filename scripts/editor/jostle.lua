@@ -198,28 +198,28 @@ lasted = nil
 function stuck(a1) end
 
 --- `hit_by(target)`: a target faster than 1 m/s touches the agent, or hit it in the last step
----@param a1 string|jostle.Target|jostle.Number
+---@param a1 jostle.Target
 ---@return jostle.Condition
 function hit_by(a1) end
 
 --- `grounded(target)`: the body touches the ground
----@param a1 string|jostle.Target|jostle.Number
+---@param a1 jostle.Target
 ---@return jostle.Condition
 function grounded(a1) end
 
 --- `incoming(target, metres)`: the target, if it keeps its velocity, passes within this distance, m, during the next 2 s
----@param a1 string|jostle.Target|jostle.Number
+---@param a1 jostle.Target
 ---@param a2 number|jostle.Number
 ---@return jostle.Condition
 function incoming(a1, a2) end
 
 --- `kicked(target)`: the agent kicked or threw the body in the last step
----@param a1 string|jostle.Target|jostle.Number
+---@param a1 jostle.Target
 ---@return jostle.Condition
 function kicked(a1) end
 
 --- `has(target)`: the agent carries the body (see `take`), or holds on to an agent that the target selects (see `grasp`)
----@param a1 string|jostle.Target|jostle.Number
+---@param a1 jostle.Target
 ---@return jostle.Condition
 function has(a1) end
 
@@ -270,7 +270,7 @@ function distance(a1) end
 function neighbours(a1) end
 
 --- `theirs(target, name)`: value of this memory of the target, an agent, if its machine makes it `public`; true is 1. 0 if there is no such agent or memory
----@param a1 string|jostle.Target|jostle.Number
+---@param a1 jostle.Target
 ---@param a2 string
 ---@return jostle.Number
 function theirs(a1, a2) end
@@ -382,7 +382,7 @@ function field(a1) end
 function away_from(a1) end
 
 --- `dodge(target [, metres])`: sideways, out of the line along which the target comes, until that passes at this distance, m; to the nearer side, or to the other one if a wall is in the way
----@param a1 string|jostle.Target|jostle.Number
+---@param a1 jostle.Target
 ---@param a2? number
 ---@return jostle.Steering
 function dodge(a1, a2) end

@@ -247,8 +247,7 @@ static JoxNodeFilter *push_filtered_target(lua_State *L, const char *method) {
     const bool counts = of && of->kind == JOX_NODE_NUMBER && of->op == JOX_OP_NEIGHBOURS;
     const JoxNode *target = counts ? of->target : of;
     const bool others =
-        target && target->kind == JOX_NODE_TARGET &&
-        (target->target_kind >= JOX_TARGET_NEAREST && target->target_kind <= JOX_TARGET_ANYONE);
+        target && target->kind == JOX_NODE_TARGET && jox_target_kind_moves(target->target_kind);
     if (!others || lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60) {
         jox_word_error(L, method, "bad-operand", "Example: nearest(\"people\"):in_state(\"Exit\")",
                        others ? ":%s takes a name, which %s is not"

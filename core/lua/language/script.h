@@ -301,6 +301,8 @@ size_t jox_word_names(const char **names, size_t capacity);
 /* Reads argument `index` of a word as the letter of the vocabulary says. NULL with an error value
    pushed if it does not fit. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
+/* Returns whether a target of this kind is a body or an agent, which a place is not. */
+bool jox_target_kind_moves(JoxTargetKind kind);
 /* Pushes the value of a word; false with nothing pushed if there is none of that name. */
 bool jox_word_lookup(lua_State *L, const char *name);
 

@@ -31,16 +31,16 @@ const JoxWord jox_words[] = {
      "the duration that `lasts` drew for this state is over", "lasted"},
     {"stuck", "n", CONDITION, JOX_OP_STUCK, 0, "stuck(seconds)", "",
      "the agent has not moved by 0.25 m for this time, s", "stuck(3)"},
-    {"hit_by", "t", CONDITION, JOX_OP_HIT_BY, 0, "hit_by(target)", "",
+    {"hit_by", "m", CONDITION, JOX_OP_HIT_BY, 0, "hit_by(target)", "",
      "a target faster than 1 m/s touches the agent, or hit it in the last step", "hit_by(nearest \"ball\")"},
-    {"grounded", "t", CONDITION, JOX_OP_GROUNDED, 0, "grounded(target)", "",
+    {"grounded", "m", CONDITION, JOX_OP_GROUNDED, 0, "grounded(target)", "",
      "the body touches the ground", "grounded(nearest \"ball\")"},
-    {"incoming", "tn", CONDITION, JOX_OP_INCOMING, 0, "incoming(target, metres)", "",
+    {"incoming", "mn", CONDITION, JOX_OP_INCOMING, 0, "incoming(target, metres)", "",
      "the target, if it keeps its velocity, passes within this distance, m, during the next 2 s",
      "incoming(nearest \"ball\", 0.5)"},
-    {"kicked", "t", CONDITION, JOX_OP_KICKED, 0, "kicked(target)", "",
+    {"kicked", "m", CONDITION, JOX_OP_KICKED, 0, "kicked(target)", "",
      "the agent kicked or threw the body in the last step", "kicked(nearest \"ball\")"},
-    {"has", "t", CONDITION, JOX_OP_HAS, 0, "has(target)", "",
+    {"has", "m", CONDITION, JOX_OP_HAS, 0, "has(target)", "",
      "the agent carries the body (see `take`), or holds on to an agent that the target selects (see `grasp`)", "has(nearest \"ball\")"},
     {"sees", "t", CONDITION, JOX_OP_SEES, 0, "sees(target)", "",
      "the target exists and is within perception, with no wall and no tall body between", "sees(nearest \"people\")"},
@@ -70,7 +70,7 @@ const JoxWord jox_words[] = {
      "\"teammates\" or \"opponents\". Seen are its `neighbours` nearest, and in a crowd of at "
      "most 64 all agents, within perception, with no wall and no tall body between. `:in_state` "
      "and the like select among them", "neighbours \"people\""},
-    {"theirs", "ts", NUMBER, JOX_OP_THEIRS, 0, "theirs(target, name)", "",
+    {"theirs", "ms", NUMBER, JOX_OP_THEIRS, 0, "theirs(target, name)", "",
      "value of this memory of the target, an agent, if its machine makes it `public`; true is 1. "
      "0 if there is no such agent or memory", "theirs(nearest \"people\", \"laps\")"},
 #define X(name, word, unit, meaning, value) \
@@ -125,7 +125,7 @@ const JoxWord jox_words[] = {
      "is nearest by that way", "field \"post\""},
     {"away_from", "t", STEER, JOX_STEER_AWAY_FROM, 0, "away_from(target)", "",
      "straight away from the target", "away_from(nearest \"ball\")"},
-    {"dodge", "t?d", STEER, JOX_STEER_DODGE, 0, "dodge(target [, metres])", "",
+    {"dodge", "m?d", STEER, JOX_STEER_DODGE, 0, "dodge(target [, metres])", "",
      "sideways, out of the line along which the target comes, until that passes at this distance, "
      "m; to the nearer side, or to the other one if a wall is in the way", "dodge(nearest \"ball\", 0.8)"},
     {"orbit", "*", STEER, JOX_STEER_ORBIT, 0, "orbit(place [, options])", "",

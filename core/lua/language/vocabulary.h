@@ -7,8 +7,9 @@
 #include "lua/language/script.h"
 
 /* A word. `takes` has a letter for each argument: p place, t target (a place's name or a target
-   value), n number or expression, d plain number, g tag, s name, w name of walls; '?' before a
-   letter: optional. NULL: not called; "*": reads its arguments itself. */
+   value), m target that is a body or an agent, n number or expression, d plain number, g tag, s
+   name, w name of walls; '?' before a letter: optional. NULL: not called; "*": reads its arguments
+   itself. */
 typedef struct JoxWord {
     const char *name, *takes;
     JoxNodeKind makes; /* 0: the word belongs to the machine's table itself */

@@ -47,6 +47,11 @@ static bool can_be_place(const JoxNode *node) {
            (node->kind == JOX_NODE_TARGET && node->target_kind < JOX_TARGET_NEAREST);
 }
 
+/* Returns whether a target of this kind is a body or an agent, which a place is not. */
+bool jox_target_kind_moves(JoxTargetKind kind) {
+    return kind >= JOX_TARGET_NEAREST && kind <= JOX_TARGET_ANYONE;
+}
+
 /* Pushes and returns the target for a tag, or for "opponents", "teammates" or "anyone"; NULL with
    an error pushed. */
 static JoxNode *read_tag_argument(lua_State *L, const char *word, int index) {
@@ -114,6 +119,13 @@ static const JoxWord *find_word(const char *name) {
     return NULL;
 }
 
+/* Returns whether an argument is a place, or the name of one. */
+static bool names_place(lua_State *L, int index) {
+    const JoxNode *node = jox_node_get(L, index);
+    return node ? can_be_place(node) || node->kind == JOX_NODE_TARGET
+                : lua_type(L, index) == LUA_TSTRING;
+}
+
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter) {
     JOX_ASSERT(index >= 1 && letter);
     static const struct {
@@ -121,6 +133,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         const char *what;
     } WANTED[] = {{'p', "a place"},
                   {'t', "a target or the name of a place"},
+                  {'m', "a body or an agent, as of `nearest`"},
                   {'n', "a number"},
                   {'d', "a plain number"},
                   {'g', "a tag"},
@@ -137,6 +150,9 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     if (letter == 'p' && node && can_be_place(node))
         result = node;
     if (letter == 't' && node && (node->kind == JOX_NODE_TARGET || node->kind == JOX_NODE_OWN))
+        result = node;
+    if (letter == 'm' && node && node->kind == JOX_NODE_TARGET &&
+        jox_target_kind_moves(node->target_kind))
         result = node;
     if (letter == 'n')
         result = jox_node_number(L, index);
@@ -164,9 +180,10 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         snprintf(hint, sizeof hint, "%s: %s", known->signature, known->meaning);
     jox_word_error(L, word, "bad-argument", *hint ? hint : NULL,
                    "argument %d of %s must be %s, not %s", index, word, what,
-                   lua_isnoneornil(L, index) ? "nothing"
-                   : node                    ? "another value"
-                                             : luaL_typename(L, index));
+                   lua_isnoneornil(L, index)                ? "nothing"
+                   : letter == 'm' && names_place(L, index) ? "a place"
+                   : node                                   ? "another value"
+                                                            : luaL_typename(L, index));
     return NULL;
 }
 
@@ -200,7 +217,7 @@ static void store_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
         letter += *letter == '?';
         if (*letter == 'p')
             node->place = arguments[i];
-        else if (*letter == 't')
+        else if (*letter == 't' || *letter == 'm')
             node->target = arguments[i];
         else if (*letter == 's' || *letter == 'w') {
             node->name = arguments[i]->name;
