@@ -32,6 +32,27 @@ verdict "a wrong log is bad input, with line and column" $?
 "$JOSTLE" run scenes/office.yaml --steps 1 --quiet --log-input "$work/no/such/folder" 2>"$work/err"
 [ $? = 1 ] && grep -qF 'cannot write the input log' "$work/err"; verdict "an unwritable log is an error" $?
 
+# ---- logs that drive nobody ----
+drive() { # NAME LOG TEXT: plays a log among a player and a person who stands, and looks for a text
+    printf "$2" >"$work/drive.input"
+    "$JOSTLE" run "$work/drive.yaml" --for 3 --input "$work/drive.input" >"$work/said" 2>&1 </dev/null
+    grep -qF -- "$3" <<<"$(tr '\n' ' ' <"$work/said" | tr -s ' ')"; verdict "$1" $?
+}
+cat >"$work/drive.yaml" <<'SCENE'
+jostle: 1
+bodies: [{shape: {sphere: {radius: 0.11}}, mass: 0.4, at: [7, 7, 0.11], tags: [ball]}]
+groups:
+  a_player: {behaviour: player.lua, at: [[4, 4]]}
+  b_stander: {behaviour: stander.lua, at: [[2, 2]]}
+SCENE
+drive "a log that drives a person who never came says so" '0 player 7 1 0\n' 'drives agent 7, who never came: ids went up to 1.'
+drive "a log that drives a person without player says so" '0 player 1 1 0\n' 'drives agent 1, whose behaviour stander has no `player`'
+drive "a log that goes on after the run says so" '0 player 0 1 0\n100 player 0 0 0\n' 'The run ended before 1 entry of the input log: the next, in line 2, was due at 5.00 s.'
+drive "an empty log says so" '# nothing\n' 'The input log is empty'
+drive "a log that drives a person who has left says so" '20 remove 0\n30 player 0 1 0\n' 'drive.input:2: t = 1.50 s: agent 0 has left'
+drive "a log that drives a player says nothing" '0 player 0 1 0\n' ''
+! grep -q 'input log' "$work/said"; verdict "  and none of this" $?
+
 # ---- saved files: 500 pilgrims, a behaviour, what it requires, and the scene ----
 tree=$work/tree
 mkdir -p "$tree/scenes" "$tree/behaviours"

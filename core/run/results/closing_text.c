@@ -11,6 +11,7 @@
 #include "run/figure_listeners.h"
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
+#include "run/results/idle_input.h"
 #include "run/results/kept_people.h"
 #include "run/run.h"
 #include "run/standstill.h"
@@ -207,6 +208,7 @@ char *jo_scene_closing(const JoScene *scene) {
     jox_run_say_tally(scene, &text);
     say_standing(scene, &text);
     say_probes(scene, &text);
+    jox_run_say_idle_input(scene, &text);
     say_plans(scene, &text);
     say_trust(scene, &text);
     if (scene->warnings) {

@@ -56,9 +56,10 @@ bool jox_perform_push(JoWorld *world, const JoxInputEntry *entry, JoxText *why) 
     return true;
 }
 
-/* A log may name players that have not entered yet. */
+/* A log may name players that have not entered yet, but none that has left. */
 bool jox_perform_player(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
-    if (entry->line == 0 && find_live_agent(world, entry->number, why) == JOX_NO_INDEX)
+    const bool to_come = entry->line != 0 && entry->number >= world->state.agents.next_id;
+    if (!to_come && find_live_agent(world, entry->number, why) == JOX_NO_INDEX)
         return false;
     jox_input_set_player(&world->state.input, entry->number, (float)entry->numbers[0],
                          (float)entry->numbers[1]);
