@@ -25,7 +25,10 @@ char *jox_claim_read_text(lua_State *L, const char *what, const char *key, bool 
     int type = lua_getfield(L, -1, key);
     if (type != LUA_TSTRING && (needed || type != LUA_TNIL))
         luaL_error(L, "%s needs %s = \"...\"", what, key);
-    char *text = jox_strdup(type == LUA_TNIL ? "" : lua_tostring(L, -1));
+    const char *given = type == LUA_TNIL ? "" : lua_tostring(L, -1);
+    if (type != LUA_TNIL && given[strspn(given, " \t\r\n")] == '\0')
+        luaL_error(L, "%s: %s is empty: write a text", what, key);
+    char *text = jox_strdup(given);
     lua_pop(L, 1);
     return text;
 }

@@ -121,6 +121,12 @@ grep -q "No null: all of them &lt;walk&gt;" "$work/null/index.html"; verdict "an
 sed -i 's/no_null = /null = { text = "slow" }, no_null = /' "$work/nulls/speed.lua"
 expect "a null and a reason for none are an error" 3 'or no_null = "why there is none", not both' "${nulls[@]}" pair
 sed -i 's/null = { text = "slow" }, //' "$work/nulls/speed.lua"
+cp "$work/nulls/speed.lua" "$work/nulls/good"
+sed -i 's/no_null = "[^"]*"/no_null = " "/' "$work/nulls/speed.lua"
+expect "an empty reason for none is an error" 3 'nulls/speed.lua:1: a claim: no_null is empty' "${nulls[@]}" pair
+sed -i 's/no_null = " "/null = { text = "", set = { ["groups.walker.set.mass"] = 60 } }/' "$work/nulls/speed.lua"
+expect "a null that does not say what it takes out is an error" 3 'nulls/speed.lua:1: null: text is empty' "${nulls[@]}" pair
+mv "$work/nulls/good" "$work/nulls/speed.lua"
 sed 's/time = [^,]*,/time = run.walk.summary.seed - 100,/; s/null = .*//; s/band = { 7.9, 8.1 }/band = { 1 }/; s/"mass"/"mean"/' "$work/nulls/mass.lua" >"$work/nulls/mean.lua"
 sed 's/unit = "s", band/sure = true, band/; s/"mean"/"sure"/' "$work/nulls/mean.lua" >"$work/nulls/sure.lua"
 expect "a mean in band is enough" 0 "measured 1.5 +- 6.4" "${nulls[@]}" mean
