@@ -109,13 +109,6 @@ static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     }
 }
 
-/* Returns the angle of an agent's kick above the horizontal, rad: 0 to a right angle. */
-static double find_lift(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
-                        uint32_t i) {
-    const double lift = jox_value(run, machine, &state->kick_lift, i);
-    return lift > 0.0 ? (lift < 90.0 ? lift : 90.0) * JOX_DEGREE : 0.0;
-}
-
 /* Kicks the target of the state if the agent touches it: an impulse through the body's centre,
    towards kick_at or straight ahead, raised by the lift. */
 static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
@@ -136,12 +129,13 @@ static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
         way = (JoxV2){at.x - ball.x, at.y - ball.y};
     }
     way = jox_unit(way);
-    double change = jox_value(run, machine, &state->kick_impulse, i);
+    const double change = jox_action_number(run, machine, JOX_ACTION_KICK, &state->kick_impulse, i);
     if (!(change > 0.0) || jox_length2(way) == 0.0f)
         return;
     JOX_ASSERT(object->inverse_mass > 0.0f); /* a body that moves has a finite mass */
-    const float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
-    const double lift = find_lift(run, machine, state, i);
+    const float impulse = (float)change / object->inverse_mass;
+    const double lift =
+        jox_action_number(run, machine, JOX_ACTION_LIFT, &state->kick_lift, i) * JOX_DEGREE;
     const float level = impulse * (float)jox_cos(lift), up = impulse * (float)jox_sin(lift);
     JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
     run->kicks[run->kick_count++] = (JoxImpulse){.object = (uint32_t)ball.object,
@@ -193,11 +187,13 @@ static void throw_body(JoxMachineRun *run, const JoxMachine *machine, const JoxS
     JoxAgents *a = run->agents;
     int32_t row = jox_held_body_row(run, i, state->toss);
     JoxSpot at = jox_target_find(run, i, state->toss_at);
-    double speed = jox_value(run, machine, &state->toss_speed, i);
-    if (row < 0 || !at.found || state->toss_at < 0 || !(speed > 0.1))
+    if (row < 0 || !at.found || state->toss_at < 0)
+        return;
+    const double speed = jox_action_number(run, machine, JOX_ACTION_THROW, &state->toss_speed, i);
+    if (!(speed > 0.1))
         return;
     JoxV2 way = {at.x - a->x[i], at.y - a->y[i]};
-    float distance = jox_length(way), level = jox_minf((float)speed, 40.0f);
+    float distance = jox_length(way), level = (float)speed;
     if (distance < 1e-3f)
         return;
     float flight = distance / level;

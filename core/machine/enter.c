@@ -45,7 +45,7 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
                                                        : jox_value(run, machine, value, i);
         jox_param_set(a, p, i, jox_parameter_store((JoxParameter)p, number));
         if (jox_is_odd(p, number))
-            jox_odd_note(run, i, p, number);
+            jox_odd_note(run, i, p, value, number);
     }
     if (a->ignore[i] != state->ignore)
         a->ignore[i] = state->ignore;
@@ -53,12 +53,16 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
         a->push_only[i] = state->push_only;
 }
 
-float jox_duration_of(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+float jox_duration_of(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
-    double value =
-        jox_value(run, machine,
-                  &(JoxValue){.kind = JOX_VALUE_EXPRESSION, .index = state->lasts_expression}, i);
-    return isnan(value) ? INFINITY : (float)value;
+    const JoxValue lasts = {.kind = JOX_VALUE_EXPRESSION,
+                            .index = state->lasts_expression,
+                            .line = state->line,
+                            .source = state->source};
+    const double seconds = jox_value(run, machine, &lasts, i);
+    if (isnan(seconds)) /* infinite is a way to say for ever */
+        jox_odd_note(run, i, JOX_ACTION_LASTS, &lasts, seconds);
+    return isnan(seconds) ? INFINITY : (float)seconds;
 }
 
 void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {

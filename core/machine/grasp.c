@@ -51,12 +51,11 @@ static void pull_together(const JoxMachineRun *run, uint32_t i, uint32_t j, floa
     a->ext_y[j] -= force * way.y;
 }
 
-/* Returns the greatest force of a hold, N, clamped as an expression may yield any number. */
-static float find_grip(const JoxMachineRun *run, uint32_t i, const JoxState *state) {
+/* Returns the greatest force of a hold, N. */
+static float find_grip(JoxMachineRun *run, uint32_t i, const JoxState *state) {
     if (state->grip.kind == JOX_VALUE_UNSET)
         return JOX_GRIP;
-    const double grip = jox_value(run, jox_machine_of(run, i), &state->grip, i);
-    return grip > 0.0 ? (float)fmin(grip, JOX_MOST_GRIP) : 0.0f;
+    return (float)jox_action_number(run, jox_machine_of(run, i), JOX_ACTION_GRIP, &state->grip, i);
 }
 
 void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t count) {

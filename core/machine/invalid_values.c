@@ -1,10 +1,18 @@
-/* Odd parameters: values that a machine computes or draws and that are invalid for the parameter
-   (NaN, infinite, a radius or mass of 0 or less). The nearest valid value is taken, and the first
-   agent is reported, once per line of source. */
+/* Odd numbers: values of parameters and actions that a machine computes or draws and that are
+   invalid (NaN, infinite, a radius or mass of 0 or less). The nearest valid value is taken, and the
+   first agent is reported, once per line of source. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "machine/machine_parts.h"
+
+/* Numbers of actions; `value` is taken for NaN. */
+static const JoxParameterInfo ACTION_NUMBERS[] = {
+    {"impulse of the kick", "m/s", "", 0, 50, 0}, {"lift of the kick", "degrees", "", 0, 90, 0},
+    {"speed of the throw", "m/s", "", 0, 40, 0},  {"grip", "N", "", 0, JOX_MOST_GRIP, 0},
+    {"lasts", "s", "", 0, 1e6, INFINITY},
+};
 
 bool jox_is_odd(int parameter, double value) {
     return !isfinite(value) ||
@@ -37,13 +45,12 @@ static int32_t find_source_line(const JoxMachine *machine, const JoxValue *value
     return own ? machine->own[value->index].line : value->line;
 }
 
-static JoxOdd describe_odd(const JoxMachineRun *run, uint32_t i, int parameter, double value) {
+static JoxOdd describe_odd(const JoxMachineRun *run, uint32_t i, int parameter,
+                           const JoxValue *from, double value) {
     const JoxAgents *a = run->agents;
     const JoxMachine *machine = jox_machine_of(run, i);
-    const JoxState *state = &machine->states[a->state[i]];
     uint32_t source;
-    const int32_t line =
-        find_source_line(machine, jox_state_parameter(machine, state, parameter), &source);
+    const int32_t line = find_source_line(machine, from, &source);
     return (JoxOdd){.found = true,
                     .agent_id = a->id[i],
                     .machine = a->machine[i],
@@ -62,7 +69,10 @@ void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t cou
     for (uint32_t n = 0; any && n < count; n++) {
         if (!jox_is_odd(parameter, values[n]))
             continue;
-        const JoxOdd odd = describe_odd(run, agents[n], parameter, values[n]);
+        const JoxMachine *machine = jox_machine_of(run, agents[n]);
+        const JoxState *state = &machine->states[run->agents->state[agents[n]]];
+        const JoxValue *from = jox_state_parameter(machine, state, parameter);
+        const JoxOdd odd = describe_odd(run, agents[n], parameter, from, values[n]);
         if (was_reported(run, &odd))
             return; /* the others of this state were reported with it */
         if (!first->found || is_odd_before(&odd, first))
@@ -78,28 +88,62 @@ const JoxOdd *jox_odd_first(const JoxOdd *odd, uint32_t count) {
     return first;
 }
 
+/* Returns the number that is taken in place of an odd one. */
+static double replace_odd(const JoxParameterInfo *info, double value) {
+    return isnan(value) ? info->value : fmin(fmax(value, info->least), info->greatest);
+}
+
+/* Appends what is taken in place of an odd number, and the way out. */
+static void say_replacement(const JoxOdd *odd, JoxText *out) {
+    if (odd->parameter >= JOX_ACTION_MEMORY) {
+        jox_text_add(out, "it keeps its value");
+        return;
+    }
+    const JoxParameter parameter = (JoxParameter)odd->parameter;
+    const bool action = odd->parameter >= JOX_PARAM_COUNT;
+    const JoxParameterInfo *info = action ? &ACTION_NUMBERS[odd->parameter - JOX_PARAM_COUNT]
+                                          : &jox_parameters[odd->parameter];
+    const double taken =
+        action ? replace_odd(info, odd->value)
+               : jox_parameter_value(parameter, jox_parameter_store(parameter, odd->value));
+    jox_text_printf(out, "%g %s is taken. Keep it within bounds, as by clamp(x, %g, %g)", taken,
+                    info->unit, info->least, info->greatest);
+}
+
+static const char *name_odd(const JoxMachine *machine, int parameter) {
+    return parameter >= JOX_ACTION_MEMORY ? machine->memory[parameter - JOX_ACTION_MEMORY].name
+           : parameter >= JOX_PARAM_COUNT ? ACTION_NUMBERS[parameter - JOX_PARAM_COUNT].name
+                                          : jox_parameters[parameter].name;
+}
+
 void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd) {
     if (!odd->found || was_reported(run, odd))
         return;
     const JoxMachine *machine = run->set->items[odd->machine];
-    const JoxParameterInfo *info = &jox_parameters[odd->parameter];
-    const double taken =
-        jox_parameter_value((JoxParameter)odd->parameter,
-                            jox_parameter_store((JoxParameter)odd->parameter, odd->value));
-    jox_text_printf(
-        &run->notes,
-        "%s:%d: t = %.2f s: %s of agent %u (machine %.60s, state %.60s) came out as %g; "
-        "%g %s is taken. Keep it within bounds, as by clamp(x, %g, %g)\n",
-        jox_machine_file(machine, odd->source), odd->line > 0 ? (int)odd->line : 1,
-        run->tick * run->dt, info->name, odd->agent_id, machine->name,
-        machine->states[odd->state].name, odd->value, taken, info->unit, info->least,
-        info->greatest);
+    jox_text_printf(&run->notes,
+                    "%s:%d: t = %.2f s: %.60s of agent %u (machine %.60s, state %.60s) came out as "
+                    "%g; ",
+                    jox_machine_file(machine, odd->source), odd->line > 0 ? (int)odd->line : 1,
+                    run->tick * run->dt, name_odd(machine, odd->parameter), odd->agent_id,
+                    machine->name, machine->states[odd->state].name, odd->value);
+    say_replacement(odd, &run->notes);
+    jox_text_add(&run->notes, "\n");
     JOX_RESERVE(run->told, run->told_capacity, run->told_count + 1);
     run->told[run->told_count++] =
         (JoxTold){odd->machine, machine->reloads, odd->source, odd->line, odd->parameter};
 }
 
-void jox_odd_note(JoxMachineRun *run, uint32_t i, int parameter, double value) {
-    const JoxOdd odd = describe_odd(run, i, parameter, value);
+void jox_odd_note(JoxMachineRun *run, uint32_t i, int parameter, const JoxValue *from,
+                  double value) {
+    const JoxOdd odd = describe_odd(run, i, parameter, from, value);
     jox_odd_tell(run, &odd);
+}
+
+double jox_action_number(JoxMachineRun *run, const JoxMachine *machine, JoxActionNumber number,
+                         const JoxValue *value, uint32_t i) {
+    JOX_ASSERT(number >= JOX_ACTION_KICK && number < JOX_ACTION_MEMORY);
+    const double came_out = jox_value(run, machine, value, i);
+    if (!isfinite(came_out))
+        jox_odd_note(run, i, number, value, came_out);
+    return replace_odd(&ACTION_NUMBERS[number - JOX_ACTION_KICK], came_out);
 }

@@ -13,14 +13,26 @@ typedef struct JoxBatchRange {
     uint32_t begin, count; /* range of scratch->grouped */
 } JoxBatchRange;
 
-/* A parameter that was computed to an invalid number, such as NaN (invalid_values.c). */
+/* Numbers of actions that machines compute; they count on from the parameters, and each slot of
+   memory from JOX_ACTION_MEMORY. */
+typedef enum JoxActionNumber {
+    JOX_ACTION_KICK = JOX_PARAM_COUNT,
+    JOX_ACTION_LIFT,
+    JOX_ACTION_THROW,
+    JOX_ACTION_GRIP,
+    JOX_ACTION_LASTS,
+    JOX_ACTION_MEMORY
+} JoxActionNumber;
+
+/* A parameter or number of an action that was computed to an invalid number, such as NaN
+   (invalid_values.c). */
 typedef struct JoxTold JoxTold;
 typedef struct JoxOdd {
     bool found;
     uint16_t machine, state;
     uint32_t agent_id;
-    int32_t parameter, line;
-    uint32_t source; /* index of the line's file in the machine's `files` */
+    int32_t parameter, line; /* JoxParameter or JoxActionNumber */
+    uint32_t source;         /* index of the line's file in the machine's `files` */
     double value;
 } JoxOdd;
 
@@ -239,8 +251,9 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool);
 int16_t jox_queue_target(const JoxState *state);
 void jox_machines_count_places(JoxMachineRun *run);
 void jox_machines_scratch_free(JoxMachineRun *run);
-/* Evaluates the duration of a state for an agent, s; INFINITY if the expression yields NaN. */
-float jox_duration_of(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+/* Evaluates the duration of a state for an agent, s; INFINITY if the expression yields NaN, which
+   is reported. */
+float jox_duration_of(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t agent);
 /* Puts an agent into a state: clock, duration, goal, constant parameters. The caller runs hooks. */
 void jox_machines_enter(JoxMachineRun *run, uint32_t agent, uint16_t state);
@@ -272,8 +285,14 @@ void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t cou
                   const double *values, JoxOdd *first);
 const JoxOdd *jox_odd_first(const JoxOdd *odd, uint32_t count);
 void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd);
-/* Reports an odd parameter of one agent. */
-void jox_odd_note(JoxMachineRun *run, uint32_t agent, int parameter, double value);
+/* Reports an odd parameter, or number of an action, of one agent; `from` is what it was computed
+   from. */
+void jox_odd_note(JoxMachineRun *run, uint32_t agent, int parameter, const JoxValue *from,
+                  double value);
+/* Evaluates a number of an action, and reports one that is not finite. Returns it within the bounds
+   of its kind; for NaN the value that means no action. */
+double jox_action_number(JoxMachineRun *run, const JoxMachine *machine, JoxActionNumber number,
+                         const JoxValue *value, uint32_t agent);
 /* Applies the parameters that people set to a copy of the machine; without any, runs the machine as
    it was built. */
 void jox_edits_apply(JoxMachineRun *run, uint32_t machine);

@@ -225,7 +225,7 @@ typedef struct JoxMachineRun {
     JoxWatched *watched; /* owned by the world */
     uint32_t watched_count;
 
-    /* Reports of parameters that were computed to invalid numbers, one line each; the reader
+    /* Reports of numbers that were computed and are invalid, one line each; the reader
        empties the text. `told` lists what was reported, once per line of source and parameter. */
     JoxText notes;
     struct JoxTold {

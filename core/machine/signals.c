@@ -88,6 +88,8 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
         double value = jox_value(run, machine, &assign->value, i);
         if (isfinite(value))
             a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = value;
+        else
+            jox_odd_note(run, i, JOX_ACTION_MEMORY + assign->slot, &assign->value, value);
     }
     if (run->watched_count)
         jox_watch_actions(run, machine, actions, i);

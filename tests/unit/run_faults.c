@@ -117,6 +117,44 @@ static void invalid_computed_parameters_are_reported(void **state) {
     }
 }
 
+#define FAR "distance(nearest \"opponents\")" /* nobody is one: infinite */
+
+static void invalid_numbers_of_actions_are_reported(void **state) {
+    (void)state;
+    const struct {
+        const char *action, *text;
+    } cases[] = {
+        {"kick = { nearest \"ball\", impulse = 5,\n lift = 0 * " FAR " }",
+         "own.lua:3: t = 0.00 s: lift of the kick of agent 0 (machine m, state A) came out as "},
+        {"kick = { nearest \"ball\",\n impulse = " FAR " }",
+         "own.lua:3: t = 0.00 s: impulse of the kick of agent 0 (machine m, state A) came out as "
+         "inf; 50 m/s is taken."},
+        {"kick = { nearest \"ball\",\n impulse = " FAR " - " FAR " }", "nan; 0 m/s is taken."},
+        {"grasp = nearest \"anyone\",\n grip = " FAR " - " FAR, "grip of agent 0 "},
+        {"\nlasts = 0 * " FAR, "lasts of agent 0 (machine m, state A) came out as "},
+        {"set = {\n far = " FAR " }",
+         "far of agent 0 (machine m, state A) came out as inf; it keeps "
+         "its value\n"}};
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        char sheet[600];
+        snprintf(sheet, sizeof sheet,
+                 "memory { far = 0 } " MACHINE_START
+                 "\"A\", states = { A = {\n steer = hold, %s } } }\n",
+                 cases[n].action);
+        JoScene *scene =
+            load_scene_text("jostle: 1\ngroups: {people: {behaviour: own.lua, at: [[0, 0], "
+                            "[0.5, 0]]}}\nbodies: [{shape: {sphere: {radius: 0.11}}, mass: 0.4, "
+                            "at: [0, 0.36, 0.11], tags: [ball]}]\n",
+                            sheet);
+        step_scene(scene, 10);
+        const char *line = scene_messages.data ? strstr(scene_messages.data, cases[n].text) : NULL;
+        if (!line || strstr(line, "\n/"))
+            fail_msg("%s: %s", cases[n].action,
+                     scene_messages.data ? scene_messages.data : "no message");
+        jo_scene_free(scene);
+    }
+}
+
 /* As a last defence, a number that is not finite ends the run, and the error names the agent. */
 static void number_that_is_not_finite_ends_the_run(void **state) {
     (void)state;
@@ -273,6 +311,7 @@ int main(void) {
         cmocka_unit_test(steering_numbers_out_of_range_are_refused),
         cmocka_unit_test(computed_weights_never_make_positions_infinite),
         cmocka_unit_test(invalid_computed_parameters_are_reported),
+        cmocka_unit_test(invalid_numbers_of_actions_are_reported),
         cmocka_unit_test(number_that_is_not_finite_ends_the_run),
         cmocka_unit_test(failed_world_names_agents_without_a_machine),
         cmocka_unit_test(lua_can_read_agents_without_a_machine),
