@@ -48,3 +48,14 @@ test("who comes through a door is out, also through the one that it had not chos
   local a = s:agents("people")[1]
   truthy(a.x < 0.5 and a.y < 0, "it was out before it reached the other door")
 end)
+
+test("who is out by a door that it was not told of goes on, and not round to the one that it knows", function()
+  local def = hall(1)
+  local people = def.groups.people
+  people.count, people["in"], people.at = nil, nil, { { 0.5, 9.5 } }
+  people.set.far, people.set.far_front = "near", "near_front"
+  local s = scene(def)
+  s:reaches("Walk", { agents = "people", within = 0.2 })
+  s:run(8)
+  equal(s:count(), 0)
+end)
