@@ -29,7 +29,8 @@ typedef struct JoxForceOptions {
     float least;         /* m/s2: least |f|/m that makes a half-plane */
 } JoxForceOptions;
 
-/* Further inputs of a step, for begin. All may be zero. It must stay valid from begin to infer. */
+/* Further inputs of a step, for begin. All may be zero. It must stay valid from begin to infer.
+   Whole packets are read past the last agent of each column, as of those of JoxAgents. */
 typedef struct JoxForceInputs {
     const JoxWallGrid *walls; /* grid that jox_nav_touching_walls returns; NULL: no walls */
     const float *unhidden2;   /* m2, before agents move: no wall hides neighbours nearer than this;

@@ -42,19 +42,9 @@ struct JoxForces {
     JoxContacts *contacts;
 };
 
-/* Finds the agents in reach of agent i within its bracing cone about `axis`: their indices, nearest
-   first. Returns how many. */
-uint32_t jox_find_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
 /* Returns whether a wall stands between two points near an agent, no farther apart than the grid of
    walls serves: no force passes it. */
 bool jox_wall_stops_force(const JoxForces *forces, JoxV2 from, JoxV2 to);
-/* Returns the square, m2, of a distance from agent i, before agents move, within which no wall is.
-   Edges that the grid does not list there are beyond its reach; the margin exceeds the rounding of
-   positions. */
-static inline float jox_unhidden2_by_grid(const JoxForces *f, uint32_t i) {
-    const float served = 0.999f * f->in.walls->reach;
-    return jox_minf(f->in.unhidden2[i], served * served);
-}
 /* Returns the circumference of an agent, over which forces are spread, m. */
 static inline float jox_circumference(float radius) {
     return (float)JOX_TURN * radius;

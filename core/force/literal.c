@@ -1,8 +1,8 @@
 /* Literal mode: the terms of the net force as the paper prints them, for the stages push, sum and
    infer; contact/literal_contacts.c has contacts. */
 #include "base/assert.h"
+#include "force/cones.h"
 #include "force/equations.h"
-#include "force/forces.h"
 
 /* m/s: a force that changes a velocity by less in a step counts as rounding */
 static const float ROUNDING = 1e-5f;
@@ -63,11 +63,13 @@ static bool decelerates(JoxV2 change, JoxV2 velocity, float cosine) {
 
 /* Shares a force among the agents in the cone; without any its giver gets all of it. */
 static void share_in_cone(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 force) {
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
+    uint32_t found = 0;
     if (axis.x != 0.0f || axis.y != 0.0f)
-        n = jox_find_people_in_cone(f, i, jox_unit(axis), found);
-    for (uint32_t k = 0; k < n; k++)
-        jox_transfers_add(f, chunk, i, found[k], jox_scale(force, 1.0f / (float)n));
+        found = jox_literal_people_in_cone(f, i, jox_unit(axis));
+    const uint32_t n = jox_count_found(found);
+    while (found)
+        jox_transfers_add(f, chunk, i, jox_take_found(f, i, &found),
+                          jox_scale(force, 1.0f / (float)n));
     if (!n)
         jox_transfers_add(f, chunk, i, i, force);
 }

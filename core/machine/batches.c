@@ -36,13 +36,15 @@ static void reserve_scratch(JoxMachineRun *run, JoxPool *pool) {
     s->row = jox_realloc(s->row, n, sizeof *s->row);
     s->entries = jox_realloc(s->entries, n + JOX_SORT_SPARE(n), sizeof *s->entries);
     JOX_RESERVE(run->taken, run->taken_capacity, n);
-    run->push_on = jox_realloc(run->push_on, n, 1);
+    /* Kernels of forces read whole packets past the last agent. */
+    const uint32_t padded = n + JOX_AGENTS_PADDING;
+    run->push_on = jox_realloc(run->push_on, padded, 1);
     run->push_nearest = jox_realloc(run->push_nearest, n, 1);
     jox_free(run->push_toward_x); /* filled anew in each step; columns that stay zero take no
                                      memory */
     jox_free(run->push_toward_y);
-    run->push_toward_x = jox_alloc(n, sizeof(float));
-    run->push_toward_y = jox_alloc(n, sizeof(float));
+    run->push_toward_x = jox_alloc(padded, sizeof(float));
+    run->push_toward_y = jox_alloc(padded, sizeof(float));
 }
 
 void jox_machines_scratch_free(JoxMachineRun *run) {

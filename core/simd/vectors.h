@@ -31,6 +31,17 @@ static inline JoxFloats jv_dot(JoxVector a, JoxVector b) {
 static inline JoxVector jv_select(JoxMask m, JoxVector a, JoxVector b) {
     return (JoxVector){jf_select(m, a.x, b.x), jf_select(m, a.y, b.y)};
 }
+/* jox_unit of base/vec.h, by lane. */
+static inline JoxVector jv_unit(JoxVector a) {
+    const JoxFloats length = jf_sqrt(jv_dot(a, a)), zero = jf_set(0.0f);
+    return jv_select(jf_lt(zero, length), jv_scale(a, 1.0f / length), (JoxVector){zero, zero});
+}
+/* Returns which lanes are not (0, 0). */
+static inline JoxMask jv_is_nonzero(JoxVector a) {
+    const JoxFloats zero = jf_set(0.0f);
+    const JoxMask none = jm_and(jf_le(jf_abs(a.x), zero), jf_le(jf_abs(a.y), zero));
+    return jm_without(jm_of_bits(JOX_ALL_LANES), none);
+}
 /* Returns the shortest difference along one axis with periodic edges; as jox_wrap of
    agents/agents.h. */
 static inline JoxFloats jf_wrap(JoxFloats d, float period) {

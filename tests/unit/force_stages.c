@@ -26,7 +26,7 @@ static void push_is_shared_by_agents_ahead(void **state) {
     assert_true(c.agents.compression[1] > 50 / (6.283185 * 0.2)); /* they overlap too */
     assert_near(c.agents.load[0], 2 * 50 * 0.45 / hypot(0.45, 0.1), 1e-2);
 
-    uint8_t nearest[5] = {1, 1, 1, 1, 1}, off[5] = {0};
+    uint8_t nearest[5] = {1, 1, 1, 1, 1}, off[5 + JOX_AGENTS_PADDING] = {0};
     c.in.push_nearest = nearest;
     begin_crowd_step(&c);
     jox_force_push(c.forces);
@@ -50,7 +50,7 @@ static void pushes_keep_to_tags_and_may_react(void **state) {
     set_param(&c, 0, JOX_PARAM_push_angle, 180);
     c.agents.push_only[0] = 4;
     c.agents.tags[2] = 6;
-    float toward_x[3] = {1, 0, 0}, toward_y[3] = {0, 0, 0};
+    float toward_x[3 + JOX_AGENTS_PADDING] = {1}, toward_y[3 + JOX_AGENTS_PADDING] = {0};
     c.in.push_toward_x = toward_x;
     c.in.push_toward_y = toward_y;
     JoxForceOptions options = jox_force_default_options();

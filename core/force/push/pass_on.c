@@ -11,18 +11,19 @@
 static JoxInferKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
-/* (9) Passes the resistance of agent i, under force, on: it falls short of the velocity that the
-   force would give, by `shortfall`, m/s. */
-static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shortfall) {
+/* (9) Passes the resistance of agent i, under force, on to those found ahead: it falls short of the
+   velocity that the force would give, by `shortfall`, m/s. */
+static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t found,
+                            float shortfall) {
     const JoxAgents *a = f->step.agents;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_find_people_in_cone(f, i, unit, found);
+    const uint32_t n = jox_count_found(found);
     if (n == 0)
         return;
     const JoxV2 each = jox_resistance(unit, shortfall, jox_param(a, JOX_PARAM_absorb, i),
                                       jox_param(a, JOX_PARAM_mass, i), n, (float)f->step.timing.dt);
-    for (uint32_t k = 0; k < n; k++)
-        jox_transfers_add(f, chunk, i, found[k], each);
+    while (found)
+        jox_transfers_add(f, chunk, i, jox_take_found(f, i, &found), each);
 }
 
 /* Returns the share of a force that agent `to` takes from an agent that slowed down and lost
@@ -41,19 +42,20 @@ static float find_taken_share(const JoxForces *f, uint32_t to, JoxV2 force, floa
     return jox_share_within_energy(size * (float)f->step.timing.dt, mass, speed, energy);
 }
 
-/* (8) Passes on the momentum of agent i, which slowed down under no force. */
-static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
+/* (8) Passes the momentum of agent i, which slowed down under no force, on to those found ahead. */
+static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t found) {
     const JoxAgents *a = f->step.agents;
     float dt = (float)f->step.timing.dt, mass = jox_param(a, JOX_PARAM_mass, i);
     float absorb = jox_param(a, JOX_PARAM_absorb, i);
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     JoxV2 change = jox_slowing(before, after);
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_find_people_in_cone(f, i, jox_unit(before), found);
+    const uint32_t n = jox_count_found(found);
     JoxV2 given = jox_deceleration(change, absorb, mass, n > 0 ? n : 1, dt);
     float lost = 0.5f * mass * (jox_length2(before) - jox_length2(after));
-    for (uint32_t k = 0; k < n; k++) {
-        float share = find_taken_share(f, found[k], given, absorb * lost / (float)n);
-        jox_transfers_add(f, chunk, i, found[k], jox_scale(given, share));
+    while (found) {
+        const uint32_t to = jox_take_found(f, i, &found);
+        float share = find_taken_share(f, to, given, absorb * lost / (float)n);
+        jox_transfers_add(f, chunk, i, to, jox_scale(given, share));
     }
     if (n || jox_stands(a, i))
         return; /* an agent that wants to stand brakes as planned: nothing carries it on */
@@ -85,9 +87,10 @@ static void pass_on_from_chunk(void *context, uint32_t begin, uint32_t end, uint
         if (i + 8 <= end && all_pass_nothing(&passing.kind[at]))
             i += 7;
         else if (passing.kind[at] == JOX_PASSES_RESISTANCE)
-            pass_resistance(f, chunk, i, passing.shortfall[at]);
+            pass_resistance(f, chunk, i, jox_find_reached(f, i, &passing.people, at),
+                            passing.shortfall[at]);
         else if (passing.kind[at] == JOX_PASSES_DECELERATION)
-            pass_deceleration(f, chunk, i);
+            pass_deceleration(f, chunk, i, jox_find_reached(f, i, &passing.people, at));
     }
 }
 

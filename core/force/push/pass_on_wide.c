@@ -1,16 +1,11 @@
-/* The kernel of infer: which agents pass forces on, equations 8 and 9; a lane is an agent. Lanes
-   behind the last agent hold meaningless numbers. tests/unit/force_one.h has the same for one
+/* The kernel of infer: which agents pass forces on to whom, equations 8 and 9; a lane is an agent.
+   Lanes behind the last agent hold meaningless numbers. tests/unit/force_one.h has the same for one
    agent, equal to the bit. */
 #include <string.h>
 
+#include "force/cone_lanes.h"
 #include "force/push/pass_on.h"
 #include "force/terms_lanes.h"
-
-static inline JoxMask is_nonzero(JoxVector a) {
-    const JoxFloats zero = jf_set(0.0f);
-    const JoxMask none = jm_and(jf_le(jf_abs(a.x), zero), jf_le(jf_abs(a.y), zero));
-    return jm_without(jm_of_bits(JOX_ALL_LANES), none);
-}
 
 /* (9) Returns by how much the feet keep agents, in this step, below the velocity along a unit
    vector that the force would give, m/s: the part of others' pushes that they hold, and what they
@@ -52,17 +47,18 @@ static JoxMask find_slowing(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxFloats absorb = jox_param_lanes(a, JOX_PARAM_absorb, i);
     const JoxFloats felt = jf_sqrt(jv_dot(slowing, slowing)) * absorb;
     return jm_and(jm_and(jf_lt(zero, against), aligned),
-                  jm_and(jm_and(is_nonzero(old), jf_lt(zero, absorb)), jf_le(least, felt)));
+                  jm_and(jm_and(jv_is_nonzero(old), jf_lt(zero, absorb)), jf_le(least, felt)));
 }
 
 void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t end,
                                  JoxPassing *passing) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats least = jf_set(JOX_SHORTFALL_LEAST), zero = jf_set(0.0f);
+    const JoxConeReach reach = {JOX_PARAM_brace_angle, f->options.reach, true};
     JoxDecay decay = f->decay;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector unit = jv_load(a->half_plane_x, a->half_plane_y, i);
-        const uint32_t forced = jm_bits(is_nonzero(unit));
+        const uint32_t forced = jm_bits(jv_is_nonzero(unit));
         JoxFloats motion[4];
         jf_fours((const float *)&f->step.neighbours->motions[i], 4, motion);
         const JoxVector old = {motion[2], motion[3]};
@@ -78,9 +74,17 @@ void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t en
             memset(passing->kind + (i - begin), JOX_PASSES_NOTHING, JOX_WIDTH);
             continue;
         }
-        jf_store(passing->shortfall + (i - begin), lacks);
+        const uint32_t at = i - begin, passes = slows | (resists & forced),
+                       there = jox_first_lanes(end - i);
+        const JoxVector axis =
+            jv_select(jm_of_bits(slows), jv_unit(jv_load(a->forced_x, a->forced_y, i)), unit);
+        const JoxFoundLanes people = jox_find_people_in_cone(
+            f, i, passes & there, &reach, axis, jox_param_lanes(a, JOX_PARAM_radius, i));
+        jf_store(passing->shortfall + at, lacks);
+        ji_store(passing->people.found + at, people.found);
+        ji_store(passing->people.doubtful + at, people.doubtful);
         for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-            passing->kind[i - begin + lane] =
+            passing->kind[at + lane] =
                 (uint8_t)((resists & forced) >> lane & 1 ? JOX_PASSES_RESISTANCE
                           : slows >> lane & 1            ? JOX_PASSES_DECELERATION
                                                          : JOX_PASSES_NOTHING);

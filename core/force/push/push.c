@@ -15,70 +15,28 @@ typedef struct Target {
 
 enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_MOST_BODIES_TOUCHED };
 
-/* Returns the direction of agent i's push, a unit vector: `push_toward`, else that of the preferred
-   velocity; (0, 0) without either. */
-static JoxV2 find_push_aim(const JoxForces *f, uint32_t i) {
-    const JoxAgents *a = f->step.agents;
-    const float *toward_x = f->in.push_toward_x, *toward_y = f->in.push_toward_y;
-    if (toward_x && toward_y) {
-        JoxV2 toward = jox_unit(jox_v2(toward_x[i], toward_y[i]));
-        if (toward.x != 0.0f || toward.y != 0.0f)
-            return toward;
-    }
-    return jox_unit(jox_v2(a->pref_x[i], a->pref_y[i]));
-}
+#define X(name, isa) [isa] = jox_push_packets_##name,
+static JoxPushKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
-/* Lists the agents within reach and within the cone ahead, nearest first; returns how many. All are
-   written, and only those that count are kept: no branch to mispredict. */
-static uint32_t list_reachable(const JoxForces *f, uint32_t i, JoxV2 aim, uint32_t *found) {
-    const JoxAgents *a = f->step.agents;
-    const JoxNeighbours *near = f->step.neighbours;
-    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
-    const float cosine = jox_param(a, JOX_PARAM_push_angle, i);
-    const float reach = jox_param(a, JOX_PARAM_push_reach, i) + jox_at(radius, i),
-                widest = reach + f->widest;
-    uint32_t n = 0;
-    for (uint32_t k = 0; k < near->count[i]; k++) {
-        const uint32_t other = near->index[jox_neighbour_at(near, i, k)];
-        const JoxV2 offset = jox_offset(a, i, other);
-        const float most = reach + jox_at(radius, other), d2 = jox_length2(offset);
-        if (d2 > widest * widest)
-            break; /* the rest is farther away */
-        found[n] = other;
-        n += (d2 < most * most) & jox_cone_holds(offset, aim, cosine);
-    }
-    return n;
-}
-
-/* Returns whether a wall stands between agent i and another agent, or its image beyond a periodic
-   edge, at `offset`. */
-static bool is_target_hidden(const JoxForces *f, uint32_t i, JoxV2 offset) {
-    const JoxAgents *a = f->step.agents;
-    if (!f->in.walls || (f->in.unhidden2 && jox_length2(offset) < jox_unhidden2_by_grid(f, i)))
-        return false;
-    const JoxV2 centre = {a->x[i], a->y[i]};
-    return jox_wall_stops_force(f, centre, jox_add(centre, offset));
-}
-
-/* Lists the agents that agent i pushes: in reach, with a tag that it pushes, and no wall between.
-   Returns how many. */
-static uint32_t find_people_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
+/* Lists those of the agents found that agent i pushes: with a tag that it pushes. Returns how
+   many. */
+static uint32_t list_people_targets(const JoxForces *f, uint32_t i, uint32_t found,
+                                    Target *targets) {
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const uint64_t only = a->push_only[i];
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
-    const uint32_t count = list_reachable(f, i, aim, found);
-    for (uint32_t k = 0; k < count; k++) {
-        const JoxV2 offset = jox_offset(a, i, found[k]);
-        if (only && !(a->tags[found[k]] & only))
-            continue;
-        if (is_target_hidden(f, i, offset))
+    uint32_t n = 0;
+    while (found) {
+        const uint32_t other = jox_take_found(f, i, &found);
+        const JoxV2 offset = jox_offset(a, i, other);
+        if (only && !(a->tags[other] & only))
             continue;
         targets[n++] =
-            (Target){.index = found[k],
+            (Target){.index = other,
                      .offset = offset,
                      .to_centre = offset,
-                     .gap = jox_length(offset) - jox_at(radius, i) - jox_at(radius, found[k])};
+                     .gap = jox_length(offset) - jox_at(radius, i) - jox_at(radius, other)};
     }
     return n;
 }
@@ -155,13 +113,11 @@ static int64_t to_fixed(double momentum) {
     return scaled > 1e14 ? (int64_t)1e14 : scaled > -1e14 ? (int64_t)scaled : (int64_t)-1e14;
 }
 
-/* Applies the pushes of agent i to its targets, and the reaction to itself or the ground. */
-static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i) {
-    JoxV2 aim = find_push_aim(f, i);
-    if (aim.x == 0.0f && aim.y == 0.0f)
-        return;
+/* Applies the pushes of agent i, which aims along a unit vector, to its targets: the agents found
+   and bodies; and the reaction to itself or the ground. */
+static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 aim, uint32_t found) {
     Target targets[MOST_TARGETS];
-    uint32_t n = find_people_targets(f, i, aim, targets);
+    uint32_t n = list_people_targets(f, i, found, targets);
     if (f->has_bodies)
         n += find_body_targets(f, i, aim, targets + n);
     JOX_ASSERT(n <= MOST_TARGETS);
@@ -194,15 +150,18 @@ static void push_from_chunk(void *context, uint32_t begin, uint32_t end, uint32_
     (void)worker;
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
-    const JoxParameterColumn push = f->step.agents->param[JOX_PARAM_push];
-    const uint8_t *on = f->in.push_on;
+    JoxPushing pushing;
     jox_chunk_clear(&f->transfers.list, chunk);
     if (f->has_bodies)
         jox_chunk_clear(&f->pushes->on_bodies, chunk);
     f->pushes->totals[chunk] = (JoxPushTotals){0};
-    for (uint32_t i = begin; i < end; i++)
-        if (jox_at(push, i) > 0.0f && (!on || on[i]))
-            push_from_agent(f, chunk, i);
+    if (!KERNELS[f->isa](f, begin, end, &pushing))
+        return;
+    for (uint32_t i = begin; i < end; i++) {
+        const JoxV2 aim = {pushing.aim_x[i - begin], pushing.aim_y[i - begin]};
+        if (aim.x != 0.0f || aim.y != 0.0f)
+            push_from_agent(f, chunk, i, aim, jox_find_reached(f, i, &pushing.people, i - begin));
+    }
 }
 
 /* Adds the chunk's pushes on bodies to the impulses and the totals. */

@@ -1,9 +1,10 @@
 /* Pushes of a step (push.c), as later stages read them: the sorted transfers of JoxForces have the
-   forces on agents until infer, this has the rest. */
+   forces on agents until infer, this has the rest; and the kernel of push, which push.c calls. */
 #ifndef JOX_FORCE_PUSH_PUSHES_H
 #define JOX_FORCE_PUSH_PUSHES_H
 
-#include "force/forces.h"
+#include "force/cones.h"
+#include "simd/isa.h"
 
 /* A push on a body. */
 typedef struct JoxBodyPush {
@@ -18,6 +19,19 @@ typedef struct JoxPushTotals {
     uint32_t pushers;
     int64_t ground_x, ground_y;
 } JoxPushTotals;
+
+/* Who pushes whom, for the agents of a chunk: the direction of each agent's push, a unit vector;
+   (0, 0): it does not push, and `people` has no meaning. */
+typedef struct JoxPushing {
+    float aim_x[JOX_FORCE_GRAIN], aim_y[JOX_FORCE_GRAIN];
+    JoxFound people;
+} JoxPushing;
+/* Finds it for agents [begin, end) of one chunk. Returns false if none push. */
+typedef bool JoxPushKernel(const JoxForces *forces, uint32_t begin, uint32_t end,
+                           JoxPushing *pushing);
+#define X(name, isa) JoxPushKernel jox_push_packets_##name;
+JOX_ISAS(X)
+#undef X
 
 /* Zero-initialise; it owns its arrays. */
 typedef struct JoxPushes {
