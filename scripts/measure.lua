@@ -26,6 +26,18 @@ function measure.shortest_way()
   return { text = "ways do not avoid people who are held up", set = { ["walking.crowd_slowing"] = 0 }, seeds = 1 }
 end
 
+-- Returns the runs of a claim on a test of IMO or NIST, whose greatest flows are low: the people of these groups are
+-- calm, unless a run sets their haste.
+function measure.calm(runs, ...)
+  for _, run in pairs(runs) do
+    local set = {}
+    for _, group in ipairs { ... } do set["groups." .. group .. ".set.haste"] = "calm" end
+    for path, value in pairs(run.set or {}) do set[path] = value end
+    run.set = set
+  end
+  return runs
+end
+
 -- Ids of the claims on which the Tawaf's behaviour was chosen; it walks by ORCA, so its claims have no level of haste.
 measure.tawaf = "the Tawaf's chances, durations, speeds and pushes were chosen on seed 1 of 6-7, 8, 9 and 10, "
   .. "chances and gates on seed 101 of 6-7 and 10, too; that a gate is drawn at random, "
@@ -174,6 +186,16 @@ function measure.kolmogorov_smirnov(list, share)
   local lambda, chance = (math.sqrt(n) + 0.12 + 0.11 / math.sqrt(n)) * farthest, 0
   for k = 1, 100 do chance = chance + 2 * (-1) ^ (k - 1) * math.exp(-2 * (k * lambda) ^ 2) end
   return lambda < 0.3 and 1 or math.max(0, math.min(1, chance))
+end
+
+-- Speed of a push along a row of people, m/s, from the columns of a probe of displacement: slope of their positions
+-- over the times when they have moved 5 cm.
+function measure.front(row)
+  local x, t = {}, {}
+  for i = 1, row.n do
+    x[i], t[i] = row.x[i], row.onset[i]
+  end
+  return measure.slope(t, x)
 end
 
 -- Number of items of a list, from `first` on, that are not less than the item before: 0 means a steady fall.

@@ -2,10 +2,10 @@ local measure = require "measure"
 
 -- Cases of a room that a hundred people leave by an exit of a metre.
 local CASES = {
-  { "calm", "calm people", { ["groups.people.set.haste"] = "calm" } },
-  { "normal", "normal people", {} },
+  { "calm", "calm people", {} },
+  { "normal", "normal people", { ["groups.people.set.haste"] = "normal" } },
   { "keen", "people in a hurry", { ["groups.people.set.haste"] = "keen" } },
-  { "older", "slower people, 0.97 m/s", { ["groups.people.set.speed"] = "normal(0.97, 0.19, 0.5, 1.6)" } },
+  { "older", "calm and slower people, 0.97 m/s", { ["groups.people.set.speed"] = "normal(0.97, 0.19, 0.5, 1.6)" } },
 }
 local runs, quick, short, expect = {}, {}, {}, {}
 for i = 1, #CASES do
@@ -22,8 +22,8 @@ return claim {
   source = "IMO MSC.1/Circ.1533, advanced analysis",
   text = "Each case is run fifty times; what counts is the time that 95 % of the runs stay below, and of these the worst "
     .. "of the cases. Shown of a room, as an example.",
-  level = "normal", held_out = measure.walking_law,
-  runs = runs, quick = quick,
+  level = "calm", held_out = measure.walking_law,
+  runs = measure.calm(runs, "people"), quick = quick,
   null = { text = "runs that end after 30 s", runs = short },
   measure = function(run)
     local out, people = {}, {}

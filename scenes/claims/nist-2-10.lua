@@ -7,11 +7,11 @@ return claim {
   source = "NIST TN 1822, test 2.10, as implemented by the verification notebooks of JuPedSim",
   text = "25 people go from a room to another by a corridor of 1.5 m. It takes longer if one of them walks at 0.8 m/s in place "
     .. "of 1.25 and has a radius of 0.4 m.",
-  level = "normal", held_out = measure.walking_law,
-  runs = {
+  level = "calm", held_out = measure.walking_law,
+  runs = measure.calm({
     with = { scene = "../slow-person.yaml", seeds = "101-110" },
     without = { scene = "../slow-person.yaml", seeds = "101-110", set = alike },
-  },
+  }, "people", "slow"),
   quick = { with = { seeds = 3 }, without = { seeds = 3 } },
   null = { text = "nobody is slower or broader", runs = { with = { set = alike } } },
   measure = function(run)

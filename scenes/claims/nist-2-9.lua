@@ -5,9 +5,9 @@ return claim {
   source = "NIST TN 1822, test 2.9, as implemented by the verification notebooks of JuPedSim",
   text = "Four people who walk at 1.25 m/s and one who walks at 0.5 m/s leave a room together, past ten others who walk at "
     .. "0.2 m/s. The first and the last of the party are out within 10 s.",
-  level = "normal", held_out = measure.walking_law,
-  runs = { room = { scene = "../slow-group.yaml", seeds = "101-110" } },
-  quick = { room = { seeds = 3 } },
+  level = "calm", held_out = measure.walking_law,
+  runs = measure.calm({ room = { scene = "../slow-group.yaml", seeds = "101-110" } }, "quick", "slow", "others"),
+  quick = { room = { seeds = 10 } },
   null = { text = "five people who do not walk as a party",
     set = { ["groups.quick.behaviour"] = "walker.lua", ["groups.slow.behaviour"] = "walker.lua" } },
   measure = function(run)

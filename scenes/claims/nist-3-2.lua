@@ -5,11 +5,11 @@ return claim {
   source = "NIST TN 1822, test 3.2, as implemented by the verification notebooks of JuPedSim",
   text = "People in a hall with two exits alike see somebody make for the second one. More of them use it than where nobody "
     .. "leads.",
-  level = "normal", held_out = measure.walking_law,
-  runs = {
+  level = "calm", held_out = measure.walking_law,
+  runs = measure.calm({
     led = { scene = "../two-exits.yaml", seeds = "101-130" },
     alone = { scene = "../two-exits.yaml", seeds = "101-130", set = { ["groups.leader.set.premovement"] = 60 } },
-  },
+  }, "people", "leader"),
   quick = { led = { seeds = 10 }, alone = { seeds = 10 } },
   null = { text = "people who do not heed which exit others choose", set = { ["groups.people.set.sway"] = 0 } },
   measure = function(run)

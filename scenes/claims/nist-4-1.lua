@@ -5,8 +5,8 @@ return claim {
   source = "NIST TN 1822, test 4.1, as implemented by the verification notebooks of JuPedSim",
   text = "The first exit is shut after a second. All leave by the second; who cannot see the first learns of it once it is "
     .. "seen.",
-  level = "normal", held_out = measure.walking_law,
-  runs = { lost = { scene = "../exit-lost.yaml", seeds = "101-110" } },
+  level = "calm", held_out = measure.walking_law,
+  runs = measure.calm({ lost = { scene = "../exit-lost.yaml", seeds = "101-110" } }, "people", "leader"),
   quick = { lost = { seeds = 3 } },
   null = { text = "the first exit is shut only when all have left", set = { ["events.0.at"] = 80 } },
   measure = function(run)
