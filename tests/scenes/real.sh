@@ -61,6 +61,8 @@ recorded door-050 bottleneck/wuppertal_040_door050.txt --unit m <<'FIGURES'
 door flow 1.14 1.16
 door lapse_max 2.4 2.6
 front density 6.7 6.8
+square density 6.0 6.4
+square density_p90 8.3 8.8
 front speed 0.125 0.135
 FIGURES
 recorded opening-300 bottleneck/ao_300.txt --unit m <<'FIGURES'
@@ -94,3 +96,17 @@ widths 180-180-120 1.33 1.35 2.03 2.05 0.67 0.69
 widths 180-180-070 0.94 0.96 2.97 2.99 0.365 0.375
 widths 050-180-180 0.65 0.67 0.52 0.54 1.34 1.36
 widths 180-180-095 1.01 1.03 2.35 2.37 0.45 0.46
+widths 240-240-240 1.64 1.66 1.83 1.85 0.91 0.93
+widths 300-300-300 1.73 1.75 1.81 1.83 0.96 0.98
+recorded corridor-bo-360-160-160 bidirectional/bo-360-160-160.txt --fps 16 --unit cm <<'FIGURES'
+southward flow 2.54 2.58
+northward flow 2.03 2.07
+middle density 1.89 1.91
+middle speed 0.66 0.68
+FIGURES
+recorded corridor-bot-360-250-250 bidirectional/bot-360-250-250.txt --fps 16 --unit cm <<'FIGURES'
+southward flow 2.33 2.37
+northward flow 2.18 2.22
+middle density 2.58 2.60
+middle speed 0.54 0.56
+FIGURES

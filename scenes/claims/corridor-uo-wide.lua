@@ -1,0 +1,11 @@
+local corridor = require "corridor"
+
+return claim(corridor({
+  id = "F5", title = "Wider corridors, with entrances and exits as wide",
+  text = "Nothing is narrower than the corridor, and more people pass a metre of it than where it has a narrow entrance or "
+    .. "exit (F3). People, told to walk through at ease, come in where and when the camera saw them first.",
+  held_out = true,
+}, {
+  { "240-240-240", 1.65, 1.84, 0.92 },
+  { "300-300-300", 1.74, 1.82, 0.97 },
+}))
