@@ -7,6 +7,7 @@
 
 #include "agents/param_lanes.h"
 #include "force/cones.h"
+#include "geom/wall_grid_lanes.h"
 #include "simd/vectors.h"
 
 /* jox_cone_holds, by lane. */
@@ -16,22 +17,32 @@ static inline JoxMask jox_cone_holds_lanes(JoxVector offset, JoxVector axis, Jox
     return jm_or(jf_le(least, along * jf_abs(along)), jf_le(cosine, jf_set(-1.0f)));
 }
 
-/* Returns the square of a distance, m2, within which no wall is; below 0: unknown. Edges that the
-   grid does not list there are beyond its reach; the margin exceeds the rounding of positions.
-   Agents that have moved lose their way, which is long over a periodic edge. */
-static inline JoxFloats jox_unhidden2_lanes(const JoxForces *f, uint32_t first, bool moved) {
+/* Returns a distance from agents within which no wall is, m; `first`: of a packet. `moved`: they
+   have moved since walls were measured. */
+static inline JoxFloats jox_unhidden_lanes(const JoxForces *f, uint32_t first, bool moved) {
     const JoxAgents *a = f->step.agents;
-    if (!f->in.walls)
-        return jf_set(INFINITY);
+    const JoxVector at = jv_load(a->x, a->y, first);
+    if (!f->in.walls || !f->in.unhidden2)
+        return jf_set(f->in.walls ? 0.0f : INFINITY);
+    const JoxVector way = jv_sub(at, jv_load(a->prev_x, a->prev_y, first));
+    return jox_wall_grid_unhidden_lanes(f->in.walls, jf_load(f->in.unhidden2 + first),
+                                        moved ? jv_length(way) : jf_set(0.0f));
+}
+
+/* Does the same for neighbours at `offset` from agents, m. Beyond a periodic edge there is only an
+   image, whose walls are not measured. */
+static inline JoxFloats jox_unhidden_of(const JoxForces *f, uint32_t first, const uint32_t *others,
+                                        JoxVector offset, bool moved) {
+    const JoxAgents *a = f->step.agents;
+    const JoxVector to = {jf_pick_at(a->x, others), jf_pick_at(a->y, others)};
+    const JoxVector before = {jf_pick_at(a->prev_x, others), jf_pick_at(a->prev_y, others)};
+    const JoxFloats zero = jf_set(0.0f), way = moved ? jv_length(jv_sub(to, before)) : zero;
     if (!f->in.unhidden2)
-        return jf_set(-1.0f);
-    const float served = 0.999f * f->in.walls->reach;
-    const JoxFloats before2 = jf_min(jf_load(f->in.unhidden2 + first), jf_set(served * served));
-    if (!moved)
-        return before2;
-    const JoxVector way = jv_sub(jv_load(a->x, a->y, first), jv_load(a->prev_x, a->prev_y, first));
-    const JoxFloats distance = jf_sqrt(before2) - jf_sqrt(jv_dot(way, way));
-    return distance * jf_abs(distance);
+        return zero;
+    const JoxVector direct = jv_sub(to, jv_load(a->x, a->y, first));
+    const JoxFloats unhidden =
+        jox_wall_grid_unhidden_lanes(f->in.walls, jf_pick_at(f->in.unhidden2, others), way);
+    return jf_select(jv_is_nonzero(jv_sub(offset, direct)), zero, unhidden);
 }
 
 /* JoxFound, by lane. */
@@ -49,7 +60,7 @@ static inline JoxFoundLanes jox_find_people_in_cone(const JoxForces *f, uint32_t
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const JoxFloats cosine = jox_param_lanes(a, reach->angle, first);
     const JoxFloats farthest = own + f->widest;
-    const JoxFloats unhidden2 = jox_unhidden2_lanes(f, first, reach->moved);
+    const JoxFloats unhidden = jox_unhidden_lanes(f, first, reach->moved);
     const JoxVector at = jv_load(a->x, a->y, first);
     const JoxInts none = ji_set(0);
     const JoxInts count = ji_select(jm_of_bits(lanes), ji_load_bytes(near->count + first), none);
@@ -67,9 +78,14 @@ static inline JoxFoundLanes jox_find_people_in_cone(const JoxForces *f, uint32_t
             break; /* the rest, which are in order unless they have moved, are farther away */
         there = jm_and(there, jf_le(d2, most * most));
         there = jm_and(there, jox_cone_holds_lanes(offset, axis, cosine));
-        const JoxInts bit = ji_select(there, ji_set(1 << k), none);
-        out.found = ji_or(out.found, bit);
-        out.doubtful = ji_or(out.doubtful, ji_select(jf_lt(d2, unhidden2), none, bit));
+        const JoxInts bit = ji_set(1 << k);
+        out.found = ji_or(out.found, ji_select(there, bit, none));
+        there = jm_and(there, jox_wall_grid_may_cross_lanes(d2, unhidden, jf_set(0.0f)));
+        if (!jm_bits(there))
+            continue;
+        const JoxFloats its = jox_unhidden_of(f, first, others, offset, reach->moved);
+        there = jm_and(there, jox_wall_grid_may_cross_lanes(d2, unhidden, its));
+        out.doubtful = ji_or(out.doubtful, ji_select(there, bit, none));
     }
     return out;
 }

@@ -32,4 +32,18 @@ static inline JoxMask jox_wall_grid_clear_lanes(const float *unhidden2, uint32_t
     return unhidden2 ? jf_lt(reach * reach, jf_load(unhidden2 + first)) : jm_of_bits(0);
 }
 
+/* Returns a distance, m, of each lane within which no edge is: from its unhidden2, less `way`, m,
+   that it has moved since. The grid knows of no edge beyond its reach. */
+static inline JoxFloats jox_wall_grid_unhidden_lanes(const JoxWallGrid *g, JoxFloats unhidden2,
+                                                     JoxFloats way) {
+    return jf_min(jf_sqrt(unhidden2), jf_set(0.999f * g->reach)) - way;
+}
+
+/* Returns the lanes in which edges may cross a segment of squared length d2, m2: not those where
+   the unhidden distances of its ends add up to more. */
+static inline JoxMask jox_wall_grid_may_cross_lanes(JoxFloats d2, JoxFloats from, JoxFloats to) {
+    const JoxFloats sum = 0.9999f * (from + to);
+    return jm_or(jf_lt(sum, jf_set(0.0f)), jf_le(sum * sum, d2));
+}
+
 #endif

@@ -31,9 +31,12 @@ static inline JoxFloats jv_dot(JoxVector a, JoxVector b) {
 static inline JoxVector jv_select(JoxMask m, JoxVector a, JoxVector b) {
     return (JoxVector){jf_select(m, a.x, b.x), jf_select(m, a.y, b.y)};
 }
+static inline JoxFloats jv_length(JoxVector a) {
+    return jf_sqrt(jv_dot(a, a));
+}
 /* jox_unit of base/vec.h, by lane. */
 static inline JoxVector jv_unit(JoxVector a) {
-    const JoxFloats length = jf_sqrt(jv_dot(a, a)), zero = jf_set(0.0f);
+    const JoxFloats length = jv_length(a), zero = jf_set(0.0f);
     return jv_select(jf_lt(zero, length), jv_scale(a, 1.0f / length), (JoxVector){zero, zero});
 }
 /* Returns which lanes are not (0, 0). */

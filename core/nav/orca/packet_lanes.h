@@ -88,13 +88,22 @@ static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     }
 }
 
-/* Returns the lanes from which a wall may hide the neighbour; is_hidden_by_wall of half_planes.c
-   decides. */
-static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q) {
-    const JoxFloats d2 = q->x * q->x + q->y * q->y;
+/* Returns the lanes from which a wall may hide the neighbour, whose indices are given;
+   is_hidden_by_wall of half_planes.c decides. `periodic`: it may be beyond a periodic edge, where
+   no walls were measured. */
+static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q,
+                                         const uint32_t *others, bool periodic) {
+    const JoxFloats d2 = q->x * q->x + q->y * q->y, zero = jf_set(0.0f);
     const JoxFloats near = q->radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
-    const JoxMask far = jf_lt(near * near, d2);
-    return ~jm_bits(s->unhidden2 ? jm_or(far, jf_lt(d2, jf_load(s->unhidden2 + first))) : far);
+    const JoxMask is_near = jf_le(d2, near * near);
+    if (!s->unhidden2 || !jm_bits(is_near))
+        return jm_bits(is_near);
+    const JoxWallGrid *walls = &s->nav->grid;
+    const JoxFloats own = jox_wall_grid_unhidden_lanes(walls, jf_load(s->unhidden2 + first), zero);
+    const JoxFloats its =
+        periodic ? zero
+                 : jox_wall_grid_unhidden_lanes(walls, jf_pick_at(s->unhidden2, others), zero);
+    return jm_bits(jm_and(is_near, jox_wall_grid_may_cross_lanes(d2, own, its)));
 }
 
 /* Returns those of `lanes` that avoid their neighbour, whose indices are given. `scalar_tested`:
@@ -267,7 +276,9 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
         if (lanes & some_tested)
             lanes = jox_find_avoiding(
                 p, &touched, lanes,
-                scalar_tested | (walled & jox_may_be_hidden(s, p->first, &nearest[k].pair)),
+                scalar_tested | (walled ? walled & jox_may_be_hidden(s, p->first, &nearest[k].pair,
+                                                                     others, periodic)
+                                        : 0),
                 others);
         if (!lanes)
             continue;
