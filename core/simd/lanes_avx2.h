@@ -45,6 +45,10 @@ static inline JoxFloats jf_next(JoxFloats a) {
     return _mm256_permutevar8x32_ps(a, _mm256_setr_epi32(1, 2, 3, 4, 5, 6, 7, 7));
 }
 
+static inline JoxFloats jf_arrange(JoxFloats a, JoxInts from) {
+    return _mm256_permutevar8x32_ps(a, (__m256i)from);
+}
+
 static inline JoxInts ji_opaque(JoxInts a) {
     __asm__("" : "+x"(a));
     return a;

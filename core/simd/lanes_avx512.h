@@ -44,6 +44,10 @@ static inline JoxFloats jf_next(JoxFloats a) {
     return _mm512_permutexvar_ps(next, a);
 }
 
+static inline JoxFloats jf_arrange(JoxFloats a, JoxInts from) {
+    return _mm512_permutexvar_ps((__m512i)from, a);
+}
+
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
 }

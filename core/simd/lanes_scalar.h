@@ -70,6 +70,12 @@ static inline JoxFloats jf_next(JoxFloats a) {
     return a;
 }
 
+/* Arranges lanes anew: lane l gets lane from[l], below JOX_WIDTH. */
+static inline JoxFloats jf_arrange(JoxFloats a, JoxInts from) {
+    (void)from;
+    return a;
+}
+
 /* Less, less or equal; false where one is NaN. */
 static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
     return a < b;

@@ -169,6 +169,11 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
     for (int k = 0; k < 4; k++)
         to[k] = lanes[order >> 8 * k & 3];
 }
+static inline JoxFloats jf_arrange(JoxFloats a, JoxInts from) {
+    float lanes[4];
+    jf_store(lanes, a);
+    return jf_pick(lanes, from);
+}
 static inline uint32_t jm_count(uint32_t bits) {
     return jox_count_of_four(bits);
 }

@@ -112,6 +112,8 @@ static void check_float_operations(const float *fa, const float *fb) {
     FLOATS_GIVE(jf_select(jf_lt(a_, b_), a_, b_), a < b ? a : b);
     FLOATS_GIVE(ji_as_floats(jf_bits(a_)), a);
     FLOATS_GIVE(jf_next(a_), ((void)a, fa[l + 1 < JOX_WIDTH ? l + 1 : l]));
+    const uint32_t back[JOX_WIDTH] = {3, 0, 0, 2};
+    FLOATS_GIVE(jf_arrange(a_, ji_load(back)), ((void)a, fa[back[l]]));
     MASK_IS(jf_lt(a_, b_), a < b);
     MASK_IS(jf_le(a_, b_), a <= b);
     MASK_IS(jm_and(jf_le(a_, b_), jf_le(b_, a_)), a == b);

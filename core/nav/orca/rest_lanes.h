@@ -49,6 +49,40 @@ static inline void jox_rest_open(JoxRest *r, uint32_t hard, uint32_t soft) {
     }
 }
 
+/* Places of a list that lanes of other rows get: place `at` gets lane from[at], for places from
+   `first` to before `end`; `left`: lanes (bits) without a place. */
+typedef struct JoxPlacing {
+    uint32_t first, end, left, from[JOX_WIDTH];
+} JoxPlacing;
+
+/* Gives free places to as many of `lanes` (bits) as it can; the caller fills them. */
+static inline JoxPlacing jox_rest_place(JoxRest *r, uint32_t lanes) {
+    JoxPlacing p = {.first = r->count};
+    for (; lanes && r->count < JOX_WIDTH; lanes &= lanes - 1)
+        p.from[r->count++] = (uint32_t)__builtin_ctz(lanes);
+    p.end = r->count;
+    p.left = lanes;
+    return p;
+}
+
+/* Copies rows, of which the first `hard` are hard, from the lanes to their places. */
+static inline void jox_rest_copy_rows(JoxRest *r, const JoxPlacing *p, const JoxRow *rows,
+                                      uint32_t hard, uint32_t soft) {
+    const JoxInts from = ji_load(p->from);
+    const JoxMask places = jm_of_bits(jox_first_lanes(p->end) & ~jox_first_lanes(p->first));
+    jox_rest_open(r, hard, soft);
+    JoxRow *to = &r->rows[JOX_REST_HARD - hard];
+    for (uint32_t k = 0; k < hard + soft; k++) {
+        const JoxVector normal = jox_row_normal(&rows[k]), old = jox_row_normal(&to[k]);
+        const JoxVector arranged = {jf_arrange(normal.x, from), jf_arrange(normal.y, from)};
+        const JoxFloats offset = jf_arrange(jf_load(rows[k].offset), from);
+        const JoxVector both = jv_select(places, arranged, old);
+        jf_store(to[k].x, both.x);
+        jf_store(to[k].y, both.y);
+        jf_store(to[k].offset, jf_select(places, offset, jf_load(to[k].offset)));
+    }
+}
+
 static inline uint32_t jox_count_of(const JoxHalfPlaneCounts *made) {
     return made->walls + made->contacts + made->agents + made->objects + made->force;
 }
@@ -244,25 +278,24 @@ static inline uint32_t jox_rest_solve_far(const JoxSolve *s, JoxRest *r) {
     return relaxed;
 }
 
-/* Appends entry k of a list to another one. */
-static inline void jox_rest_copy(const JoxRest *from, uint32_t k, JoxRest *to) {
-    const uint32_t at = to->count++;
-    to->agent[at] = from->agent[k];
-    to->failed[at] = from->failed[k];
-    to->failed_at[at] = from->failed_at[k];
-    to->made[at] = from->made[k];
-    to->wanted_x[at] = from->wanted_x[k];
-    to->wanted_y[at] = from->wanted_y[k];
-    to->velocity_x[at] = from->velocity_x[k];
-    to->velocity_y[at] = from->velocity_y[k];
-    to->contacts[at] = from->contacts[k];
-    to->force[at] = from->force[k];
-    jox_rest_open(to, from->hard, from->soft);
-    for (uint32_t row = JOX_REST_HARD - from->hard; row < JOX_REST_HARD + from->soft; row++) {
-        to->rows[row].x[at] = from->rows[row].x[k];
-        to->rows[row].y[at] = from->rows[row].y[k];
-        to->rows[row].offset[at] = from->rows[row].offset[k];
+/* Appends entries (bits) of a list to another one. Returns those for which there is no room. */
+static inline uint32_t jox_rest_copy(const JoxRest *from, uint32_t entries, JoxRest *to) {
+    const JoxPlacing p = jox_rest_place(to, entries);
+    for (uint32_t at = p.first; at < p.end; at++) {
+        const uint32_t k = p.from[at];
+        to->agent[at] = from->agent[k];
+        to->failed[at] = from->failed[k];
+        to->failed_at[at] = from->failed_at[k];
+        to->made[at] = from->made[k];
+        to->wanted_x[at] = from->wanted_x[k];
+        to->wanted_y[at] = from->wanted_y[k];
+        to->velocity_x[at] = from->velocity_x[k];
+        to->velocity_y[at] = from->velocity_y[k];
+        to->contacts[at] = from->contacts[k];
+        to->force[at] = from->force[k];
     }
+    jox_rest_copy_rows(to, &p, &from->rows[JOX_REST_HARD - from->hard], from->hard, from->soft);
+    return p.left;
 }
 
 /* Plans the gathered agents whose half-planes cannot all be met, with the least greatest violation.
@@ -277,20 +310,21 @@ static inline uint32_t jox_rest_solve_unmet(const JoxSolve *s, JoxRest *r, JoxRe
     jox_rest_load(s, r, &l);
     jox_least_violation_lanes(l.rows, l.count, l.hard, l.all, l.failed_at, l.limit,
                               l.pressed.wanted, &l.velocity);
-    const uint32_t out = jm_bits(jox_out_of_reach_lanes(&l.pressed, l.velocity));
+    uint32_t out =
+        jm_bits(jox_out_of_reach_lanes(&l.pressed, l.velocity)) & jox_first_lanes(r->count);
     const JoxVector planned = jox_snap_to_forced_lanes(&l.pressed, l.velocity);
     jf_store(r->velocity_x, l.velocity.x);
     jf_store(r->velocity_y, l.velocity.y);
     jf_store(x, planned.x);
     jf_store(y, planned.y);
     for (uint32_t k = 0; k < r->count; k++)
-        if (out >> k & 1) {
-            jox_rest_copy(r, k, far);
-            if (far->count == JOX_WIDTH)
-                relaxed += jox_rest_solve_far(s, far);
-        } else {
+        if (!(out >> k & 1))
             jox_write_plan(s, r->agent[k], x[k], y[k], true);
-        }
+    while (out) {
+        out = jox_rest_copy(r, out, far);
+        if (far->count == JOX_WIDTH)
+            relaxed += jox_rest_solve_far(s, far);
+    }
     jox_rest_clear(r);
     return relaxed;
 }

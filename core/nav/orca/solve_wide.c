@@ -107,21 +107,11 @@ static void fill_waiting(JoxRest *r, uint32_t at, const JoxPacket *p, uint32_t l
 /* Appends lanes (bits) of a packet to the waiting agents. Returns the lanes for which there is no
    room. */
 static uint32_t queue_lanes(JoxRest *r, const JoxPacket *p, uint32_t lanes, const Plan *plan) {
-    jox_rest_open(r, p->hard, p->count - p->hard);
-    for (uint32_t lane = 0; lanes >> lane && r->count < JOX_WIDTH; lane++) {
-        if (!(lanes >> lane & 1))
-            continue;
-        const uint32_t at = r->count++;
-        fill_waiting(r, at, p, lane, plan);
-        JoxRow *to = &r->rows[JOX_REST_HARD - p->hard];
-        for (uint32_t row = 0; row < p->count; row++, to++) {
-            to->x[at] = p->rows[row].x[lane];
-            to->y[at] = p->rows[row].y[lane];
-            to->offset[at] = p->rows[row].offset[lane];
-        }
-        lanes &= ~(1u << lane);
-    }
-    return lanes;
+    const JoxPlacing placing = jox_rest_place(r, lanes);
+    for (uint32_t at = placing.first; at < placing.end; at++)
+        fill_waiting(r, at, p, placing.from[at], plan);
+    jox_rest_copy_rows(r, &placing, p->rows, p->hard, p->count - p->hard);
+    return placing.left;
 }
 
 /* Hands lanes (bits) that the first program did not finish to the next stages: `hard` to
