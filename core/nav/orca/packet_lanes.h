@@ -49,9 +49,8 @@ typedef uint32_t JoxMaker(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *o
 static inline void jox_put_lane_by_lane(JoxPacket *p, uint32_t lanes, uint32_t row, JoxMaker *make,
                                         size_t at) {
     p->counted |= lanes;
-    for (uint32_t lane = 0; lanes >> lane; lane++) {
-        if (!(lanes >> lane & 1))
-            continue;
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         uint32_t count = make(p->s, p->first + lane, p->list);
         memcpy((char *)&p->made[lane] + at, &count, sizeof count);
         jox_rows_open(p, row + count);
@@ -78,32 +77,14 @@ typedef struct JoxTouched {
 static inline void jox_note_touched(const JoxPacket *p, JoxTouched *t) {
     const JoxContactPlanes *planes = p->s->step.touched;
     t->rows = 0;
-    for (uint32_t lane = 0; p->touching >> lane; lane++) {
-        const uint32_t i = p->first + lane;
-        for (uint32_t k = 0; (p->touching >> lane & 1) && k < planes->people[i]; k++) {
+    for (uint32_t lanes = p->touching; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes), i = p->first + lane;
+        for (uint32_t k = 0; k < planes->people[i]; k++) {
             for (; t->rows <= k; t->rows++)
                 memset(t->other[t->rows], 0xff, sizeof t->other[0]);
             t->other[k][lane] = planes->planes[planes->starts[i] + k].other;
         }
     }
-}
-
-/* Returns the lanes from which a wall may hide the neighbour, whose indices are given;
-   is_hidden_by_wall of half_planes.c decides. `periodic`: it may be beyond a periodic edge, where
-   no walls were measured. */
-static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q,
-                                         const uint32_t *others, bool periodic) {
-    const JoxFloats d2 = q->x * q->x + q->y * q->y, zero = jf_set(0.0f);
-    const JoxFloats near = q->radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
-    const JoxMask is_near = jf_le(d2, near * near);
-    if (!s->unhidden2 || !jm_bits(is_near))
-        return jm_bits(is_near);
-    const JoxWallGrid *walls = &s->nav->grid;
-    const JoxFloats own = jox_wall_grid_unhidden_lanes(walls, jf_load(s->unhidden2 + first), zero);
-    const JoxFloats its =
-        periodic ? zero
-                 : jox_wall_grid_unhidden_lanes(walls, jf_pick_at(s->unhidden2, others), zero);
-    return jm_bits(jm_and(is_near, jox_wall_grid_may_cross_lanes(d2, own, its)));
 }
 
 /* Returns those of `lanes` that avoid their neighbour, whose indices are given. `scalar_tested`:
@@ -115,10 +96,11 @@ static inline uint32_t jox_find_avoiding(const JoxPacket *p, const JoxTouched *t
         touched = jm_or(touched, ji_equal(ji_load(index), ji_load(t->other[k])));
     lanes &= ~jm_bits(touched);
     scalar_tested &= lanes;
-    for (uint32_t lane = 0; scalar_tested >> lane; lane++)
-        if ((scalar_tested >> lane & 1) &&
-            jox_solve_passes_over(p->s, p->first + lane, index[lane]))
+    for (; scalar_tested; scalar_tested &= scalar_tested - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(scalar_tested);
+        if (jox_solve_passes_over(p->s, p->first + lane, index[lane]))
             lanes &= ~(1u << lane);
+    }
     return lanes;
 }
 
@@ -158,6 +140,43 @@ typedef struct JoxNeighbour {
     JoxVector velocity;
     JoxOrcaHalf half;
 } JoxNeighbour;
+
+/* Returns the distance of two agents, m, within which a wall between them counts: where they would
+   else touch, or soon could. */
+static inline JoxFloats jox_walled_reach(JoxFloats radii) {
+    return radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+}
+
+/* Returns those of `near_walls` (bits) that have a wall nearer than some of the `most` neighbours
+   may be when it counts. */
+static inline uint32_t jox_find_walled(const JoxSolve *s, uint32_t first, uint32_t near_walls,
+                                       const JoxNeighbour *nearest, uint32_t most) {
+    JoxFloats radii = jf_set(0.0f);
+    if (!s->step.touched || !near_walls)
+        return 0;
+    for (uint32_t k = 0; k < most; k++)
+        radii = jf_max(radii, nearest[k].pair.radii);
+    const JoxFloats reach = jox_walled_reach(radii);
+    return near_walls & ~jm_bits(jox_wall_grid_clear_lanes(s->unhidden2, first, reach));
+}
+
+/* Returns the lanes from which a wall may hide the neighbour, whose indices are given;
+   is_hidden_by_wall of half_planes.c decides. `periodic`: it may be beyond a periodic edge, where
+   no walls were measured. */
+static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, const JoxPair *q,
+                                         const uint32_t *others, bool periodic) {
+    const JoxFloats d2 = q->x * q->x + q->y * q->y, zero = jf_set(0.0f);
+    const JoxFloats near = jox_walled_reach(q->radii);
+    const JoxMask is_near = jf_le(d2, near * near);
+    if (!s->unhidden2 || !jm_bits(is_near))
+        return jm_bits(is_near);
+    const JoxWallGrid *walls = &s->nav->grid;
+    const JoxFloats own = jox_wall_grid_unhidden_lanes(walls, jf_load(s->unhidden2 + first), zero);
+    const JoxFloats its =
+        periodic ? zero
+                 : jox_wall_grid_unhidden_lanes(walls, jf_pick_at(s->unhidden2, others), zero);
+    return jm_bits(jm_and(is_near, jox_wall_grid_may_cross_lanes(d2, own, its)));
+}
 
 /* Loads the pairs with the `most` first neighbours of the lanes. A lane with fewer gets arbitrary
    ones. */
@@ -247,14 +266,14 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     const JoxSelf self = jox_self_of(s, p->first, walkers);
     const uint32_t all = p->lanes;
     const JoxNeighbourCounts counts = jox_count_neighbours(p);
-    const uint32_t scalar_tested = jox_scalar_test_lanes(p->s->step.agents, p->first) & p->lanes,
-                   walled = s->step.touched ? p->near_walls : 0;
+    const uint32_t scalar_tested = jox_scalar_test_lanes(p->s->step.agents, p->first) & p->lanes;
     uint32_t coincide = 0;
     JoxTouched touched;
     jox_note_touched(p, &touched);
-    const uint32_t some_tested = scalar_tested | walled | (touched.rows ? p->touching : 0);
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
     jox_fetch_pairs(p, &self, counts.most, walkers, periodic, nearest);
+    const uint32_t walled = jox_find_walled(s, p->first, p->near_walls, nearest, counts.most);
+    const uint32_t some_tested = scalar_tested | walled | (touched.rows ? p->touching : 0);
     for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
         nearest[k].half =
             jox_orca_begin(&nearest[k].pair, &self.orca, (float)s->step.timing.planning_time,
