@@ -2,9 +2,9 @@
 -- of other widths.
 local measure = require "measure"
 
--- Returns a table for `claim`. `words`: id, title, text, and `held_out`, true if the walking law's constants were not
--- chosen on it. `cases`: for each case the widths of entrance, corridor and exit, cm, and the source's specific flow,
--- 1/(m s), density, 1/m2, and speed, m/s.
+-- Returns a table for `claim`. `words`: id, title, text, tried, and `held_out`, true if the walking law's constants
+-- were not chosen on it. `cases`: for each case the widths of entrance, corridor and exit, cm, and the source's
+-- specific flow, 1/(m s), density, 1/m2, and speed, m/s.
 return function(words, cases)
   local runs, quick, expect, pictures, measured, source = {}, {}, {}, {}, {}, {}
   for i = 1, #cases do
@@ -37,7 +37,7 @@ return function(words, cases)
       end
       return out
     end,
-    expect = expect,
+    expect = expect, tried = words.tried,
     plots = { { name = "diagram", title = "Speed in the middle of the corridor, at the densities of the source",
       x = "density measured by the source (1/m²)", y = "mean speed (m/s)",
       { "Jostle, the same widths", figures = measured }, { "Zhang et al. 2011", points = source } } },

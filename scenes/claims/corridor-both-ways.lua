@@ -36,5 +36,6 @@ return claim {
     return out
   end,
   expect = expect,
+  tried = { "The streams block each other and fill the corridor to four people per square metre; here and there they stand." },
   pictures = pictures,
 }

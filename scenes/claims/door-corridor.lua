@@ -38,5 +38,7 @@ return claim {
     return out
   end,
   expect = expect,
+  tried = { "Haste moves the flow as motivation does, but hardly how close people stand: the law packs people of either level "
+    .. "before a door that holds them up, normal people at 5.4 per square metre." },
   pictures = { keen = { "door.png", "front.png" }, normal = { "door.png", "front.png" } },
 }

@@ -40,5 +40,6 @@ return claim {
   expect = expect,
   plots = { { name = "peaks", title = "Greatest displacement along the row at a wall, the pushed one first",
     x = "person", y = "greatest displacement (m)", { "Jostle", figures = measured }, { "measured", points = source } } },
+  tried = { "People whom a push has moved stay where it leaves them: nobody steps back. A small push is passed on late." },
   pictures = { wall = { "row.png", "paths.png" } },
 }

@@ -49,5 +49,7 @@ return claim {
     return out
   end,
   expect = expect,
+  tried = { "At equal density people walk faster here than in the wide ring of F2, recorded ones slower; and nobody stops, while "
+    .. "in file (F1) people do." },
   pictures = { ["ug-100-075"] = { "middle.png" }, ["ug-140-085"] = { "middle.png" } },
 }
