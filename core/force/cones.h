@@ -18,9 +18,15 @@ typedef struct JoxFound {
     uint32_t found[JOX_FORCE_GRAIN], doubtful[JOX_FORCE_GRAIN];
 } JoxFound;
 
+/* Returns those of `doubtful` that a wall separates from agent i. */
+uint32_t jox_find_walled_off(const JoxForces *forces, uint32_t i, uint32_t doubtful);
 /* Returns those in the cone of agent i, entry `at` of its chunk, from which no wall separates it.
  */
-uint32_t jox_find_reached(const JoxForces *forces, uint32_t i, const JoxFound *people, uint32_t at);
+static inline uint32_t jox_find_reached(const JoxForces *f, uint32_t i, const JoxFound *people,
+                                        uint32_t at) {
+    const uint32_t found = people->found[at], doubtful = people->doubtful[at];
+    return doubtful ? found & ~jox_find_walled_off(f, i, doubtful) : found;
+}
 /* Returns `found` of agent i in literal mode: those in the cone about `axis`, at any distance. */
 uint32_t jox_literal_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis);
 

@@ -2,7 +2,6 @@
 #define JOX_ISA_scalar
 #include <math.h>
 
-#include "base/assert.h"
 #include "force/cone_lanes.h"
 
 bool jox_wall_stops_force(const JoxForces *f, JoxV2 from, JoxV2 to) {
@@ -12,16 +11,15 @@ bool jox_wall_stops_force(const JoxForces *f, JoxV2 from, JoxV2 to) {
                      jox_wall_grid_has_wall_between(walls, to, from));
 }
 
-uint32_t jox_find_reached(const JoxForces *f, uint32_t i, const JoxFound *people, uint32_t at) {
+uint32_t jox_find_walled_off(const JoxForces *f, uint32_t i, uint32_t doubtful) {
     const JoxV2 from = {f->step.agents->x[i], f->step.agents->y[i]};
-    uint32_t reached = people->found[at], doubtful = people->doubtful[at];
-    JOX_ASSERT((reached & doubtful) == doubtful);
+    uint32_t walled_off = 0;
     while (doubtful) {
         const uint32_t bit = doubtful & -doubtful, other = jox_take_found(f, i, &doubtful);
-        const JoxV2 to = jox_add(from, jox_offset(f->step.agents, i, other));
-        reached &= jox_wall_stops_force(f, from, to) ? ~bit : UINT32_MAX;
+        if (jox_wall_stops_force(f, from, jox_add(from, jox_offset(f->step.agents, i, other))))
+            walled_off |= bit;
     }
-    return reached;
+    return walled_off;
 }
 
 uint32_t jox_literal_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis) {

@@ -19,6 +19,12 @@ static JoxTransfer *get_run(const JoxForces *f, uint32_t chunk, uint32_t run) {
     return (JoxTransfer *)f->transfers.list.items + ((size_t)run * f->chunks + chunk) * RUN_LENGTH;
 }
 
+/* Returns how many entries are in a run of a chunk; 0 behind its last run. */
+static uint32_t count_run(const JoxForces *f, uint32_t chunk, uint32_t run) {
+    const uint32_t count = f->transfers.list.counts[chunk], first = run * RUN_LENGTH;
+    return count <= first ? 0 : count - first < RUN_LENGTH ? count - first : RUN_LENGTH;
+}
+
 void jox_transfers_add(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
     const uint32_t at = f->transfers.list.counts[chunk]++;
     JOX_ASSERT(to < f->step.agents->count);
@@ -51,17 +57,21 @@ uint32_t jox_transfers_sort(JoxForces *f) {
     JOX_RESERVE(f->transfers.sorted, f->transfers.sorted_capacity, total > room ? total : room);
     memset(f->transfers.starts, 0, ((size_t)n + 1) * sizeof *f->transfers.starts);
     for (uint32_t c = 0; c < f->chunks; c++)
-        for (uint32_t k = 0; k < f->transfers.list.counts[c]; k++)
-            f->transfers.starts[get_run(f, c, k / RUN_LENGTH)[k % RUN_LENGTH].to]++;
+        for (uint32_t run = 0, count; (count = count_run(f, c, run)) > 0; run++) {
+            const JoxTransfer *t = get_run(f, c, run);
+            for (uint32_t k = 0; k < count; k++)
+                f->transfers.starts[t[k].to]++;
+        }
     uint32_t sum = 0;
     for (uint32_t i = 0; i <= n; i++) {
         sum += f->transfers.starts[i];
         f->transfers.starts[i] = sum; /* its end; filling backwards turns it into the start */
     }
     for (uint32_t c = 0; c < f->chunks; c++)
-        for (uint32_t k = 0; k < f->transfers.list.counts[c]; k++) {
-            const JoxTransfer *t = &get_run(f, c, k / RUN_LENGTH)[k % RUN_LENGTH];
-            f->transfers.sorted[--f->transfers.starts[t->to]] = *t;
+        for (uint32_t run = 0, count; (count = count_run(f, c, run)) > 0; run++) {
+            const JoxTransfer *t = get_run(f, c, run);
+            for (uint32_t k = 0; k < count; k++)
+                f->transfers.sorted[--f->transfers.starts[t[k].to]] = t[k];
         }
     JOX_ASSERT(f->transfers.starts[0] == 0 && f->transfers.starts[n] == total);
     JOX_CHECK(check_transfers(f));

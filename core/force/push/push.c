@@ -10,7 +10,7 @@ typedef struct Target {
     JoxV2 offset;    /* from the pusher, m */
     JoxV2 to_centre; /* from the pusher to the centre of the target, m */
     JoxV3 point;     /* point at which a body is pushed, m */
-    float gap;
+    float gap;       /* of bodies; see find_gap */
 } Target;
 
 enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_MOST_BODIES_TOUCHED };
@@ -24,7 +24,6 @@ static JoxPushKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static uint32_t list_people_targets(const JoxForces *f, uint32_t i, uint32_t found,
                                     Target *targets) {
     const JoxAgents *a = f->step.agents;
-    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const uint64_t only = a->push_only[i];
     uint32_t n = 0;
     while (found) {
@@ -32,11 +31,7 @@ static uint32_t list_people_targets(const JoxForces *f, uint32_t i, uint32_t fou
         const JoxV2 offset = jox_offset(a, i, other);
         if (only && !(a->tags[other] & only))
             continue;
-        targets[n++] =
-            (Target){.index = other,
-                     .offset = offset,
-                     .to_centre = offset,
-                     .gap = jox_length(offset) - jox_at(radius, i) - jox_at(radius, other)};
+        targets[n++] = (Target){.index = other, .offset = offset, .to_centre = offset};
     }
     return n;
 }
@@ -74,12 +69,20 @@ static uint32_t find_body_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Tar
     return n;
 }
 
+/* Returns the gap between agent i and a target, m. */
+static float find_gap(const JoxForces *f, uint32_t i, const Target *target) {
+    const JoxParameterColumn radius = f->step.agents->param[JOX_PARAM_radius];
+    return target->is_body
+               ? target->gap
+               : jox_length(target->offset) - jox_at(radius, i) - jox_at(radius, target->index);
+}
+
 /* Keeps the nearest target; of equals the first found, which has the least id. */
-static uint32_t keep_nearest(Target *targets, uint32_t n) {
+static uint32_t keep_nearest(const JoxForces *f, uint32_t i, Target *targets, uint32_t n) {
     JOX_ASSERT(n > 0);
     uint32_t best = 0;
     for (uint32_t k = 1; k < n; k++)
-        if (targets[k].gap < targets[best].gap)
+        if (find_gap(f, i, &targets[k]) < find_gap(f, i, &targets[best]))
             best = k;
     targets[0] = targets[best];
     return 1;
@@ -124,7 +127,7 @@ static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 aim,
     if (!n)
         return;
     if (f->in.push_nearest && f->in.push_nearest[i])
-        n = keep_nearest(targets, n);
+        n = keep_nearest(f, i, targets, n);
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < n; k++) {
         JoxV2 force = compute_push(f, i, aim, &targets[k], n);
