@@ -147,17 +147,13 @@ static inline JoxFloats jox_walled_reach(JoxFloats radii) {
     return radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
 }
 
-/* Returns those of `near_walls` (bits) that have a wall nearer than some of the `most` neighbours
-   may be when it counts. */
-static inline uint32_t jox_find_walled(const JoxSolve *s, uint32_t first, uint32_t near_walls,
-                                       const JoxNeighbour *nearest, uint32_t most) {
-    JoxFloats radii = jf_set(0.0f);
-    if (!s->step.touched || !near_walls)
+/* Returns the lanes (bits) that have a wall nearer than neighbours may be when it counts. `widest`:
+   greatest sum of radii with one, m. */
+static inline uint32_t jox_find_walled(const JoxPacket *p, JoxFloats widest) {
+    const JoxFloats reach = jox_walled_reach(widest);
+    if (!p->s->step.touched || !p->near_walls)
         return 0;
-    for (uint32_t k = 0; k < most; k++)
-        radii = jf_max(radii, nearest[k].pair.radii);
-    const JoxFloats reach = jox_walled_reach(radii);
-    return near_walls & ~jm_bits(jox_wall_grid_clear_lanes(s->unhidden2, first, reach));
+    return p->near_walls & ~jm_bits(jox_wall_grid_clear_lanes(p->s->unhidden2, p->first, reach));
 }
 
 /* Returns the lanes from which a wall may hide the neighbour, whose indices are given;
@@ -179,8 +175,8 @@ static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, cons
 }
 
 /* Loads the pairs with the `most` first neighbours of the lanes. A lane with fewer gets arbitrary
-   ones. */
-static inline __attribute__((always_inline)) void
+   ones. Returns the greatest sum of radii, m. */
+static inline __attribute__((always_inline)) JoxFloats
 jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const uint32_t walkers,
                 const bool periodic, JoxNeighbour out[JOX_MOST_NEIGHBOURS]) {
     const JoxNeighbours *near = p->s->step.neighbours;
@@ -188,6 +184,7 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
     const float *motions = &near->motions[0].x;
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     const uint32_t *others = near->index + jox_neighbour_at(near, p->first, 0);
+    JoxFloats widest = jf_set(0.0f);
     for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
         JoxFloats motion[4];
         jf_records_at(motions, others, motion);
@@ -199,9 +196,11 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
             q.y = jf_wrap(q.y, a->period.y);
         }
         out[k].pair = q;
+        widest = jf_max(widest, q.radii);
         if (walkers)
             out[k].velocity = (JoxVector){motion[2], motion[3]};
     }
+    return widest;
 }
 
 /* Makes the half-planes of walkers for one neighbour of each lane; *there: lanes that have one. */
@@ -271,8 +270,8 @@ jox_put_rows(JoxPacket *p, const uint32_t walkers, const bool periodic) {
     JoxTouched touched;
     jox_note_touched(p, &touched);
     JoxNeighbour nearest[JOX_MOST_NEIGHBOURS];
-    jox_fetch_pairs(p, &self, counts.most, walkers, periodic, nearest);
-    const uint32_t walled = jox_find_walled(s, p->first, p->near_walls, nearest, counts.most);
+    const uint32_t walled =
+        jox_find_walled(p, jox_fetch_pairs(p, &self, counts.most, walkers, periodic, nearest));
     const uint32_t some_tested = scalar_tested | walled | (touched.rows ? p->touching : 0);
     for (uint32_t k = 0; (all & ~walkers) && k < counts.most; k++)
         nearest[k].half =
