@@ -14,7 +14,7 @@ return machine {
       { to = "Gone",  when = there },
       { to = "Wait",  when = now.speed:below(0.2 * own.speed) & after(1) } },
 
-    Wait = { steer = hold, lasts = uniform(6, 8),
+    Wait = { steer = hold, step_back = 0, lasts = uniform(6, 8), -- keeps the ground that a push gains
       { to = "Press", when = lasted } },
 
     Press = { steer = field(own.goal), horizon = 0.5, push = 80 * max(now.speed, own.speed),

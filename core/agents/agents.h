@@ -105,6 +105,9 @@ typedef enum JoxForceRole {
     X(STATE, float, still)          /* time since it last moved 0.25 m, s */                       \
     X(STATE, float, still_x)        /* position when it last had moved so far */                   \
     X(STATE, float, still_y)                                                                       \
+    X(STATE, float, displaced_x) /* from where it stood before others moved it, m */               \
+    X(STATE, float, displaced_y)                                                                   \
+    X(STATE, float, settled)       /* time since it was last moved away from there, s */           \
     X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
     X(STATE, uint32_t, turn)       /* order among agents that gather in a place; 0: none */        \
@@ -212,6 +215,13 @@ static inline bool jox_walks(const JoxAgents *agents, uint32_t i) {
 static inline bool jox_stands(const JoxAgents *agents, uint32_t i) {
     float x = agents->pref_x[i], y = agents->pref_y[i];
     return x * x + y * y < JOX_STANDS * JOX_STANDS;
+}
+#define JOX_STEP_REACTION 0.3f /* s from when an agent rests to its first step back */
+#define JOX_STEP_LOAD 10.0f    /* N: an agent that others press harder takes no steps */
+/* Returns whether agent i, which stands, steps back to where it stood before others moved it. */
+static inline bool jox_steps_back(const JoxAgents *agents, uint32_t i) {
+    return agents->settled[i] > JOX_STEP_REACTION && agents->load[i] <= JOX_STEP_LOAD &&
+           jox_stands(agents, i);
 }
 /* Returns whether agent i stands and feels a force: it then plans its velocity in every step, as
    the force changes in every step. Known once the forces are summed. */

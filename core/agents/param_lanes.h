@@ -16,5 +16,16 @@ static inline JoxFloats jox_param_of(JoxParameterColumn column, const uint32_t *
 static inline JoxFloats jox_param_pick(JoxParameterColumn column, JoxInts agents) {
     return column.mask ? jf_pick(column.cells, agents) : jf_set(column.cells[0]);
 }
+/* jox_stands, by lane. */
+static inline JoxMask jox_stands_lanes(const JoxAgents *a, uint32_t first) {
+    const JoxFloats x = jf_load(a->pref_x + first), y = jf_load(a->pref_y + first);
+    return jf_lt(x * x + y * y, jf_set((float)(JOX_STANDS * JOX_STANDS)));
+}
+/* jox_steps_back, by lane. */
+static inline JoxMask jox_steps_back_lanes(const JoxAgents *a, uint32_t first) {
+    const JoxMask settled = jf_lt(jf_set(JOX_STEP_REACTION), jf_load(a->settled + first));
+    const JoxMask free = jf_le(jf_load(a->load + first), jf_set(JOX_STEP_LOAD));
+    return jm_and(jm_and(settled, free), jox_stands_lanes(a, first));
+}
 
 #endif

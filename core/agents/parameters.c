@@ -48,6 +48,7 @@ bool jox_parameter_acts_in_literal(JoxParameter parameter) {
     case JOX_PARAM_time_gap:
     case JOX_PARAM_haste:
     case JOX_PARAM_turn:
+    case JOX_PARAM_step_back:
         return false;
     default:
         return true;

@@ -30,7 +30,9 @@
       "time gap kept to people ahead, by the walking law; 0: velocities are chosen by ORCA")       \
     X(haste, "", 0, 1, 0.5, "motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness")            \
     X(turn, "", 0, 0.6, 0.4,                                                                       \
-      "share of the radius that an agent under way saves in contacts by turning a shoulder")
+      "share of the radius that an agent under way saves in contacts by turning a shoulder")       \
+    X(step_back, "m/s", 0, 2, 0.13,                                                                \
+      "speed at which an agent that stands steps back to where it stood before it was moved")
 
 typedef enum JoxParameter {
 #define X(name, unit, least, greatest, value, meaning) JOX_PARAM_##name,

@@ -8,12 +8,6 @@
 #include "force/equations.h"
 #include "simd/vectors.h"
 
-/* jox_stands, by lane. */
-static inline JoxMask jox_stands_lanes(const JoxAgents *a, uint32_t i) {
-    const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i);
-    return jf_lt(jv_dot(preferred, preferred), jf_set((float)(JOX_STANDS * JOX_STANDS)));
-}
-
 /* jox_sum_terms, by lane; `roles` is a compile-time constant. */
 static inline JoxVector jox_sum_terms_lanes(const JoxAgents *a, uint32_t i, uint32_t roles) {
     JoxVector sum = {jf_set(-0.0f), jf_set(-0.0f)};

@@ -3,7 +3,7 @@ local steps = { 0.01, 0.02, 0.05, 0.1, 0.2 } -- s
 local function run(dt, mode)
   return { scene = "../stability.yaml", dt = dt, seeds = 8, set = { ["forces.mode"] = mode } }
 end
-local function moved(run) return run.summary.probes.standing.mean end
+local function moved(run) return run.summary.probes.standing.peak_mean end
 local function transit(run) return run.summary.probes.passage.mean end
 
 local runs, moved_printed, transit_printed = {}, {}, {}
@@ -18,7 +18,7 @@ for i = 1, #steps do
 end
 
 local expect = {
-  { "moved_dt020", what = "residual displacement, dt 0.02 s against 0.01 s", source = "hardly changes; band ours",
+  { "moved_dt020", what = "greatest displacement, dt 0.02 s against 0.01 s", source = "hardly changes; band ours",
     band = { -0.2, 0.2 } },
   { "moved_dt050", what = "the same, dt 0.05 s", source = "hardly changes; band ours", band = { -0.2, 0.2 } },
   { "transit_dt020", what = "transit time, dt 0.02 s against 0.01 s", source = "hardly changes; band ours",
@@ -28,7 +28,7 @@ local expect = {
 for i = 2, #steps do
   local name = string.format("literal%03.0f", 1000 * steps[i])
   expect[#expect + 1] = { "moved_" .. name, reported = true,
-    what = string.format("residual displacement by the equations as printed, dt %g s against 0.01 s", steps[i]) }
+    what = string.format("greatest displacement by the equations as printed, dt %g s against 0.01 s", steps[i]) }
   expect[#expect + 1] = { "transit_" .. name, reported = true,
     what = string.format("transit time by the equations as printed, dt %g s against 0.01 s", steps[i]) }
 end
@@ -36,7 +36,7 @@ end
 return claim {
   id = "12", title = "What happens hardly depends on the time step",
   source = "Kim et al. 2014, Fig. 16",
-  text = "One runs through fifty people who stand 0.6 m apart: residual displacement and transit time at steps of 0.02 "
+  text = "One runs through fifty people who stand 0.6 m apart: greatest displacement and transit time at steps of 0.02 "
     .. "and 0.05 s, compared with those at 0.01 s. Steps longer than 0.05 s are cut into steps of 0.05 s, so 0.1 and "
     .. "0.2 s are the same run and are not counted. The equations as printed act within a step of whatever length: "
     .. "they are run at all five.",
@@ -57,9 +57,9 @@ return claim {
   end,
   expect = expect,
   plots = { { name = "steps", title = "Against the step of 0.01 s", x = "time step (s)", y = "relative difference",
-    { "residual displacement", figures = { { 0.02, "moved_dt020" }, { 0.05, "moved_dt050" } } },
+    { "greatest displacement", figures = { { 0.02, "moved_dt020" }, { 0.05, "moved_dt050" } } },
     { "transit time", figures = { { 0.02, "transit_dt020" }, { 0.05, "transit_dt050" } } },
-    { "residual displacement, as printed", figures = moved_printed },
+    { "greatest displacement, as printed", figures = moved_printed },
     { "transit time, as printed", figures = transit_printed } } },
   pictures = { dt050 = { "paths.png", "standing.png" } },
 }

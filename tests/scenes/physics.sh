@@ -34,10 +34,10 @@ between "circle: agents that arrive" "$(grep -o '"Rest": [0-9]*' "$work/c.json" 
 for forces in true false; do
     "$JOSTLE" run scenes/running-through.yaml --quiet --set forces.enabled=$forces --record "$work/r-$forces.sqlite"
     moved[$([ $forces = true ] && echo 1 || echo 0)]=$(sql "$work/r-$forces.sqlite" "
-        SELECT avg(abs(a.pos_x - b.pos_x) + abs(a.pos_y - b.pos_y)) FROM trajectory_data a
-        JOIN trajectory_data b ON a.id = b.id WHERE a.frame = 1 AND b.frame = 100 AND a.id < 25")
+        SELECT avg(most) FROM (SELECT max(abs(a.pos_x - b.pos_x) + abs(a.pos_y - b.pos_y)) AS most
+        FROM trajectory_data a JOIN trajectory_data b ON a.id = b.id WHERE a.frame = 1 AND a.id < 25 GROUP BY a.id)")
 done
-between "running-through: displacement of pushed people, m" "${moved[1]}" 0.05 2
+between "running-through: greatest displacement of pushed people, m" "${moved[1]}" 0.05 2
 awk -v a="${moved[1]}" -v b="${moved[0]}" 'BEGIN {exit !(a > b)}'; verdict "displacement is greater than without forces (${moved[1]} against ${moved[0]})" $?
 
 "$JOSTLE" run scenes/dodgeball.yaml --for 30 --quiet --summary "$work/d.json" --record "$work/d.sqlite"

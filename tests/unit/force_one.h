@@ -39,11 +39,12 @@ static JoxV2 plain_sum_terms(const JoxAgents *a, uint32_t i) {
 }
 
 /* Returns whether a net force of `size` newtons bounds agent i's plan. Even the faintest contact
-   does: otherwise what the feet took of it would be missing from the total momentum. */
+   does: otherwise what the feet took of it would be missing from the total momentum; not that of an
+   agent which steps back. */
 static bool plain_is_felt(const JoxForces *f, uint32_t i, float size) {
     const JoxAgents *a = f->step.agents;
     bool touched = a->contact_x[i] != 0.0f || a->contact_y[i] != 0.0f;
-    float least = touched ? 1e-6f : f->options.least;
+    float least = touched && !jox_steps_back(a, i) ? 1e-6f : f->options.least;
     return size >= least * jox_param(a, JOX_PARAM_mass, i) && isfinite(size);
 }
 

@@ -108,7 +108,8 @@ static void people_at_rest_stay_at_rest(void **state) {
     }
 }
 
-/* 36 people who prefer to stand start at 1.5 m/s in a closed room: they only slow down. */
+/* 36 people who prefer to stand, and take no steps back, start at 1.5 m/s in a closed room: they
+   only slow down. */
 static void crowd_that_prefers_rest_only_slows(void **state) {
     (void)state;
     for (int k = 0; k < 8; k++) {
@@ -124,7 +125,8 @@ static void crowd_that_prefers_rest_only_slows(void **state) {
             def.x = 0.3 + 0.48 * (i % 6);
             def.y = 0.3 + 0.48 * (i / 6);
             double way = TURN * draw_unit(77, i);
-            add_person(&e, def, 1.5 * cos(way), 1.5 * sin(way));
+            JoAgent one = add_person(&e, def, 1.5 * cos(way), 1.5 * sin(way));
+            jo_agent_set_parameter(e.world, one, "step_back", 0, NULL);
         }
         Growth g = watch_energy(&e, 4.0, false);
         if (g.step > GROWS || g.all > GROWS)

@@ -71,8 +71,9 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     jv_store(a->force_x, a->force_y, i, force);
     const JoxFloats size = jf_sqrt(jv_dot(force, force));
     /* Even the faintest contact bounds a plan: otherwise what the feet took of it would be missing
-       from the total momentum. */
-    const JoxFloats least = jf_select(touched, jf_set(1e-6f), jf_set(f->options.least));
+       from the total momentum. Not that of an agent which steps back, by its own feet. */
+    const JoxMask slightest = jm_without(touched, jox_steps_back_lanes(a, i));
+    const JoxFloats least = jf_select(slightest, jf_set(1e-6f), jf_set(f->options.least));
     const JoxMask felt = jm_and(jf_le(least * mass, size), jf_lt(size, jf_set(INFINITY)));
     const Planning plan = load_planning(&f->step, i, stands, decays);
     const JoxVector normal = jv_scale(force, 1.0f / size);

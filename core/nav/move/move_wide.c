@@ -5,6 +5,7 @@
 
 #include "geom/wall_grid_lanes.h"
 #include "nav/move/move.h"
+#include "nav/step_back_lanes.h"
 #include "simd/vectors.h"
 
 void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end) {
@@ -126,6 +127,8 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         const JoxVector at = jv_load(x, y, 0), way = jv_sub(at, from);
         jv_store(a->x, a->y, i, at);
         extend_ways(&ways, jm_of_bits(there), way);
+        if (!m->nav->literal)
+            jox_note_displacement_lanes(a, i, way, (float)m->step.timing.dt);
         const uint32_t out = there & jm_bits(jm_or(find_outside(at.x, a->origin.x, a->period.x),
                                                    find_outside(at.y, a->origin.y, a->period.y)));
         for (uint32_t lane = 0; out >> lane; lane++)

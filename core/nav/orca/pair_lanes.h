@@ -90,6 +90,21 @@ typedef struct JoxSelf {
     JoxOrcaSelf orca;
 } JoxSelf;
 
+/* Returns by ORCA's parameters how agents avoid others. Equation 3 prints u/2. Agents that step
+   back to where they stood look twice as far ahead and take all of u, so that nobody has to give
+   way. */
+static inline JoxOrcaSelf jox_orca_self_of(const JoxSolve *s, uint32_t first) {
+    const JoxAgents *a = s->step.agents;
+    const JoxVector velocity = jv_load(a->vx, a->vy, first);
+    const JoxFloats inverse = 1.0f / jox_param_lanes(a, JOX_PARAM_horizon, first);
+    if (s->nav->literal)
+        return (JoxOrcaSelf){velocity, inverse, jf_set(0.5f)};
+    const JoxMask steps = jox_steps_back_lanes(a, first);
+    const JoxFloats yield = jox_param_lanes(a, JOX_PARAM_yield, first);
+    return (JoxOrcaSelf){velocity, jf_select(steps, 0.5f * inverse, inverse),
+                         jf_select(steps, jf_set(1.0f), yield)};
+}
+
 /* Loads it for the agents from `first` on. `walkers`: lanes (bits) that walk by the law. */
 static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t walkers) {
     const JoxAgents *a = s->step.agents;
@@ -101,11 +116,7 @@ static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t wa
         .y = jf_load(a->y + first),
         .radius = jox_param_lanes(a, JOX_PARAM_radius, first),
         .room = room,
-        .orca = {.velocity = jv_load(a->vx, a->vy, first),
-                 .inverse = 1.0f / jox_param_lanes(a, JOX_PARAM_horizon, first),
-                 /* equation 3 prints u/2 */
-                 .share =
-                     s->nav->literal ? jf_set(0.5f) : jox_param_lanes(a, JOX_PARAM_yield, first)},
+        .orca = jox_orca_self_of(s, first),
     };
 }
 

@@ -10,6 +10,7 @@
 #include "nav/near/perceive.h"
 #include "nav/orca/solve.h"
 #include "nav/orca/wish_lanes.h"
+#include "nav/step_back_lanes.h"
 #include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_solve_packets_##name,
@@ -142,14 +143,15 @@ static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlane
     const JoxWish wish = jox_wish_of(s, i);
     JoxVector wanted = wish.preferred;
     bool kept_off = false;
-    if (jox_solve_walks(s, i))
-        return jox_v2(a->walk_x[i], a->walk_y[i]);
     for (uint32_t k = made->walls; k < made->walls + made->contacts + made->agents; k++) {
         const JoxVector normal = {planes[k].normal.x, planes[k].normal.y};
         kept_off |= jox_is_kept_off(&wish, normal, planes[k].offset);
     }
-    if (wish.may_turn && kept_off)
+    if (jox_solve_walks(s, i))
+        wanted = jv_load(a->walk_x, a->walk_y, i);
+    else if (wish.may_turn && kept_off)
         wanted = jox_turn_wish(wanted, wish.gets_on ? 0.0f : jox_turn_aside(s, i));
+    wanted = jox_add_steps_lanes(a, i, wanted);
     return jox_v2(wanted.x, wanted.y);
 }
 

@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "nav/orca/packet_lanes.h"
 #include "nav/orca/wish_lanes.h"
+#include "nav/step_back_lanes.h"
 
 /* ---- wanted velocities, and the solution ---- */
 
@@ -28,7 +29,7 @@ static JoxFloats find_turns(const JoxPacket *p, uint32_t lanes) {
 }
 
 /* Returns the wanted velocities: preferred ones, some of them turned aside, which is noted; those
-   of walkers were chosen by jox_nav_walk. */
+   of walkers were chosen by jox_nav_walk; agents that stand step back. */
 static JoxVector find_wanted_lanes(const JoxPacket *p) {
     const JoxAgents *a = p->s->step.agents;
     const JoxWish wish = jox_wish_of(p->s, p->first);
@@ -44,7 +45,7 @@ static JoxVector find_wanted_lanes(const JoxPacket *p) {
         a->plan_notes[p->first + (uint32_t)__builtin_ctz(lanes)] |= JOX_NOTE_TURNED_ASIDE;
     if (p->walkers)
         wanted = jv_select(jm_of_bits(p->walkers), jv_load(a->walk_x, a->walk_y, p->first), wanted);
-    return wanted;
+    return jox_add_steps_lanes(a, p->first, wanted);
 }
 
 /* Lists the half-planes of one lane; returns their counts. */

@@ -1,0 +1,66 @@
+/* Balance recovery: agents that stand step back to where they stood after others moved them (column
+   `displaced`, parameter `step_back`). Each step's move adds to the displacement (move_wide.c); the
+   wanted velocity of an agent that stands is one that takes it off again (solve_wide.c, and solve.c
+   at width 1). Half-planes of forces, contacts and neighbours bound it like any wanted velocity: so
+   nobody steps against a force that it feels, nor where there is no room. */
+#ifndef JOX_NAV_STEP_BACK_LANES_H
+#define JOX_NAV_STEP_BACK_LANES_H
+
+#include "agents/param_lanes.h"
+#include "simd/vectors.h"
+
+/* Five people whom a push had moved by 0.11 to 0.40 m towards a wall ended 0.02 to 0.13 m behind
+   where they had stood (Feldmann and Adrian 2023): a share of what a force moves them. */
+#define JOX_STEP_BEYOND 0.25f
+#define JOX_STEP_REST 0.1f   /* m/s: slower motion away counts as none */
+#define JOX_STEP_REACH 1.0f  /* m: farther from where they stood, agents move that place along */
+#define JOX_STEP_LEAST 1e-3f /* m: lesser displacements are forgotten */
+#define JOX_STEP_FORGOTTEN                                                                         \
+    30.0f /* s: after it 37 % of a displacement are left that nothing undid */
+/* m/s2: how steps slow down at the end, so gently that nobody near feels a force of (8), from 0.05
+   m/s2 on. */
+#define JOX_STEP_SLOWING 0.06f
+
+/* Adds the velocity of steps back to what the agents from `first` on want, m/s. */
+static inline JoxVector jox_add_steps_lanes(const JoxAgents *a, uint32_t first, JoxVector wanted) {
+    const JoxFloats zero = jf_set(0.0f);
+    const JoxVector displaced = jv_load(a->displaced_x, a->displaced_y, first);
+    const JoxFloats size2 = jv_dot(displaced, displaced);
+    const JoxMask steps = jm_and(jox_steps_back_lanes(a, first), jf_lt(zero, size2));
+    if (!jm_bits(steps))
+        return wanted;
+    const JoxFloats size = jf_sqrt(size2);
+    const JoxFloats speed = jf_min(jox_param_lanes(a, JOX_PARAM_step_back, first),
+                                   jf_sqrt(2.0f * JOX_STEP_SLOWING * size));
+    const JoxVector step = jv_scale(displaced, speed / size);
+    return jv_select(steps, jv_sub(wanted, step), wanted);
+}
+
+/* Adds a move of `dt` seconds to how far the agents from `first` on are displaced from where they
+   stood, m: begins with a move under a force. Agents that want to walk, and those that do not step
+   back, have no such place. */
+static inline void jox_note_displacement_lanes(JoxAgents *a, uint32_t first, JoxVector move,
+                                               float dt) {
+    const JoxFloats zero = jf_set(0.0f);
+    const JoxVector before = jv_load(a->displaced_x, a->displaced_y, first);
+    const JoxVector force = jv_load(a->half_plane_x, a->half_plane_y, first);
+    const JoxFloats known = jv_dot(before, before) + jv_dot(force, force);
+    const JoxMask may = jm_and(jm_and(jox_stands_lanes(a, first), jf_lt(zero, known)),
+                               jf_lt(zero, jox_param_lanes(a, JOX_PARAM_step_back, first)));
+    if (!jm_bits(jf_lt(zero, known)))
+        return;
+    const JoxFloats pushed = jf_max(zero, jv_dot(move, force));
+    const JoxVector now = jv_add(jv_scale(before, jf_set(1.0f - dt / JOX_STEP_FORGOTTEN)),
+                                 jv_add(move, jv_scale(force, JOX_STEP_BEYOND * pushed)));
+    const JoxFloats size2 = jv_dot(now, now), size = jf_sqrt(size2);
+    const JoxMask kept = jm_and(may, jm_and(jf_lt(jf_set(JOX_STEP_LEAST * JOX_STEP_LEAST), size2),
+                                            jf_lt(size2, jf_set(INFINITY))));
+    const JoxFloats within = jf_min(jf_set(1.0f), JOX_STEP_REACH / size);
+    jv_store(a->displaced_x, a->displaced_y, first,
+             jv_select(kept, jv_scale(now, within), (JoxVector){zero, zero}));
+    const JoxMask leaves = jf_lt(JOX_STEP_REST * dt * size, jv_dot(move, now));
+    const JoxFloats time = jf_load(a->settled + first) + dt;
+    jf_store(a->settled + first, jf_select(jm_without(kept, leaves), time, zero));
+}
+
+#endif
