@@ -11,12 +11,11 @@
 
 /* Five people whom a push had moved by 0.11 to 0.40 m towards a wall ended 0.02 to 0.13 m behind
    where they had stood (Feldmann and Adrian 2023): a share of what a force moves them. */
-#define JOX_STEP_BEYOND 0.25f
+#define JOX_STEP_BEYOND 0.3f
 #define JOX_STEP_REST 0.1f   /* m/s: slower motion away counts as none */
 #define JOX_STEP_REACH 1.0f  /* m: farther from where they stood, agents move that place along */
 #define JOX_STEP_LEAST 1e-3f /* m: lesser displacements are forgotten */
-#define JOX_STEP_FORGOTTEN                                                                         \
-    30.0f /* s: after it 37 % of a displacement are left that nothing undid */
+#define JOX_STEP_FORGOTTEN 60.0f /* s: after it 37 % are left of what nothing undid */
 /* m/s2: how steps slow down at the end, so gently that nobody near feels a force of (8), from 0.05
    m/s2 on. */
 #define JOX_STEP_SLOWING 0.06f
