@@ -3,10 +3,15 @@
 #include <string.h>
 
 #include "agents/agents.h"
+#include "base/mem.h"
 
 /* Treatment of a column by its mark: only state is listed. */
 #define KEEP_STATE(s, a, name)                                                                     \
     jox_section_ordered(s, #name, (a)->name, sizeof *(a)->name, (a)->count, order);
+#define KEEP_RARE(s, a, name)                                                                      \
+    if ((s)->mode != JOX_SECTIONS_HASH ||                                                          \
+        !jox_mem_is((a)->name, 0, (a)->count * sizeof *(a)->name))                                 \
+    KEEP_STATE(s, a, name)
 #define KEEP_SCRATCH(s, a, name)
 #define KEEP_HINT(s, a, name)
 #define KEEP_INDEX(s, a, name)
@@ -160,6 +165,7 @@ void jox_agents_sections(JoxAgents *a, JoxSections *s) {
 }
 
 #define FORGET_STATE(a, name)
+#define FORGET_RARE(a, name)
 #define FORGET_INDEX(a, name)
 #define FORGET_SCRATCH(a, name) memset((a)->name, 0xff, (a)->count * sizeof *(a)->name);
 #define FORGET_HINT(a, name) FORGET_SCRATCH(a, name)

@@ -10,6 +10,7 @@
 typedef void ColumnVisitor(void *context, void **column, size_t size);
 enum {
     COLUMN_STATE,
+    COLUMN_RARE,
     COLUMN_INDEX,
     COLUMN_HINT,
     COLUMN_SCRATCH

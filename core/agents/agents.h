@@ -40,10 +40,11 @@ typedef enum JoxForceRole {
 } JoxForceRole;
 
 /* X(keep, type, name): meaning. Units: m, m/s, N, s. STATE: carried from step to step, so it is
-   hashed and saved. SCRATCH: written by every step before it is read; between steps it holds values
-   of the last step, which a restored world lacks until the next, and sorting drops them. HINT:
-   scratch that tells where to begin and changes no result; sorting keeps it with its agent. INDEX:
-   derived from state, kept up by the functions below. */
+   hashed and saved. RARE: state that is 0 in most worlds, and hashed where it is not. SCRATCH:
+   written by every step before it is read; between steps it holds values of the last step, which a
+   restored world lacks until the next, and sorting drops them. HINT: scratch that tells where to
+   begin and changes no result; sorting keeps it with its agent. INDEX: derived from state, kept up
+   by the functions below. */
 #define JOX_AGENT_COLUMNS(X)                                                                       \
     X(STATE, uint32_t, id)      /* counts up from 0, never reused */                               \
     X(STATE, uint32_t, slot)    /* row of the handle table */                                      \
@@ -114,6 +115,7 @@ typedef enum JoxForceRole {
     X(STATE, uint32_t, kicked)     /* reference to the body kicked last step */                    \
     X(STATE, uint32_t, struck)     /* reference to the fast body that hit it last step */          \
     X(STATE, uint32_t, kick_ready) /* tick from which it may kick again */                         \
+    X(RARE, uint32_t, parting)     /* reference to the body that it kicked and still passes */     \
     X(STATE, uint64_t, ignore)     /* tags of agents and bodies that are not avoided */            \
     X(STATE, uint64_t, push_only)  /* tags that are pushed; 0: all */                              \
     X(STATE, uint32_t, approach)   /* reference to the body approached, not anticipated */         \

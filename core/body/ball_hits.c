@@ -139,7 +139,8 @@ bool jox_sweep(const JoxDiscGrid *grid, const JoxDisc *discs, const JoxSweep *sw
         for (uint32_t k = grid->starts[y * grid->columns + x0];
              k < grid->starts[y * grid->columns + x1 + 1]; k++) {
             JoxSweepHit h = {.disc = grid->items[k]};
-            if (!find_disc_hit(sweep, &discs[h.disc], &h))
+            if (discs[h.disc].parting == sweep->row + 1 ||
+                !find_disc_hit(sweep, &discs[h.disc], &h))
                 continue;
             JOX_CHECK(jox_sweep_hit_check(sweep, &h));
             if (!found || h.time < hit->time ||

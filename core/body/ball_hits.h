@@ -23,6 +23,7 @@ void jox_disc_grid_free(JoxDiscGrid *grid);
 typedef struct JoxSweep {
     JoxV3 from, velocity;
     float radius, begin, span, dt, height;
+    uint32_t row; /* of the ball */
 } JoxSweep;
 
 typedef struct JoxSweepHit {

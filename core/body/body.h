@@ -197,6 +197,7 @@ void jox_bodies_momentum(const JoxBodies *bodies, double out[3]);
 /* Person in the sweep of fast bodies: an upright cylinder that moves evenly during the step. */
 typedef struct JoxDisc {
     uint32_t id;          /* decides between hits at the same time: the lower id is hit */
+    uint32_t parting;     /* 1 + row of a body that passes it without a hit; 0: none */
     float x, y;           /* at the step's start, m */
     float move_x, move_y; /* displacement during the step, m */
     float radius, mass;   /* m, kg */

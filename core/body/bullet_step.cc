@@ -88,7 +88,8 @@ static void sweep_fast_bodies(JoxBodies *b, JoxDisc *discs, float begin, float s
                           begin,
                           span,
                           dt,
-                          float(b->def.person_height)};
+                          float(b->def.person_height),
+                          b->order[k]};
         JoxSweepHit hit;
         if (jox_sweep(&b->grid, discs, &sweep, &hit))
             apply_person_hit(b, b->order[k], discs, &sweep, &hit);

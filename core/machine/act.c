@@ -10,6 +10,7 @@
 #include "machine/machine_parts.h"
 
 static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
+static const float AT_REST = 0.1f;    /* m/s: slower bodies do not pass their kicker */
 
 /* Evaluates the computed parameters of a batch, and notes those that are odd. */
 static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
@@ -109,6 +110,29 @@ static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     }
 }
 
+/* Returns whether agent i still passes the body that it kicked: nobody kicks against an own foot.
+   It does until the body is clear of it and moves away, or has come to rest. */
+static bool still_passes(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    const uint32_t row = (uint32_t)jox_referred(a->parting[i]);
+    if (!run->objects || row >= run->objects->count)
+        return false;
+    const JoxObject *body = &run->objects->rows[row];
+    const JoxV2 offset = {body->position.x - a->x[i], body->position.y - a->y[i]};
+    const JoxV2 relative = {body->velocity.x - a->vx[i], body->velocity.y - a->vy[i]};
+    const float reach = body->footprint_count ? body->disc : body->round;
+    const bool clear = jox_length(offset) > reach + jox_param(a, JOX_PARAM_radius, i);
+    return body->live && !body->held && jox_length2(relative) > AT_REST * AT_REST &&
+           !(clear && jox_dot(offset, relative) >= 0.0f);
+}
+
+static void end_passing(JoxMachineRun *run) {
+    JoxAgents *a = run->agents;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->parting[i] && !still_passes(run, i))
+            a->parting[i] = 0;
+}
+
 /* Kicks the target of the state if the agent touches it: an impulse through the body's centre,
    towards kick_at or straight ahead, raised by the lift. */
 static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
@@ -141,7 +165,7 @@ static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     run->kicks[run->kick_count++] = (JoxImpulse){.object = (uint32_t)ball.object,
                                                  .impulse = {way.x * level, way.y * level, up},
                                                  .point = object->position};
-    a->kicked[i] = jox_reference(ball.object);
+    a->kicked[i] = a->parting[i] = jox_reference(ball.object);
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }
 
@@ -260,6 +284,7 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     differ_by_programs(run);
     jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);
     jox_odd_tell(run, jox_odd_first(run->scratch->odd, run->scratch->workers));
+    end_passing(run);
     if (run->objects && run->objects->count)
         act_on_bodies(run);
     jox_mem_fill(a->held, 0, a->count);

@@ -250,6 +250,7 @@ static void check_kicks_and_grips(const JoxMachineRun *run) {
     for (uint32_t i = 0; i < run->agents->count; i++) {
         JOX_ASSERT(run->agents->kicked[i] <= objects);
         JOX_ASSERT(run->agents->approach[i] <= objects);
+        JOX_ASSERT(run->agents->parting[i] <= objects);
     }
 }
 

@@ -30,6 +30,7 @@ static uint32_t list_discs(const JoxAgents *a, JoxDiscList *list) {
     for (uint32_t n = 0; n < a->count; n++) {
         uint32_t i = list->agents[n];
         list->discs[n] = (JoxDisc){.id = a->id[i],
+                                   .parting = a->parting[i],
                                    .x = a->prev_x[i],
                                    .y = a->prev_y[i],
                                    .move_x = a->x[i] - a->prev_x[i],

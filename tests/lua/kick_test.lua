@@ -45,3 +45,34 @@ test("lift may be an expression", function()
   local _, top = flight "impulse = 8, lift = min(20 + 5 * count \"post\", 90) + 20"
   equal(top, expected)
 end)
+
+test("a kicked ball passes the kicker's own body, and goes where it is aimed at", function()
+  for _, lift in ipairs { 0, 20 } do
+    for _, impulse in ipairs { 1.5, 8 } do -- too slow to be swept, and swept
+      local s = scene {
+        places = { post = { point = { 20, 0 } } },
+        bodies = { { name = "ball", shape = { sphere = { radius = 0.11 } }, mass = 0.4, at = { 0, 0, 0.11 },
+          tags = { "ball" } } },
+        -- The kicker stands between the ball and the post.
+        groups = { one = { behaviour = kicker(("impulse = %g, lift = %g"):format(impulse, lift)),
+          at = { { 0.32, 0.02 } } } },
+      }
+      s:run(0.6)
+      truthy(s:body("ball").x > 0.6, "the ball is beyond the kicker, at " .. s:body("ball").x)
+      near(s:body("ball").y, 0, 0.02)
+      near(s:agents("one")[1].x, 0.32, 0.01)
+    end
+  end
+end)
+
+test("a ball that comes back to the kicker from a wall meets it", function()
+  local s = scene {
+    places = { post = { point = { 20, 0 } } },
+    walls = { { line = { { 1, -2 }, { 1, 2 } }, height = 3 } },
+    bodies = { { name = "ball", shape = { sphere = { radius = 0.11 } }, mass = 0.4, at = { 0, 0, 0.11 },
+      restitution = 1, tags = { "ball" } } },
+    groups = { one = { behaviour = kicker("impulse = 8"), at = { { -0.32, 0 } } } },
+  }
+  s:run(1)
+  truthy(s:agents("one")[1].x < -0.4, "it pushes the kicker back")
+end)

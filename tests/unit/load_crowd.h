@@ -42,6 +42,7 @@ static inline double crowd_draw(const MovingCrowd *c, uint32_t person, uint64_t 
 /* Returns the column of floats of this name, or NULL. */
 static inline const float *agent_column(const JoWorld *w, const char *name) {
 #define STATE(type, column) AGENT_COLUMN_##type(column)
+#define RARE(type, column) STATE(type, column)
 #define SCRATCH(type, column) AGENT_COLUMN_##type(column)
 #define INDEX(type, column)
 #define HINT(type, column) SCRATCH(type, column)
@@ -57,6 +58,7 @@ static inline const float *agent_column(const JoWorld *w, const char *name) {
     JOX_AGENT_COLUMNS(X)
 #undef X
 #undef STATE
+#undef RARE
 #undef SCRATCH
 #undef INDEX
 #undef HINT

@@ -51,8 +51,8 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
         uint32_t row;
         while (jox_objects_next(&walk, &row)) {
             const JoxObject *body = &f->step.objects->rows[row];
-            if (!body->swept && jox_object_reaches(body, at, reach) &&
-                find_touch(f, i, row, &touch))
+            if (!body->swept && jox_referred(a->parting[i]) != (int32_t)row &&
+                jox_object_reaches(body, at, reach) && find_touch(f, i, row, &touch))
                 jox_nearest_offer(&nearest, touch.gap, row);
         }
         touches->number[i] = (uint8_t)nearest.count;

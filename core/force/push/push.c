@@ -49,8 +49,8 @@ static uint32_t find_body_targets(const JoxForces *f, uint32_t i, JoxV2 aim, Tar
     uint32_t row, n = 0;
     while (jox_objects_next(&walk, &row)) {
         const JoxObject *body = &f->step.objects->rows[row];
-        if (body->swept || (only && !(body->tags & only)) ||
-            !jox_object_reaches(body, centre, radius + reach))
+        if (body->swept || jox_referred(a->parting[i]) == (int32_t)row ||
+            (only && !(body->tags & only)) || !jox_object_reaches(body, centre, radius + reach))
             continue;
         JoxFootprintPoint at = jox_footprint_nearest(body, centre);
         if (at.gap - radius < reach && jox_cone_holds(jox_scale(at.normal, -1.0f), aim, cosine) &&

@@ -41,7 +41,7 @@ static JoxHalfPlane make_body_plane(const JoxAgents *a, uint32_t i, Minded *m, f
 
 /* Returns whether agent i avoids the body of a row: the footprint must be within perception and,
    where `among` is given, may be one of the nearest. A body that the agent approaches counts even
-   where it ignores bodies of this kind. */
+   where it ignores bodies of this kind, and one that it just kicked never. */
 static bool is_body_avoided(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uint32_t row,
                             const JoxNearest *among) {
     const JoxObject *o = &objects->rows[row];
@@ -50,6 +50,8 @@ static bool is_body_avoided(const JoxAgents *a, uint32_t i, const JoxObjects *ob
     float away = jox_length(jox_v2(o->position.x - at.x, o->position.y - at.y));
     float apart = away - jox_maxf(o->disc, o->round); /* lower bound of the gap, m */
     if (apart > sight || (among && !jox_nearest_takes(among, apart)))
+        return false;
+    if (jox_referred(a->parting[i]) == (int32_t)row)
         return false;
     if (o->tags & a->ignore[i] && jox_referred(a->approach[i]) != (int32_t)row)
         return false;
