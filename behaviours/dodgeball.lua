@@ -4,14 +4,15 @@
 local ball, foe = nearest "ball", nearest "opponents"
 local mine = memory { hits = 0, dodges = 0 }
 local driven = now.driven:above(0)
-local flies_at_me = incoming(ball, 0.6) & ~grounded(ball)
-local REBOUND = 0.8 -- s after a kick, in which the ball may come back from the player's own body or wall
+local flying = nearest("ball"):flying() -- of many balls, the one to dodge is seldom the nearest
+local flies_at_me = sees(flying:incoming(0.6))
+local REBOUND = 0.8 -- s after a kick, in which the ball may come back from a wall
 
 -- The faster the run-up, the harder the kick; the farther the opponent, the higher.
 local kick = { ball, at = foe, impulse = 5 + own.run_up * now.speed, lift = clamp(2.5 * distance(foe), 8, 25) }
 
 return machine {
-  name = "dodgeball", version = 3, start = "Defense",
+  name = "dodgeball", version = 4, start = "Defense",
   defaults = { speed = 2.5, max_speed = 4, perception = 30, horizon = 2, mass = 70 },
   -- Share of flying balls that are noticed; time until the player moves, s; speed of a kick per speed of the run-up.
   own = { attention = 0.7, reaction = 0.3, run_up = 2 },
@@ -29,14 +30,16 @@ return machine {
       { to = "Hit",     when = hit_by(ball) },
       { to = "Dodge",   when = lasted } },
 
-    Dodge = { steer = dodge(ball, 0.8), face = ball, speed = 4,
+    Dodge = { steer = dodge(flying:incoming(0.8), 0.8), face = flying, speed = 4,
       { to = "Play",    when = driven },
       { to = "Hit",     when = hit_by(ball) },
-      { to = "Defense", when = grounded(ball) | after(1), set = { dodges = mine.dodges + 1 } } },
+      { to = "Defense", when = ~sees(flying) | after(1), set = { dodges = mine.dodges + 1 } } },
 
-    -- While the ball is approached it is not avoided, nor are agents in the way.
+    -- While the ball is approached it is not avoided, nor are agents in the way. Another one that flies at the player
+    -- is dodged.
     Attack = { steer = seek(ball), approach = ball, ignore = "ball", speed = 3.5, kick = kick,
       { to = "Play",    when = driven },
+      { to = "Notice",  when = flies_at_me & grounded(ball), chance = own.attention },
       { to = "Defense", when = kicked(ball) | ~inside(ball, own.court) } },
 
     Hit = { steer = hold, lasts = 1, set = { hits = mine.hits + 1 },

@@ -56,6 +56,22 @@ static inline bool jox_object_hides_people(const JoxObject *body) {
            body->high >= JOX_EYE_LEVEL && jox_maxf(body->disc, body->round) >= wide;
 }
 
+/* Returns whether a body is in the air: it can move, nobody carries it, and it touches neither the
+   ground nor a static body. */
+static inline bool jox_object_flies(const JoxObject *body) {
+    return body->live && body->moves && !body->held && !body->grounded;
+}
+
+/* Returns how near to a point something passes during the next 2 s if it keeps its velocity, m;
+   infinity if it moves away, or at less than 0.1 m/s. `offset` leads from the point to it. */
+static inline float jox_pass_distance(JoxV2 offset, JoxV2 velocity) {
+    const float speed2 = jox_length2(velocity), nearing = -jox_dot(offset, velocity);
+    if (speed2 < 0.01f || nearing <= 0.0f)
+        return INFINITY;
+    const float when = jox_minf(nearing / speed2, 2.0f);
+    return jox_length(jox_add(offset, jox_scale(velocity, when)));
+}
+
 /* An impulse on a body at a point, in world coordinates: N s and m. The share `lasting` acts evenly
    throughout the step, like the force of a person who leans on the body; the rest acts at the
    step's beginning. */

@@ -247,6 +247,24 @@ static void print_table_definition(JoxText *out, const char *class, const char *
     }
 }
 
+/* Prints a method of `nearest` and `neighbours`. */
+static void print_filter_definition(JoxText *out, const JoxWord *word) {
+    static const char *const CLASSES[] = {"Number", "Target"};
+    const bool flying = !strcmp(word->name, ":flying");
+    const bool metres = !strcmp(word->name, ":incoming");
+    for (size_t c = flying; c < 2; c++) { /* `neighbours` are people, who do not fly */
+        jox_text_printf(out, "--- %s\n", word->meaning);
+        if (!flying)
+            jox_text_printf(out, "---@param %s\n", metres ? "metres number" : "name string");
+        jox_text_printf(out, "---@return jostle.%s\nfunction %s%s(%s%s) end\n", CLASSES[c],
+                        CLASSES[c], word->name,
+                        flying   ? ""
+                        : metres ? "metres"
+                                 : "name",
+                        !strcmp(word->name, ":where") ? ", ..." : "");
+    }
+}
+
 void jox_lua_definitions(JoxText *out) {
     jox_text_add(
         out,
@@ -269,14 +287,9 @@ void jox_lua_definitions(JoxText *out) {
                         "Number:%s(n) end\n",
                         METHODS[m]);
     jox_text_add(out, "\n---@class jostle.Target\nlocal Target = {}\n");
-    static const char *const CLASSES[] = {"Number", "Target"};
     for (size_t w = 0; w < jox_word_count; w++)
-        for (size_t c = 0; *jox_words[w].name == ':' && c < 2; c++)
-            jox_text_printf(out,
-                            "--- %s\n---@param name string\n---@return jostle.%s\nfunction "
-                            "%s%s(name%s) end\n",
-                            jox_words[w].meaning, CLASSES[c], CLASSES[c], jox_words[w].name,
-                            !strcmp(jox_words[w].name, ":where") ? ", ..." : "");
+        if (*jox_words[w].name == ':')
+            print_filter_definition(out, &jox_words[w]);
     jox_text_add(out,
                  "\n---@class jostle.Drawn\n"
                  "\n---@class jostle.Steering\n---@operator add(jostle.Steering): jostle.Steering\n"

@@ -95,7 +95,9 @@ static JoxAgentFilter build_target_filter(JoxBuild *build, const JoxNodeFilter *
                            .memory = -1,
                            .group = filter->grouped ? filter->group : -1,
                            .least = filter->least,
-                           .greatest = filter->greatest};
+                           .greatest = filter->greatest,
+                           .flies = filter->flies,
+                           .comes = (float)filter->comes};
     if (filter->state)
         made.state = add_name_at(build, filter->state, JOX_NAME_STATE, &filter->state_at);
     if (filter->machine)
@@ -108,7 +110,7 @@ static JoxAgentFilter build_target_filter(JoxBuild *build, const JoxNodeFilter *
 static bool is_same_filter(const JoxAgentFilter *a, const JoxAgentFilter *b) {
     return a->some == b->some && a->state == b->state && a->machine == b->machine &&
            a->memory == b->memory && a->group == b->group && a->least == b->least &&
-           a->greatest == b->greatest;
+           a->greatest == b->greatest && a->flies == b->flies && a->comes == b->comes;
 }
 
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {

@@ -105,18 +105,10 @@ static bool is_target_near(const JoxMachineRun *run, uint32_t i, int32_t target,
                              (JoxV2){run->agents->x[i], run->agents->y[i]}, metres);
 }
 
-/* Returns whether the spot, at its present velocity, comes within `reach` m during the next 2 s. */
+/* Returns whether the spot, at its present velocity, passes within `reach` m of the agent. */
 static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot, double reach) {
-    const JoxAgents *a = run->agents;
-    if (!spot->found)
-        return false;
-    JoxV2 d = {spot->x - a->x[i], spot->y - a->y[i]};
-    JoxV2 v = {spot->vx - a->vx[i], spot->vy - a->vy[i]};
-    float speed2 = jox_length2(v);
-    if (speed2 < 0.01f || jox_dot(d, v) >= 0.0f)
-        return false;
-    float when = jox_clampf(-jox_dot(d, v) / speed2, 0.0f, 2.0f);
-    return jox_length(jox_add(d, jox_scale(v, when))) < (float)reach;
+    const JoxV2 offset = {spot->x - run->agents->x[i], spot->y - run->agents->y[i]};
+    return spot->found && jox_pass_distance(offset, jox_v2(spot->vx, spot->vy)) < (float)reach;
 }
 
 /* Evaluates a word about the agent's surroundings; `a` is the first input. */

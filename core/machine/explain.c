@@ -62,6 +62,10 @@ static bool print_infix(const JoxInstruction *in, const Written *registers, Writ
 
 /* Prints the filter of a target: ":in_state("Wait")". */
 static void print_filter(const JoxMachine *machine, const JoxAgentFilter *filter, JoxText *out) {
+    if (filter->flies)
+        jox_text_add(out, ":flying()");
+    if (filter->comes > 0.0f)
+        jox_text_printf(out, ":incoming(%.6g)", (double)filter->comes);
     if (!filter->some)
         return;
     if (filter->state >= 0)

@@ -72,7 +72,8 @@ typedef enum JoxNow {
    agent has not moved 0.25 m for a seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED:
    target, a body, touches the ground. KICKED: the agent kicked target, or a body with its tag, in
    the last step. HIT_BY: target, faster than 1 m/s, touches the agent, or such a body hit it in the
-   last step. INCOMING: target, at its present velocity, comes within a metres during the next 2 s.
+   last step. INCOMING: target, at its present velocity, comes within a metres of where the agent
+   stands during the next 2 s.
    SEES: target exists within perception. HAS: the agent holds target, a body or an agent. HEARD:
    another agent within perception, and within a metres, gave the signal `name` in the last step.
    NEIGHBOURS: number of neighbours that match target. THEIRS: memory `name` of the agent that is
@@ -127,12 +128,14 @@ typedef enum JoxTargetKind {
     JOX_TARGET_HOME        /* the agent's own post: the position at which it entered the world */
 } JoxTargetKind;
 
-/* Filter on the agents that a target accepts. All zero accepts every agent. */
+/* Filter on the agents and bodies that a target accepts. All zero accepts all. */
 typedef struct JoxAgentFilter {
-    bool some;                      /* whether any condition below applies */
+    bool some; /* whether a condition on names or memory applies, which no body meets */
     int16_t state, machine, memory; /* indices into the machine's names; -1: any */
     int32_t group;                  /* number of the scene's group; -1: any */
     double least, greatest;         /* accepted range of the memory value */
+    bool flies;                     /* bodies in the air alone, and no agents */
+    float comes; /* m: what passes within this distance alone (jox_pass_distance); 0: anything */
 } JoxAgentFilter;
 
 typedef struct JoxTarget {

@@ -142,7 +142,10 @@ bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i
     if (!is_of_kind(a, target, i, j) ||
         (target->filter.some && !passes_filter(run, &target->filter, i, j)))
         return false;
-    const JoxV2 from = {a->x[i], a->y[i]}, to = jox_add(from, jox_offset(a, i, j));
+    const JoxV2 offset = jox_offset(a, i, j), from = {a->x[i], a->y[i]}, to = jox_add(from, offset);
+    if (target->filter.comes > 0.0f &&
+        !(jox_pass_distance(offset, jox_v2(a->vx[j], a->vy[j])) < target->filter.comes))
+        return false;
     return !jox_is_hidden(run, from, to, false) && !jox_is_behind_body(run, from, to, -1);
 }
 

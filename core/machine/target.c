@@ -111,6 +111,16 @@ static bool is_out_of_sight(const JoxMachineRun *run, uint32_t i, const JoxObjec
             jox_is_behind_body(run, from, to, (int32_t)(object - run->objects->rows)));
 }
 
+/* Returns whether a body bears the tag of a target and passes its filter. */
+static bool is_wanted_body(const JoxTarget *target, const JoxObject *object, JoxV2 offset) {
+    const JoxAgentFilter *filter = &target->filter;
+    return object->live && (object->tags >> target->arg & 1) &&
+           (!filter->flies || jox_object_flies(object)) &&
+           (filter->comes == 0.0f ||
+            jox_pass_distance(offset, jox_v2(object->velocity.x, object->velocity.y)) <
+                filter->comes);
+}
+
 static int32_t find_nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
                                    float *distance2) {
     const JoxAgents *a = run->agents;
@@ -119,11 +129,10 @@ static int32_t find_nearest_object(const JoxMachineRun *run, const JoxTarget *ta
     *distance2 = reach * reach;
     for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
         const JoxObject *object = &run->objects->rows[o];
-        if (!object->live || !(object->tags >> target->arg & 1))
-            continue;
-        float dx = object->position.x - a->x[i], dy = object->position.y - a->y[i];
-        float d2 = dx * dx + dy * dy;
-        if (d2 < *distance2 && !is_out_of_sight(run, i, object)) {
+        const JoxV2 offset = {object->position.x - a->x[i], object->position.y - a->y[i]};
+        const float d2 = jox_length2(offset);
+        if (d2 < *distance2 && is_wanted_body(target, object, offset) &&
+            !is_out_of_sight(run, i, object)) {
             *distance2 = d2;
             best = (int32_t)o;
         }
@@ -153,7 +162,7 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     int32_t object = target->kind == JOX_TARGET_NEAREST && !target->filter.some
                          ? find_nearest_object(run, target, i, &object_d2)
                          : -1;
-    uint32_t other = find_nearest_agent(run, target, i);
+    const uint32_t other = target->filter.flies ? JOX_NO_INDEX : find_nearest_agent(run, target, i);
     if (other != JOX_NO_INDEX) {
         if (object < 0 || jox_length2(jox_offset(a, i, other)) < object_d2)
             return make_agent_spot(run, i, other);

@@ -40,7 +40,7 @@
     X(VISIT, visit, STATES, "", "arrival: {visit: [Run, Arrived]}",                                 \
       "two states: time that people take from entering the first to entering the second, and whether they keep their order") \
     X(LOG, log, FLAG, "", "actions: {log: true}",                                                    \
-      "true: a row for each time that a person enters a state, kicks or throws a body, or is hit by one, and for the highest point (peaks) and the end (lands) of the flight of a body that it kicked or threw, with both positions at the beginning of that step")
+      "true: a row for each time that a person enters a state, kicks or throws a body, or is hit by one, and for the highest point (peaks) and the end (lands) of the flight of a body that it kicked or threw, with both positions at the beginning of that step, and how near to the person a body in the air passes")
 /* clang-format on */
 
 typedef enum JoxProbeKind {

@@ -12,8 +12,12 @@ local function down(e) return e.body_z < 0.15 + e.body_speed * STEP end
 local rules = {
   -- Only a defender begins to attack, and only a ball that is down in its own court.
   Attack = function(e, ball) return e.from == "Defense" and ball > 0 and down(e) end,
-  -- A ball is noticed in flight, by a defender that does not wait for a ball of its own to come back.
-  Notice = function(e, _, who) return e.from == "Defense" and e.lies == 0 and e.time - who.since > REBOUND - 0.01 end,
+  -- A ball is noticed that flies at the player: by a defender that does not wait for a ball of its own to come back, or
+  -- by an attacker, whose own ball lies.
+  Notice = function(e, _, who)
+    return (e.passes or 1) < 0.61 and (e.from == "Defense" and e.time - who.since > REBOUND - 0.01
+      or e.from == "Attack" and e.lies == 1)
+  end,
   -- Nobody dodges before the reaction time is over.
   Dodge = function(e, _, who) return e.from == "Notice" and e.time - who.since > REACTION - 0.01 end,
   -- A point: a defender was hit by a flying ball, or touched by one faster than 1 m/s.
@@ -98,8 +102,8 @@ return claim {
     .. "attack ends with the kick or when the ball leaves the court. The rest is ours: a ball that flies is noticed "
     .. "with a probability of 0.7, and dodged 0.3 s later; one that hits a defender is a point.",
   level = "normal",
-  held_out = "the strength and height of kicks, the reaction time and the attention were chosen so that the duel has a "
-    .. "point a minute or more; nothing was chosen on the rest",
+  held_out = "the strength and height of kicks, the reaction time and the attention were chosen so that the duel has "
+    .. "about a point a minute; nothing was chosen on the rest",
   runs = {
     -- A person drives red for 16 s; 8 s later it plays by itself.
     duel = { scene = "../dodgeball.yaml", seeds = 10, duration = 325 },
@@ -156,5 +160,7 @@ return claim {
     { "points_bouncing", what = "points, 500 balls that go on bouncing", reported = true },
     { "lost", what = "bodies that fell out of the world", source = "0", band = { 0, 0 } },
   },
+  tried = { "points: of 18 kicks a minute 5 are dodged and 0.6 hit. Impulse, lift, reaction and attention are as they were "
+    .. "chosen with kicks of which 4 in 10 met the kicker's own body first; they were not chosen anew." },
   pictures = { duel = { "paths.png", "actions.png" }, many = { "paths.png", "actions.png" } },
 }

@@ -64,6 +64,17 @@ function Number:where(name, ...) end
 ---@param name string
 ---@return jostle.Target
 function Target:where(name, ...) end
+--- restricts `nearest` to bodies in the air, which touch neither the ground nor a fixed body and which nobody carries
+---@return jostle.Target
+function Target:flying() end
+--- restricts them to agents and bodies that pass within this distance, m, of where the agent stands during the next 2 s if they keep their velocity
+---@param metres number
+---@return jostle.Number
+function Number:incoming(metres) end
+--- restricts them to agents and bodies that pass within this distance, m, of where the agent stands during the next 2 s if they keep their velocity
+---@param metres number
+---@return jostle.Target
+function Target:incoming(metres) end
 
 ---@class jostle.Drawn
 
@@ -95,7 +106,7 @@ function Target:where(name, ...) end
 ---@field ignore? string|string[] the agent does not avoid agents and bodies with these tags
 ---@field face? string|jostle.Target|jostle.Number where the agent looks; without it in its walking direction
 ---@field approach? string|jostle.Target|jostle.Number body or agent that the agent does not avoid in advance; it only does not overlap it. Agents are then kept apart by contacts alone, where forces are on
----@field kick? table kicks a body that it touches, with no wall between
+---@field kick? table kicks a body that it touches, with no wall between. The body passes the agent's own body until it is clear of it
 ---@field take? string|jostle.Target|jostle.Number body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body
 ---@field grasp? string|jostle.Target|jostle.Number agent to take hold of, if it is within 0.5 m. Both pull each other until the holder comes into a state without `grasp`, or 1 m is between them. The held agent is dragged, or carried while its own `damping` is 0; see `has` and `holders`
 ---@field grip? number greatest force with which the agent holds on; default 300, N
@@ -208,7 +219,7 @@ function hit_by(a1) end
 ---@return jostle.Condition
 function grounded(a1) end
 
---- `incoming(target, metres)`: the target, if it keeps its velocity, passes within this distance, m, during the next 2 s
+--- `incoming(target, metres)`: the target, if it keeps its velocity, passes within this distance, m, of where the agent stands during the next 2 s
 ---@param a1 jostle.Target
 ---@param a2 number|jostle.Number
 ---@return jostle.Condition

@@ -74,6 +74,22 @@ test("a flying ball that is noticed is dodged after the reaction time", function
   truthy(math.abs(s:agents("blue")[1].y - 0.1) > 0.5, "it stepped aside")
 end)
 
+test("of many balls the one that flies at a player is dodged, also by one that runs to another", function()
+  local game = court({ -7, 0.1, 1 }, { attention = 1 })
+  game.bodies[1].velocity = { 5.7, 0, 9.5 }
+  for k, at in ipairs { { 4.5, 1, 0.11 }, { 4, -1.5, 0.11 }, { 5.5, 0, 0.11 } } do
+    local ball = {}
+    for name, value in pairs(game.bodies[1]) do ball[name] = value end
+    ball.name, ball.at, ball.velocity = "lies" .. k, at, nil
+    game.bodies[1 + k] = ball
+  end
+  game.groups.blue.set.speed = 0 -- it attacks, and does not get there
+  local s = scene(game)
+  s:reaches("Attack", { agents = "blue", within = 0.3 })
+  s:reaches("Notice", { agents = "blue", within = 1.5 })
+  s:reaches("Dodge", { agents = "blue", within = 0.4 })
+end)
+
 test("a flying ball that is not noticed, or too late, hits: a point, and a second of rest", function()
   for _, own in ipairs { { attention = 0 }, { attention = 1, reaction = 2 } } do
     local s = thrown(own)

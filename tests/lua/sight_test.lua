@@ -55,3 +55,56 @@ test("neither sees through a wall", function()
   equal(gun.state, "Idle")
   equal(gun.found, false)
 end)
+
+-- Reaches the state Seen once the target exists.
+local function looks_for(target)
+  return ([[return machine { name = "looks", version = 1, start = "Look", defaults = { perception = 20 }, states = {
+    Look = { steer = hold, { to = "Seen", when = sees(%s) } },
+    Seen = { steer = hold, { to = "Look", when = ~sees(%s) } } } }]]):format(target, target)
+end
+
+-- A person at (0, 0) among balls that lie near by, and one that is thrown from (-6, y) along x.
+local function among_balls(target, y)
+  local ball = function(name, at, velocity)
+    return { name = name, at = at, velocity = velocity, tags = { "ball" },
+      shape = { sphere = { radius = 0.11 } }, mass = 0.4 }
+  end
+  return scene {
+    bodies = { ball("lies", { 1, 0, 0.11 }), ball("thrown", { -6, y, 1 }, { 6, 0, 4 }) },
+    groups = { one = { behaviour = looks_for(target), at = { { 0, 0 } } } },
+  }
+end
+
+local function run_while_seen(s)
+  s:reaches("Seen", { within = 0.1 })
+  while s:agents("one")[1].state == "Seen" and s:time() < 3 do s:step() end
+end
+
+test("nearest flying body: not one that lies, though that is nearer", function()
+  local s = among_balls('nearest("ball"):flying()', 3)
+  run_while_seen(s)
+  truthy(s:body("thrown").z < 0.3, "it has come down")
+end)
+
+test("nearest incoming body: one that passes within the distance, until it has passed", function()
+  local s = among_balls('nearest("ball"):flying():incoming(0.6)', 0.5)
+  run_while_seen(s)
+  truthy(s:body("thrown").x > -0.2, "it has passed")
+  among_balls('nearest("ball"):flying():incoming(0.6)', 0.7):never("Seen", { during = 1.2 })
+end)
+
+test("nearest incoming agent: one that walks by, not one that stands", function()
+  local walks = [[return machine { name = "walks", version = 1, start = "Walk", states = {
+    Walk = { steer = drift(1, 0) } } }]]
+  local function passed_by(y)
+    return scene {
+      groups = {
+        one = { behaviour = looks_for('nearest("others"):incoming(1)'), at = { { 0, 0 } } },
+        stands = { behaviour = "stander.lua", at = { { 0.6, 0 } }, tags = { "others" } },
+        walks = { behaviour = walks, at = { { -3, y } }, tags = { "others" } },
+      },
+    }
+  end
+  passed_by(-0.9):reaches("Seen", { agents = "one", within = 2 })
+  passed_by(-1.6):never("Seen", { agents = "one", during = 3 })
+end)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "lua/language/script.h"
+#include "lua/language/vocabulary.h"
 
 /* Pushes an operation on one or two nodes (`b` NULL: one). */
 static JoxNode *push_operation(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b) {
@@ -238,21 +238,24 @@ static int method_is(lua_State *L) {
     return push_comparison(L, JOX_OP_EQ, "is");
 }
 
-/* ---- filters of targets: in_state, of_machine, of_group, where ---- */
+/* ---- filters of targets: in_state, of_machine, of_group, where, flying, incoming ---- */
 
 /* Pushes a copy of the value that a method is called on, `nearest` or `neighbours`, and returns the
    filter of the copy, for the method to change; NULL with an error pushed. */
 static JoxNodeFilter *push_filtered_target(lua_State *L, const char *method) {
+    if (jox_node_is_error(L, 1)) {
+        jox_node_push_error(L);
+        return NULL;
+    }
     const JoxNode *of = jox_node_get(L, 1);
     const bool counts = of && of->kind == JOX_NODE_NUMBER && of->op == JOX_OP_NEIGHBOURS;
     const JoxNode *target = counts ? of->target : of;
     const bool others =
         target && target->kind == JOX_NODE_TARGET && jox_target_kind_moves(target->target_kind);
-    if (!others || lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60) {
+    if (!others) {
         jox_word_error(L, method, "bad-operand", "Example: nearest(\"people\"):in_state(\"Exit\")",
-                       others ? ":%s takes a name, which %s is not"
-                              : ":%s says which of `nearest` or `neighbours`, it is nothing of %s",
-                       method, jox_node_kind(L, others ? 2 : 1));
+                       ":%s says which of `nearest` or `neighbours`, it is nothing of %s", method,
+                       jox_node_kind(L, 1));
         return NULL;
     }
     JoxNode *copy = jox_node_push(L, JOX_NODE_TARGET);
@@ -265,8 +268,22 @@ static JoxNodeFilter *push_filtered_target(lua_State *L, const char *method) {
     return &copy->filter;
 }
 
+/* Returns a filter by name, which argument 2 is; NULL with an error pushed. */
+static JoxNodeFilter *push_named_target(lua_State *L, const char *method) {
+    JoxNodeFilter *filter = push_filtered_target(L, method);
+    if (filter && (lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60))
+        jox_word_error(L, method, "bad-operand", "Example: nearest(\"people\"):in_state(\"Exit\")",
+                       ":%s takes a name, which %s is not", method, jox_node_kind(L, 2));
+    else if (filter && filter->flies)
+        jox_word_error(L, method, "bad-operand", "Take one of them out",
+                       ":%s is of people, and :flying of bodies", method);
+    else
+        return filter;
+    return NULL;
+}
+
 static int method_in_state(lua_State *L) {
-    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "in_state");
+    JoxNodeFilter *filter = push_named_target(L, "in_state");
     if (filter) {
         filter->state = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
         filter->state_at = jox_word_place(L, filter->state);
@@ -275,7 +292,7 @@ static int method_in_state(lua_State *L) {
 }
 
 static int method_of_machine(lua_State *L) {
-    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_machine");
+    JoxNodeFilter *filter = push_named_target(L, "of_machine");
     if (filter)
         filter->machine = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
     return 1;
@@ -283,7 +300,7 @@ static int method_of_machine(lua_State *L) {
 
 static int method_of_group(lua_State *L) {
     const JoxScope *scope = jox_script_of(L)->scope;
-    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "of_group");
+    JoxNodeFilter *filter = push_named_target(L, "of_group");
     if (!filter)
         return 1;
     const char *name = lua_tostring(L, 2), *names[256];
@@ -304,7 +321,7 @@ static int method_of_group(lua_State *L) {
 }
 
 static int method_where(lua_State *L) {
-    JoxNodeFilter *filter = jox_node_is_error(L, 1) ? NULL : push_filtered_target(L, "where");
+    JoxNodeFilter *filter = push_named_target(L, "where");
     const int given = lua_isnumber(L, 4) ? 4 : lua_isnumber(L, 3) ? 3 : 2;
     if (!filter)
         return 1;
@@ -312,6 +329,33 @@ static int method_where(lua_State *L) {
     filter->memory_at = jox_word_place(L, filter->memory);
     filter->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
     filter->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
+    return 1;
+}
+
+static int method_flying(lua_State *L) {
+    JoxNodeFilter *filter = push_filtered_target(L, "flying");
+    if (!filter)
+        return 1;
+    const JoxNode *of = jox_node_get(L, 1);
+    if (of->kind != JOX_NODE_TARGET || of->target_kind != JOX_TARGET_NEAREST || filter->state ||
+        filter->machine || filter->memory || filter->grouped)
+        return jox_word_error(L, "flying", "bad-operand", "Example: nearest(\"ball\"):flying()",
+                              ":flying is of `nearest` with a tag of bodies");
+    filter->flies = true;
+    return 1;
+}
+
+static int method_incoming(lua_State *L) {
+    const JoxWordNumber *metres = jox_word_number(":incoming", 0);
+    JoxNodeFilter *filter = push_filtered_target(L, "incoming");
+    if (!filter)
+        return 1;
+    filter->comes = lua_type(L, 2) == LUA_TNUMBER ? lua_tonumber(L, 2) : 0.0;
+    if (!(filter->comes >= metres->least && filter->comes <= metres->greatest))
+        return jox_word_error(L, "incoming", "out-of-range",
+                              "Example: nearest(\"ball\"):incoming(0.6)",
+                              ":incoming takes a plain number from %g to %g %s", metres->least,
+                              metres->greatest, metres->unit);
     return 1;
 }
 
@@ -324,6 +368,8 @@ static const luaL_Reg METHODS[] = {{"above", method_above},
                                    {"of_machine", method_of_machine},
                                    {"of_group", method_of_group},
                                    {"where", method_where},
+                                   {"flying", method_flying},
+                                   {"incoming", method_incoming},
                                    {NULL, NULL}};
 
 static int meta_index(lua_State *L) {

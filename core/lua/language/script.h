@@ -76,13 +76,15 @@ typedef struct JoxNamePlace {
     uint32_t source;
 } JoxNamePlace;
 
-/* Filter of a target by names, from which JoxAgentFilter is compiled; NULL: any. */
+/* Filter of a target, from which JoxAgentFilter is compiled; names that are NULL: any. */
 typedef struct JoxNodeFilter {
     const char *state, *machine, *memory;
     JoxNamePlace state_at, memory_at;
     bool grouped;
     int32_t group;
     double least, greatest;
+    bool flies;
+    double comes; /* m; 0: anything */
 } JoxNodeFilter;
 
 typedef struct JoxNode JoxNode;

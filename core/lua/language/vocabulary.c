@@ -36,7 +36,8 @@ const JoxWord jox_words[] = {
     {"grounded", "m", CONDITION, JOX_OP_GROUNDED, 0, "grounded(target)", "",
      "the body touches the ground", "grounded(nearest \"ball\")"},
     {"incoming", "mn", CONDITION, JOX_OP_INCOMING, 0, "incoming(target, metres)", "",
-     "the target, if it keeps its velocity, passes within this distance, m, during the next 2 s",
+     "the target, if it keeps its velocity, passes within this distance, m, of where the agent "
+     "stands during the next 2 s",
      "incoming(nearest \"ball\", 0.5)"},
     {"kicked", "m", CONDITION, JOX_OP_KICKED, 0, "kicked(target)", "",
      "the agent kicked or threw the body in the last step", "kicked(nearest \"ball\")"},
@@ -109,6 +110,14 @@ const JoxWord jox_words[] = {
     {":where", "*", TARGET, 0, 0, "of:where(name [, least [, greatest]])", "",
      "restricts them to agents whose public memory of this name is true, or is a number from "
      "least to greatest", "nearest(\"people\"):where(\"laps\", 0, 2)"},
+    {":flying", "*", TARGET, 0, 0, "of:flying()", "",
+     "restricts `nearest` to bodies in the air, which touch neither the ground nor a fixed body "
+     "and which nobody carries",
+     "nearest(\"ball\"):flying()"},
+    {":incoming", "*", TARGET, 0, 0, "of:incoming(metres)", "",
+     "restricts them to agents and bodies that pass within this distance, m, of where the agent "
+     "stands during the next 2 s if they keep their velocity",
+     "nearest(\"ball\"):flying():incoming(0.6)"},
     {"one_of", "p", TARGET, JOX_TARGET_ONE_OF, 0, "one_of(set)", "",
      "a member of a set of places, drawn on entering the state; from then on it is the agent's "
      "`goal`",
@@ -201,6 +210,7 @@ const JoxWordNumber jox_word_numbers[] = {
     {"orbit", "far", 0.1, 10000, 40, "m"},
     {"orbit", "beyond", 0, 10000, 50, "m"},
     {"dodge", "metres", 0, 100, 1, "m"},
+    {":incoming", "metres", 0.01, 100, NAN, "m"},
     {"follow", "metres", 0, 1000, 1, "m"},
     {"together", "metres", 0, 1000, 1, "m"},
     {"formation", "metres", 0.1, 100, 0.7, "m"},
@@ -241,7 +251,7 @@ const JoxTableKey jox_table_keys[] = {
     {"state", "face", "target", "", "where the agent looks; without it in its walking direction", "face = \"post\"", 0, 0},
     {"state", "approach", "target", "", "body or agent that the agent does not avoid in advance; it only does not overlap it. Agents are then kept apart by contacts alone, where forces are on",
      "approach = nearest \"ball\"", 0, 0},
-    {"state", "kick", "table", "", "kicks a body that it touches, with no wall between", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
+    {"state", "kick", "table", "", "kicks a body that it touches, with no wall between. The body passes the agent's own body until it is clear of it", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
     {"state", "take", "target", "", "body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body", "take = nearest \"ball\"", 0, 0},
     {"state", "grasp", "target", "", "agent to take hold of, if it is within 0.5 m. Both pull each other until the holder comes into a state without `grasp`, or 1 m is between them. The held agent is dragged, or carried while its own `damping` is 0; see `has` and `holders`", "grasp = nearest \"people\"", 0, 0},
     {"state", "grip", "number", "N", "greatest force with which the agent holds on; default 300", "grasp = nearest \"people\", grip = 400", 0, JOX_MOST_GRIP},

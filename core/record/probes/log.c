@@ -1,7 +1,8 @@
 /* Probe `log`: events of single people: a person enters a state, kicks or throws a body, or is hit
    by a fast one; the highest point and the end of the flight of a body that a person kicked or
    threw. A row gives person and body as they were at the beginning of the step, which is what the
-   person's machine saw; for a new state, the body is the moving one nearest to the person. */
+   person's machine saw; for a new state, the body is the moving one nearest to the person. The last
+   column says how near to the person a body in the air passes, the least of all. */
 #include <math.h>
 #include <string.h>
 
@@ -26,6 +27,7 @@ typedef struct Action {
     int32_t body; /* id of the body; -1: none */
     JoxV3 at;
     float speed, gap; /* speed of the body, m/s; gap between person and body, m */
+    float passes; /* m: least distance at which a body in the air passes; INFINITY: none comes */
     uint8_t grounded;
 } Action;
 
@@ -83,6 +85,19 @@ static int32_t find_nearest_body(const JoxFrame *frame, const Before *person) {
     return best;
 }
 
+/* Returns the least distance at which a body in the air passes a person, m. */
+static float find_least_pass(const JoxFrame *frame, const Before *person) {
+    float least = INFINITY;
+    for (uint32_t o = 0; frame->objects && o < frame->objects->count; o++) {
+        const JoxObject *body = &frame->objects->rows[o];
+        const JoxV2 offset = {body->position.x - person->x, body->position.y - person->y};
+        if (jox_object_flies(body))
+            least = jox_minf(least,
+                             jox_pass_distance(offset, jox_v2(body->velocity.x, body->velocity.y)));
+    }
+    return least;
+}
+
 /* Adds a row: the person as before the step, and the body in row `row` of the objects, -1 for
    none. */
 static void add_action(Log *log, const JoxFrame *frame, uint32_t i, Event event, int32_t row) {
@@ -98,7 +113,8 @@ static void add_action(Log *log, const JoxFrame *frame, uint32_t i, Event event,
                  .state = frame->state ? log->states[frame->state[i]] : 0,
                  .before = *before,
                  .body = -1,
-                 .gap = NAN};
+                 .gap = NAN,
+                 .passes = find_least_pass(frame, before)};
     log->counts[event]++;
     if (row < 0 || !frame->objects || (uint32_t)row >= frame->objects->count)
         return;
@@ -152,7 +168,8 @@ static void follow_flights(Log *log, const JoxFrame *frame) {
         }
         if (body->grounded && !flight.rises)
             add_action(log, frame, i, LANDS, (int32_t)flight.row);
-        if (!body->grounded)
+        if (!body->grounded ||
+            (flight.rises && body->velocity.z > 0.0f)) /* just leaves the ground */
             log->flights[kept++] = flight;
     }
     log->flight_count = kept;
@@ -236,7 +253,7 @@ static void write_log_csv(const JoxProbeDef *def, const void *state, FILE *out) 
     const Log *log = state;
     (void)def;
     fputs("time [s],what,person,group,from,state,x [m],y [m],speed [m/s],body,body_x [m],"
-          "body_y [m],body_z [m],body_speed [m/s],gap [m],lies\n",
+          "body_y [m],body_z [m],body_speed [m/s],gap [m],lies,passes [m]\n",
           out);
     for (uint32_t n = 0; n < log->count; n++) {
         const Action *d = &log->actions[n];
@@ -244,11 +261,15 @@ static void write_log_csv(const JoxProbeDef *def, const void *state, FILE *out) 
                 d->person, log->names[d->group], log->names[d->before.state], log->names[d->state],
                 (double)d->before.x, (double)d->before.y, (double)d->before.speed);
         if (d->body < 0)
-            fputs(",,,,,,\n", out);
+            fputs(",,,,,,", out);
         else
-            fprintf(out, "%d,%.4f,%.4f,%.4f,%.4f,%.4f,%d\n", d->body, (double)d->at.x,
+            fprintf(out, "%d,%.4f,%.4f,%.4f,%.4f,%.4f,%d", d->body, (double)d->at.x,
                     (double)d->at.y, (double)d->at.z, (double)d->speed, (double)d->gap,
                     d->grounded != 0);
+        if (isfinite(d->passes))
+            fprintf(out, ",%.4f\n", (double)d->passes);
+        else
+            fputs(",\n", out);
     }
 }
 
