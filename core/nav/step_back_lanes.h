@@ -15,7 +15,10 @@
 #define JOX_STEP_REST 0.1f   /* m/s: slower motion away counts as none */
 #define JOX_STEP_REACH 1.0f  /* m: farther from where they stood, agents move that place along */
 #define JOX_STEP_LEAST 1e-3f /* m: lesser displacements are forgotten */
-#define JOX_STEP_FORGOTTEN 60.0f /* s: after it 37 % are left of what nothing undid */
+/* s: those who rest and get back by less than `nearer`, m/s, forget 63 % of a displacement in it:
+   there is no room, or they are pressed where they are. */
+#define JOX_STEP_FORGOTTEN 2.0f
+#define JOX_STEP_NEARER 0.02f
 /* m/s2: how steps slow down at the end, so gently that nobody near feels a force of (8), from 0.05
    m/s2 on. */
 #define JOX_STEP_SLOWING 0.06f
@@ -35,6 +38,16 @@ static inline JoxVector jox_add_steps_lanes(const JoxAgents *a, uint32_t first, 
     return jv_select(steps, jv_sub(wanted, step), wanted);
 }
 
+/* Returns by what a displacement of `size` m is multiplied: cut to what is left to go back, and
+   forgotten by those who rest and get no nearer. `away`: speed away from where they stood, m/s. */
+static inline JoxFloats jox_share_kept_lanes(JoxFloats size, JoxFloats settled, JoxFloats away,
+                                             float dt) {
+    const JoxFloats one = jf_set(1.0f), within = jf_min(one, JOX_STEP_REACH / size);
+    const JoxMask rests = jf_lt(jf_set(JOX_STEP_REACTION), settled);
+    const JoxMask stays = jm_without(rests, jf_lt(away, jf_set(-JOX_STEP_NEARER)));
+    return jf_select(stays, within * (1.0f - dt / JOX_STEP_FORGOTTEN), within);
+}
+
 /* Adds a move of `dt` seconds to how far the agents from `first` on are displaced from where they
    stood, m: begins with a move under a force. Agents that want to walk, and those that do not step
    back, have no such place. */
@@ -43,23 +56,22 @@ static inline void jox_note_displacement_lanes(JoxAgents *a, uint32_t first, Jox
     const JoxFloats zero = jf_set(0.0f);
     const JoxVector before = jv_load(a->displaced_x, a->displaced_y, first);
     const JoxVector force = jv_load(a->half_plane_x, a->half_plane_y, first);
-    const JoxFloats known = jv_dot(before, before) + jv_dot(force, force);
-    const JoxMask may = jm_and(jm_and(jox_stands_lanes(a, first), jf_lt(zero, known)),
-                               jf_lt(zero, jox_param_lanes(a, JOX_PARAM_step_back, first)));
-    if (!jm_bits(jf_lt(zero, known)))
+    const JoxMask known = jf_lt(zero, jv_dot(before, before) + jv_dot(force, force));
+    if (!jm_bits(known))
         return;
     const JoxFloats pushed = jf_max(zero, jv_dot(move, force));
-    const JoxVector now = jv_add(jv_scale(before, jf_set(1.0f - dt / JOX_STEP_FORGOTTEN)),
-                                 jv_add(move, jv_scale(force, JOX_STEP_BEYOND * pushed)));
-    const JoxFloats size2 = jv_dot(now, now), size = jf_sqrt(size2);
-    const JoxMask kept = jm_and(may, jm_and(jf_lt(jf_set(JOX_STEP_LEAST * JOX_STEP_LEAST), size2),
-                                            jf_lt(size2, jf_set(INFINITY))));
-    const JoxFloats within = jf_min(jf_set(1.0f), JOX_STEP_REACH / size);
+    const JoxVector now = jv_add(before, jv_add(move, jv_scale(force, JOX_STEP_BEYOND * pushed)));
+    const JoxFloats size = jf_sqrt(jv_dot(now, now)), settled = jf_load(a->settled + first);
+    const JoxFloats away = jv_dot(move, now) / (size * dt);
+    const JoxMask holds = jm_and(jm_and(known, jox_stands_lanes(a, first)),
+                                 jf_lt(zero, jox_param_lanes(a, JOX_PARAM_step_back, first)));
+    const JoxMask far = jm_and(jf_lt(jf_set(JOX_STEP_LEAST), size), jf_lt(size, jf_set(INFINITY)));
+    const JoxMask kept = jm_and(holds, far);
+    const JoxVector after = jv_scale(now, jox_share_kept_lanes(size, settled, away, dt));
     jv_store(a->displaced_x, a->displaced_y, first,
-             jv_select(kept, jv_scale(now, within), (JoxVector){zero, zero}));
-    const JoxMask leaves = jf_lt(JOX_STEP_REST * dt * size, jv_dot(move, now));
-    const JoxFloats time = jf_load(a->settled + first) + dt;
-    jf_store(a->settled + first, jf_select(jm_without(kept, leaves), time, zero));
+             jv_select(kept, after, (JoxVector){zero, zero}));
+    const JoxMask rests = jm_without(kept, jf_lt(jf_set(JOX_STEP_REST), away));
+    jf_store(a->settled + first, jf_select(rests, settled + dt, zero));
 }
 
 #endif

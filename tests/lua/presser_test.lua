@@ -4,7 +4,7 @@ local function row(strength)
     step = 0.02,
     places = { ahead = { point = { 10, 0 } } },
     groups = {
-      crowd = { behaviour = "stander.lua", at = { { 0, 0 }, { 0.5, 0 } } },
+      crowd = { behaviour = "stander.lua", at = { { 0, 0 }, { 0.5, 0 } }, set = { step_back = 0 } },
       shover = {
         behaviour = "shover.lua", at = { { -0.5, 0 } },
         set = { ahead = "ahead", at = 0.5, strength = strength, time = 0.4 },
