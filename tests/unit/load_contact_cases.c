@@ -125,8 +125,7 @@ static void crowd_that_prefers_rest_only_slows(void **state) {
             def.x = 0.3 + 0.48 * (i % 6);
             def.y = 0.3 + 0.48 * (i / 6);
             double way = TURN * draw_unit(77, i);
-            JoAgent one = add_person(&e, def, 1.5 * cos(way), 1.5 * sin(way));
-            jo_agent_set_parameter(e.world, one, "step_back", 0, NULL);
+            add_person(&e, def, 1.5 * cos(way), 1.5 * sin(way));
         }
         Growth g = watch_energy(&e, 4.0, false);
         if (g.step > GROWS || g.all > GROWS)

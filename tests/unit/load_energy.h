@@ -164,6 +164,8 @@ static inline JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double
     uint32_t i = jox_world_find_agent(e->world, one);
     e->world->state.agents.vx[i] = (float)vx;
     e->world->state.agents.vy[i] = (float)vy;
+    /* Steps back take energy from the agent's own feet. */
+    jo_agent_set_parameter(e->world, one, "step_back", 0.0, NULL);
     if (e->coasting) {
         jo_agent_set_parameter(e->world, one, "damping", 0.0, NULL);
         jo_agent_set_parameter(e->world, one, "absorb", 0.0, NULL);
