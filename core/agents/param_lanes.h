@@ -24,6 +24,8 @@ static inline JoxMask jox_stands_lanes(const JoxAgents *a, uint32_t first) {
 /* jox_steps_back, by lane. */
 static inline JoxMask jox_steps_back_lanes(const JoxAgents *a, uint32_t first) {
     const JoxMask settled = jf_lt(jf_set(JOX_STEP_REACTION), jf_load(a->settled + first));
+    if (!jm_bits(settled))
+        return settled;
     const JoxMask free = jf_le(jf_load(a->load + first), jf_set(JOX_STEP_LOAD));
     return jm_and(jm_and(settled, free), jox_stands_lanes(a, first));
 }

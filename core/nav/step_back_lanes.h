@@ -25,13 +25,11 @@
 
 /* Adds the velocity of steps back to what the agents from `first` on want, m/s. */
 static inline JoxVector jox_add_steps_lanes(const JoxAgents *a, uint32_t first, JoxVector wanted) {
-    const JoxFloats zero = jf_set(0.0f);
-    const JoxVector displaced = jv_load(a->displaced_x, a->displaced_y, first);
-    const JoxFloats size2 = jv_dot(displaced, displaced);
-    const JoxMask steps = jm_and(jox_steps_back_lanes(a, first), jf_lt(zero, size2));
+    const JoxMask steps = jox_steps_back_lanes(a, first);
     if (!jm_bits(steps))
         return wanted;
-    const JoxFloats size = jf_sqrt(size2);
+    const JoxVector displaced = jv_load(a->displaced_x, a->displaced_y, first);
+    const JoxFloats size = jf_max(jf_set(JOX_STEP_LEAST), jf_sqrt(jv_dot(displaced, displaced)));
     const JoxFloats speed = jf_min(jox_param_lanes(a, JOX_PARAM_step_back, first),
                                    jf_sqrt(2.0f * JOX_STEP_SLOWING * size));
     const JoxVector step = jv_scale(displaced, speed / size);

@@ -47,7 +47,7 @@ same "with as many people as in the run" "$(people "$work/recorded.svg")" "$(peo
 states() { sed -n '/<g id="legend"/,$p' "$1" | sed -n 's/.*text-anchor="end">\([0-9,]*\)<.*/\1/p' | tr '\n' ' '; }
 same "in the same states" "$(states "$work/recorded.svg")" "$(states "$work/run.svg")"
 render "$work/run.sqlite" --scene scenes/gates.yaml --at 15 --out "$work/with.svg" 2>/dev/null
-at() { sed -n 's/.*<circle id="p7" cx="\([0-9.]*\)" cy="\([0-9.]*\)".*/\1 \2/p' "$1"; }
+at() { sed -n 's/.*<circle id="p7" cx="\([0-9.]*\)" cy="\([0-9.]*\)".*/\1 \2/p' "$1" | awk '{printf "%.1f %.1f", $1, $2}'; }
 same "and in the same places" "$(at "$work/with.svg")" "$(at "$work/run.svg")"
 "$JOSTLE" run scenes/wall-breaking.yaml --set groups.people.count=20 --for 1 --record "$work/wall.sqlite" --quiet 2>/dev/null
 "$JOSTLE" render scenes/wall-breaking.yaml --set groups.people.count=20 --at 1 --out "$work/wall.svg" --quiet 2>/dev/null

@@ -120,7 +120,7 @@ bool jox_perform_teleport(JoWorld *world, const JoxInputEntry *entry, JoxText *w
     a->y[i] = a->prev_y[i] = a->still_y[i] = at.y;
     jox_agents_wrap(a, i);
     a->vx[i] = a->vy[i] = a->next_x[i] = a->next_y[i] = 0.0f;
-    a->still[i] = a->displaced_x[i] = a->displaced_y[i] = 0.0f;
+    a->still[i] = a->displaced_x[i] = a->displaced_y[i] = a->settled[i] = 0.0f;
     jox_nav_invalidate_order(world->scratch.nav); /* the order in memory no longer follows space */
     return true;
 }
