@@ -148,6 +148,7 @@ uint32_t jox_agents_add_alike(JoxAgents *a) {
         if (a->param[p].mask)
             jox_param_set(a, p, i, jox_parameter_store(p, jox_parameters[p].value));
     a->face_x[i] = 1.0f;
+    a->chest_x[i] = 1.0f;
     a->lasts[i] = INFINITY;
     a->goal[i] = -1;
     a->speed_limit[i] = jox_param(a, JOX_PARAM_max_speed, i);

@@ -63,6 +63,9 @@ typedef enum JoxForceRole {
     X(STATE, float, prev_y)                                                                        \
     X(STATE, float, face_x) /* unit vector in which the agent looks */                             \
     X(STATE, float, face_y)                                                                        \
+    X(STATE, float, chest_x) /* unit vector to which the chest points */                           \
+    X(STATE, float, chest_y)                                                                       \
+    X(STATE, float, spin)   /* angular velocity of the torso, rad/s */                             \
     X(STATE, float, pref_x) /* preferred velocity, written by `prefer` */                          \
     X(STATE, float, pref_y)                                                                        \
     X(STATE, float, eager)    /* eagerness, 0 to 1, raised by the crowd */                         \
@@ -87,8 +90,14 @@ typedef enum JoxForceRole {
     X(SCRATCH, uint32_t, index_drop) /* index when velocities were chosen, minus present index */  \
     X(SCRATCH, float, forced_x)      /* velocity that the forces yield by the end of the step */   \
     X(SCRATCH, float, forced_y)                                                                    \
-    X(SCRATCH, float, breadth)      /* radius of contacts, m */                                    \
-    X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0): none */              \
+    X(SCRATCH, float, borne_x) /* change of velocity by contacts that plans press on, m/s */       \
+    X(SCRATCH, float, borne_y)                                                                     \
+    X(SCRATCH, float, parted_x) /* m/s within the step alone, by contacts that overlap */          \
+    X(SCRATCH, float, parted_y)                                                                    \
+    X(SCRATCH, float, axis_x) /* from the centre of the torso to its left end, m; 0: a disc */     \
+    X(SCRATCH, float, axis_y)                                                                      \
+    X(SCRATCH, float, contact_radius) /* distance of the surface from the axis, m */               \
+    X(SCRATCH, float, half_plane_x)   /* force half-plane: unit normal; (0, 0): none */            \
     X(SCRATCH, float, half_plane_y)                                                                \
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \
     X(SCRATCH, float, speed_limit)       /* greatest speed in this step, m/s */                    \

@@ -19,7 +19,7 @@ typedef struct JoxContactPlane {
     JoxV2 normal;
     float offset;
     uint32_t other; /* index of the agent, or row of the body, that is touched */
-    float apart;    /* least distance of the centres of two agents, m */
+    float apart;    /* least distance of the centres of two agents along the normal, m */
 } JoxContactPlane;
 
 typedef struct JoxContactPlanes {

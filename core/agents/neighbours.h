@@ -5,6 +5,7 @@
 #ifndef JOX_AGENTS_NEIGHBOURS_H
 #define JOX_AGENTS_NEIGHBOURS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -22,6 +23,12 @@ typedef struct JoxMotion {
     float x, y, vx, vy;
 } JoxMotion;
 
+/* The torso of an agent in one place: its axis and its radius, m, and the inverse of the square of
+   the axis' length, 1/m2 (0: a disc). */
+typedef struct JoxTorsoShape {
+    float axis_x, axis_y, radius, inverse_half2;
+} JoxTorsoShape;
+
 /* Zero-initialise for an empty table. */
 typedef struct JoxNeighbours {
     uint32_t agents;    /* room in the arrays, in agents; a multiple of JOX_LANES */
@@ -30,8 +37,10 @@ typedef struct JoxNeighbours {
     uint8_t *count;     /* per agent: number of neighbours */
     uint8_t *close;     /* per agent: of these, how many it may touch, at least */
     float *crowding2;   /* squared distance of neighbour JOX_CROWD_RANK, m2, where there is one */
-    float widest;       /* greatest radius of an agent, m */
+    float widest;       /* greatest distance of a surface from its agent's centre, m */
     JoxMotion *motions; /* motion per agent, as perceived; valid until they move */
+    JoxTorsoShape *shapes; /* torso per agent; likewise */
+    bool has_torsos;       /* some agent is no disc */
     /* Contacts do not depend on perception. If the list above may lack an agent within touching
        range, the JOX_MOST_NEIGHBOURS nearest within that range are stored here, from i *
        JOX_MOST_NEIGHBOURS on, nearest first; else touch_count[i] is JOX_TOUCH_AMONG_NEIGHBOURS.

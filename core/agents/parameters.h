@@ -21,7 +21,10 @@
     X(absorb, "", 0, 1, 0.8, "share of a force that is passed on (k of equations 8 and 9)")        \
     X(brace_angle, "degree", 0, 180, 60, "half-angle of the cone that takes a passed-on force")    \
     X(yield, "", 0, 1, 0.5, "share of mutual avoidance that the agent takes; 0.5 is reciprocal")   \
-    X(radius, "m", 0.02, 5, 0.2, "radius of the agent's disc")                                     \
+    X(radius, "m", 0.02, 5, 0.2, "radius of the disc for which an agent keeps room as it walks")   \
+    X(breadth, "m", 0, 10, 0, "breadth of the torso across the shoulders; 0: twice the radius")    \
+    X(depth, "m", 0, 10, 0,                                                                        \
+      "depth of the torso; 0: twice the radius; a disc unless less than the breadth")              \
     X(mass, "kg", 1, 10000, 70, "mass")                                                            \
     X(restitution, "", 0, 1, 0, "restitution of contacts between agents")                          \
     X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")              \

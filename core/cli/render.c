@@ -187,10 +187,11 @@ const CliCommand cli_render = {
     .name = "render",
     .what = "draw a scene or a recording: pictures, frames, video",
     .usage = "SCENE|RECORDING [options]",
-    .about = "Draws a crowd from above, without a display: a scene (.yaml), which is simulated for "
-             "this, or a recording as for `jostle report`. Shows walls, gates and places with "
-             "their names, bodies, people as discs of their radius, a legend with units, a scale "
-             "and the time.",
+    .about =
+        "Draws a crowd from above, without a display: a scene (.yaml), which is simulated for "
+        "this, or a recording as for `jostle report`. Shows walls, gates and places with "
+        "their names, bodies, people by their torsos or as discs, a legend with units, a scale "
+        "and the time.",
     .notes = "examples:\n"
              "  jostle render scenes/office.yaml --at 8 --out office.svg\n"
              "  jostle render scenes/door-050.yaml --at 20 --colour compression --out door.png\n"

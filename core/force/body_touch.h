@@ -10,6 +10,7 @@ typedef struct JoxTouch {
     JoxV2 normal;                     /* points to the agent */
     JoxV3 point;                      /* m */
     float gap, target, mass, impulse; /* m, m/s, kg, N s */
+    float lever;                      /* of the impulse on the agent (JoxContactPoint) */
     float before;                     /* N s: impulse before a pass */
     float ahead;   /* driven bodies: share of the body's speed that is towards the agent, 0 to 1 */
     int16_t drive; /* index of the body's drive, or -1 */

@@ -24,6 +24,7 @@ typedef struct JoxForceOptions {
     bool react;   /* pushers feel the reaction to their pushes; otherwise the ground takes it */
     uint32_t iterations; /* physical mode: most passes over the contacts of a step */
     float tolerance;     /* N: passes end when none changes a contact force by more */
+    float friction;      /* physical mode: coefficient, of torsos on each other and on walls */
     float reach;         /* physical mode: gap over which a bracing agent passes a force on, m */
     float filter;        /* physical mode: time over which passed-on forces arrive, s; 0: at once */
     float least;         /* m/s2: least |f|/m that makes a half-plane */
@@ -95,6 +96,10 @@ void jox_force_contact(JoxForces *forces);
    speed_limit. The limit is `max_speed`; only contact impulses raise it, to the speed that they
    give. Keeps the velocities for infer. Begin and sum alone make a step without forces. */
 void jox_force_sum(JoxForces *forces);
+/* Called once velocities are planned: writes borne_x, borne_y, by which contacts keep the plans of
+   agents from pressing their bodies into each other, and parted_x, parted_y, by which bodies that
+   overlap part; that moves them within the step, but is no velocity, which would add energy. */
+void jox_force_bear(JoxForces *forces);
 /* Returns the half-planes of contacts, valid from sum to the next begin; none in literal mode. */
 const JoxContactPlanes *jox_force_contact_planes(const JoxForces *forces);
 /* Returns the impulses of the contacts that the last step solved, in ascending order of ids:

@@ -14,7 +14,7 @@
 /* Data of an agent, other than its motion, that contacts need: one load fetches all of it. m,
    kg. */
 typedef struct JoxAgentRecord {
-    float breadth, radius, mass;
+    float radius, outer, mass; /* radius: contact_radius; outer: of any part from the centre */
     uint32_t id;
 } JoxAgentRecord;
 
@@ -32,7 +32,7 @@ struct JoxForces {
     JoxDecay decay; /* that of the first agent in a step, as most agents have its damping */
     JoxStageMemory *memory, own_memory; /* from begin on; own_memory: used where none was given */
     JoxAgentRecord *records;            /* per agent, for finding contacts; in stage memory */
-    float widest;                       /* greatest radius, m */
+    float widest;                       /* bound of the distance of surfaces from centres, m */
     bool has_bodies;                    /* there are bodies that agents can meet */
 
     JoxTransfers transfers;
@@ -45,10 +45,6 @@ struct JoxForces {
 /* Returns whether a wall stands between two points near an agent, no farther apart than the grid of
    walls serves: no force passes it. */
 bool jox_wall_stops_force(const JoxForces *forces, JoxV2 from, JoxV2 to);
-/* Returns the circumference of an agent, over which forces are spread, m. */
-static inline float jox_circumference(float radius) {
-    return (float)JOX_TURN * radius;
-}
 
 /* How an agent plans: how long it keeps a plan, s; the share of the way covered in that time; and
    how long forces count meanwhile, s (interval_forced). */

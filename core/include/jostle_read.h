@@ -26,12 +26,17 @@ typedef struct JoColumn {
 /* Finds a column by its name; its data is read in place, not copied.
    "id", "slot": as in JoAgentState and JoAgent
    "x", "y": position, m; "vx", "vy": velocity, m/s; "face_x", "face_y": unit vector of its look
-   "pref_x", "pref_y": velocity that it wants, m/s; "eager": eagerness of the walking law, 0 to 1
-   "force_x", "force_y", N, "compression", N/m, "load", N: as in JoAgentState
-   "density": people per m2 about it; "contacts": number of agents and bodies that it touches
-   "group", "machine" (its behaviour), "state": numbers, with names by the functions below
-   "goal": number of a place, -1 for none; "team": 0 for none; "tags": a bit for each tag
-   and each parameter ("radius", "mass", "speed", ...), where an angle is stored as its cosine.
+   "chest_x", "chest_y": unit vector to which its chest points; "spin": how fast that turns
+   anticlockwise, rad/s
+   "axis_x", "axis_y", "contact_radius": its torso in the last step: all within contact_radius of
+   the segment between its centre plus and minus the axis, m; (0, 0) of a disc, whose contact_radius
+   a turned shoulder makes less than its radius. 0 before its first step "pref_x", "pref_y":
+   velocity that it wants, m/s; "eager": eagerness of the walking law, 0 to 1 "force_x", "force_y",
+   N, "compression", N/m, "load", N: as in JoAgentState "density": people per m2 about it;
+   "contacts": number of agents and bodies that it touches "group", "machine" (its behaviour),
+   "state": numbers, with names by the functions below "goal": number of a place, -1 for none;
+   "team": 0 for none; "tags": a bit for each tag and each parameter ("radius", "mass", "speed",
+   ...), where an angle is stored as its cosine.
 
    The pointer is valid until the next step and until the next call that changes the world. The
    order of agents changes from step to step: the same index may be another agent, which "id"

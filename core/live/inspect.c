@@ -2,9 +2,12 @@
    half-planes and forces of the last step. Called by the live page and by jo_scene_inspect. */
 
 #include "live/inspect.h"
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "jostle_tools.h"
 #include "run/mods/settings.h"
 
@@ -26,6 +29,24 @@ static const JoxMachine *find_agent_machine(const JoScene *scene, uint32_t i) {
     return machine == JOX_NO_MACHINE ? NULL : machines->set->items[machine];
 }
 
+/* Adds an agent's torso: breadth and depth, m; where its chest points, degrees anticlockwise from
+   +x; how fast it turns, degrees/s. null of a disc. */
+static void add_torso(const JoWorld *world, uint32_t i, JoxJson *json) {
+    const JoxAgents *a = &world->state.agents;
+    const JoxTorso torso = jox_agent_torso(a, i, world->model.def.literal);
+    if (!(torso.half > 0.0f)) {
+        jox_json_null(json, "torso");
+        return;
+    }
+    const double chest = jox_atan2((double)a->chest_y[i], (double)a->chest_x[i]) / JOX_DEGREE;
+    jox_json_object(json, "torso");
+    add_rounded(json, "breadth", 2.0 * (double)(torso.half + torso.radius));
+    add_rounded(json, "depth", 2.0 * (double)torso.radius);
+    add_rounded(json, "chest", chest < 0.0 ? chest + 360.0 : chest);
+    add_rounded(json, "spin", (double)a->spin[i] / JOX_DEGREE);
+    jox_json_end(json);
+}
+
 static void add_inspected_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
@@ -45,6 +66,7 @@ static void add_inspected_agent(const JoScene *scene, uint32_t i, JoxJson *json)
     add_rounded(json, "vy", (double)a->vy[i]);
     add_rounded(json, "radius", (double)jox_param(a, JOX_PARAM_radius, i));
     add_rounded(json, "mass", (double)jox_param(a, JOX_PARAM_mass, i));
+    add_torso(world, i, json);
     jox_json_end(json);
 }
 

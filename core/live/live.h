@@ -13,7 +13,7 @@
 #include "jostle_tools.h"
 
 /* Version of the messages: a page that was loaded with another version reloads itself. */
-enum { JOX_LIVE_PROTOCOL = 3 };
+enum { JOX_LIVE_PROTOCOL = 4 };
 
 /* A growing byte buffer; zero-initialise, set `length = 0` to reuse, free by jox_bytes_free. */
 typedef struct JoxBytes {
@@ -126,6 +126,8 @@ typedef struct JoxLiveCrowd {
     const float *value;           /* the colour's quantity; NULL where it follows from the rest */
     const float *radius;          /* m; or NULL */
     bool one_radius;              /* `radius` has one item, which holds for all */
+    /* Torsos as in JoxFrame, m; NULL: all are discs. */
+    const float *axis_x, *axis_y, *contact_radius;
     const uint16_t *group;        /* or NULL */
     const uint8_t *state, *flags; /* index in the scene message's "states"; JOX_LIVE_PARITY ... */
     JoxV2 period;                 /* m, size of a periodic world; 0 along an axis without edges */

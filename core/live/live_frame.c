@@ -7,6 +7,7 @@
 #include "live/live_parts.h"
 #include "run/figure_listeners.h"
 #include "run/listener.h"
+#include "run/present_frame.h"
 
 static const float MARGIN = 2.0f; /* m around everything that a scene names */
 static const double LEAN_TIME =
@@ -195,7 +196,7 @@ static const float *fill_forces(JoxLive *live, const JoxAgents *a) {
     return live->force;
 }
 
-/* Returns the scene's people as columns; states, flags and values are still NULL. */
+/* Returns the scene's people as columns; states, flags, values and torsos are still NULL. */
 static JoxLiveCrowd list_scene_crowd(const JoScene *scene) {
     const JoxAgents *a = &scene->world->state.agents;
     return (JoxLiveCrowd){.count = a->count,
@@ -214,6 +215,14 @@ static JoxLiveCrowd list_scene_crowd(const JoScene *scene) {
                           .walls = &scene->world->scratch.walls};
 }
 
+/* Adds the torsos of the scene's people, unless all are discs. */
+static void add_torsos(JoScene *scene, JoxLiveCrowd *crowd) {
+    const JoxFrame *frame = jox_run_present_frame(scene, JOX_FRAME_TORSOS);
+    crowd->axis_x = frame->axis_x;
+    crowd->axis_y = frame->axis_y;
+    crowd->contact_radius = frame->contact_radius;
+}
+
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     JoxLive *live = jox_live_attach(scene);
     const JoWorld *world = scene->world;
@@ -222,6 +231,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     jox_live_cover_crowd(&live->area, &crowd);
     note_people(live, world);
     fill_states(live, scene);
+    add_torsos(scene, &crowd);
     crowd.state = live->state;
     crowd.flags = live->flags;
     crowd.value = colour == JOX_LIVE_COLOUR_force         ? fill_forces(live, a)
@@ -239,7 +249,8 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
 }
 
 bool jox_live_people(JoScene *scene, JoxBytes *out) {
-    const JoxLiveCrowd crowd = list_scene_crowd(scene);
+    JoxLiveCrowd crowd = list_scene_crowd(scene);
+    add_torsos(scene, &crowd);
     return jox_live_pack_people(&crowd, out);
 }
 

@@ -10,7 +10,8 @@
 #include "live/live.h"
 
 enum { STEPS = 65535, PEOPLE_HEAD = 16, FRAME = 1, PEOPLE = 2 };
-static const float RADIUS = 0.2f; /* m, for people whose radius is unknown */
+enum { PERSON = 2, PERSON_WITH_TORSO = 4, CHEST = 1 }; /* bytes of a slot */
+static const float RADIUS = 0.2f;                      /* m, for people whose radius is unknown */
 
 const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT] = {
 #define X(name, most, unit) {#name, unit, most},
@@ -93,17 +94,19 @@ void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd) {
 
 /* ---- frames ---- */
 
-/* Writes the head, and marks all slots as empty. `most`: the value that byte 255 stands for. */
-static void write_frame_head(JoxBytes *out, const JoxLiveHead *head, uint32_t slots, float most) {
+/* Writes the head, and marks all slots as empty. `most`: the value that byte 255 stands for.
+   `chest`: bytes of a slot's chest. */
+static void write_frame_head(JoxBytes *out, const JoxLiveHead *head, uint32_t slots, float most,
+                             uint32_t chest) {
     const JoxLiveArea *area = head->area;
-    size_t people = (size_t)slots * JOX_LIVE_SLOT;
+    const size_t people = (size_t)slots * (JOX_LIVE_SLOT + chest);
     resize_bytes(out, JOX_LIVE_HEAD + people + (size_t)head->bodies * JOX_LIVE_BODY);
     uint8_t *at = put32(put32(out->data, FRAME), head->tick);
     at = put_double(at, head->time);
     at = put32(put32(at, slots), head->bodies);
     at = put_float(put_float(at, area->low.x), area->low.y);
     at = put_float(put_float(at, 1.0f / area->steps.x), 1.0f / area->steps.y);
-    at = put32(put_float(at, most), 0);
+    at = put32(put_float(at, most), chest);
     static const uint8_t NOBODY[JOX_LIVE_SLOT] = {[5] = JOX_LIVE_NOBODY};
     for (uint32_t s = 0; s < slots; s++, at += JOX_LIVE_SLOT)
         memcpy(at, NOBODY, JOX_LIVE_SLOT);
@@ -153,7 +156,7 @@ void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, Jox
     const JoxLiveArea *area = head->area;
     const float most = jox_live_colours[colour].most, scale = most > 0.0f ? 1.0f / most : 0.0f;
     JOX_ASSERT(area->known && area->steps.x > 0.0f && area->steps.y > 0.0f);
-    write_frame_head(out, head, crowd->slots, most);
+    write_frame_head(out, head, crowd->slots, most, crowd->axis_x ? CHEST : 0);
     for (uint32_t i = 0; i < crowd->count; i++) {
         JOX_ASSERT(crowd->slot[i] < crowd->slots && crowd->state[i] != JOX_LIVE_NOBODY);
         uint8_t *at = out->data + JOX_LIVE_HEAD + (size_t)crowd->slot[i] * JOX_LIVE_SLOT;
@@ -167,6 +170,9 @@ void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, Jox
         at[2] = (uint8_t)(jox_clampf(value, 0.0f, 1.0f) * 255.0f + 0.5f);
         at[3] = crowd->flags[i];
     }
+    uint8_t *chests = out->data + out->length - crowd->slots; /* behind the bodies */
+    for (uint32_t i = 0; crowd->axis_x && i < crowd->count; i++)
+        chests[crowd->slot[i]] = encode_heading(crowd->axis_y[i], -crowd->axis_x[i]);
 }
 
 void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 position,
@@ -180,30 +186,42 @@ void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 posi
 
 /* ---- people ---- */
 
-/* Sizes the message for `slots` and writes its head. Bytes of slots that were there stay, so that
-   the caller can compare them. */
-static void write_people_head(JoxBytes *out, uint32_t slots) {
-    size_t before = out->length, length = PEOPLE_HEAD + 2 * (size_t)slots;
+/* Sizes the message for `slots` of `person` bytes each and writes its head. Bytes of slots that
+   were there stay, so that the caller can compare them, unless they had another size. */
+static void write_people_head(JoxBytes *out, uint32_t slots, uint32_t person) {
+    const size_t length = PEOPLE_HEAD + person * (size_t)slots;
+    const size_t before = out->length && out->data[12] == person ? out->length : 0;
     resize_bytes(out, length);
     if (length > before)
         memset(out->data + before, 0, length - before);
-    put32(put32(put32(put32(out->data, PEOPLE), 0), slots), 0);
+    put32(put32(put32(put32(out->data, PEOPLE), 0), slots), person);
+}
+
+/* Returns a length in cm. */
+static inline uint8_t encode_length(float metres) {
+    return (uint8_t)(jox_clampf(metres, 0.0f, 2.55f) * 100.0f + 0.5f);
 }
 
 bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out) {
     const size_t before = out->length;
-    write_people_head(out, crowd->slots);
+    const uint32_t size = crowd->axis_x ? PERSON_WITH_TORSO : PERSON;
+    write_people_head(out, crowd->slots, size);
     bool differs = out->length != before;
     for (uint32_t i = 0; i < crowd->count; i++) {
         JOX_ASSERT(crowd->slot[i] < crowd->slots);
-        uint8_t *at = out->data + PEOPLE_HEAD + 2 * (size_t)crowd->slot[i];
+        uint8_t *at = out->data + PEOPLE_HEAD + size * (size_t)crowd->slot[i];
         const float radius = !crowd->radius ? RADIUS : crowd->radius[crowd->one_radius ? 0 : i];
         const uint32_t group = crowd->group ? crowd->group[i] : 0;
-        const uint8_t r = (uint8_t)(jox_clampf(radius, 0.0f, 2.55f) * 100.0f + 0.5f);
-        const uint8_t g = (uint8_t)(group < 255 ? group : 255);
-        differs |= at[0] != r || at[1] != g;
-        at[0] = r;
-        at[1] = g;
+        uint8_t person[PERSON_WITH_TORSO] = {encode_length(radius),
+                                             (uint8_t)(group < 255 ? group : 255)};
+        if (crowd->axis_x) {
+            const float depth = 2.0f * crowd->contact_radius[i];
+            const float axis = jox_length(jox_v2(crowd->axis_x[i], crowd->axis_y[i]));
+            person[2] = encode_length(depth + 2.0f * axis);
+            person[3] = encode_length(depth);
+        }
+        differs |= memcmp(at, person, size) != 0;
+        memcpy(at, person, size);
     }
     return differs;
 }

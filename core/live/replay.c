@@ -203,6 +203,9 @@ static JoxLiveCrowd list_recorded_crowd(const JoxReplay *r) {
                           .face_y = r->frame.face_y,
                           .group = r->frame.group,
                           .radius = r->frame.radius,
+                          .axis_x = r->frame.axis_x,
+                          .axis_y = r->frame.axis_y,
+                          .contact_radius = r->frame.contact_radius,
                           .period = r->period,
                           .walls = find_standing_walls(r)};
 }

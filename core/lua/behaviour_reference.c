@@ -99,7 +99,10 @@ void jox_lua_reference(JoxText *out) {
     jox_text_add(
         out,
         "\n## Parameters\n\nKeys of `defaults` and of every state. A value is a number, a drawn "
-        "value (once per agent), or an\nexpression that is computed each step.\n\n"
+        "value (once per agent), or an\nexpression that is computed each step. Torsos: "
+        "`breadth = normal(0.49, 0.04, 0.4, 0.6), depth = normal(0.26, 0.03, 0.2,\n0.34)` draws "
+        "adults in ordinary clothes; `core/walking.md` has the measures of men and women, and how "
+        "to let breadth,\ndepth and mass go together.\n\n"
         "| parameter | unit | range | default | meaning | example |\n|---|---|---|---|---|---|\n");
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];

@@ -1,6 +1,6 @@
-/* Top views of a crowd: walls and gates, places, bodies as outlines, people as discs in colours,
-   a field on the floor, and a legend. Callers (render, report, sweep) fill in a JoxPicture and
-   draw it on any canvas with jox_draw. Lengths are in metres, times in seconds. */
+/* Top views of a crowd: walls and gates, places, bodies as outlines, people as discs or torsos in
+   colours, a field on the floor, and a legend. Callers (render, report, sweep) fill in a JoxPicture
+   and draw it on any canvas with jox_draw. Lengths are in metres, times in seconds. */
 #ifndef JOX_PICTURE_DRAW_H
 #define JOX_PICTURE_DRAW_H
 

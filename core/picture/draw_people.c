@@ -180,6 +180,29 @@ static bool is_disc_on_map(const JoxDrawing *d, JoxV2 at, float radius) {
            at.y - radius < d->high.y;
 }
 
+static bool has_torso(const JoxDrawing *d, uint32_t i) {
+    const JoxFrame *f = d->picture->frame;
+    return f->axis_x && (f->axis_x[i] != 0.0f || f->axis_y[i] != 0.0f) &&
+           find_disc_radius(d, i) >= EDGED * d->unit;
+}
+
+/* Draws a torso: two half circles about the ends of its axis, and the lines between. */
+static void draw_torso(JoxDrawing *d, uint32_t i, JoxV2 at, const char *id) {
+    enum { HALF = 9 };
+    const JoxFrame *f = d->picture->frame;
+    const JoxV2 axis = {f->axis_x[i] * d->scale, -f->axis_y[i] * d->scale}, along = jox_unit(axis);
+    const float radius = f->contact_radius[i] * d->scale;
+    JoxV2 points[2 * HALF];
+    for (int k = 0; k < 2 * HALF; k++) {
+        const float end = k < HALF ? 1.0f : -1.0f;
+        const float angle = (float)JOX_PI * ((float)(k % HALF) / (HALF - 1) - 0.5f);
+        const float c = cosf(angle) * end * radius, s = sinf(angle) * end * radius;
+        const JoxV2 out = {along.x * c - along.y * s, along.y * c + along.x * s};
+        points[k] = jox_add(at, jox_add(jox_scale(axis, end), out));
+    }
+    jox_canvas_line(d->canvas, points, 2 * HALF, true, id);
+}
+
 /* Draws each person's heading: a mark from the centre to the rim in the direction of looking. */
 static void draw_headings(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
@@ -188,7 +211,8 @@ static void draw_headings(JoxDrawing *d) {
     uint32_t count = 0;
     float widest = 0.0f;
     for (uint32_t i = 0; i < frame->count; i++) {
-        float radius = find_disc_radius(d, i);
+        const float radius =
+            has_torso(d, i) ? frame->contact_radius[i] * d->scale : find_disc_radius(d, i);
         JoxV2 along = p->face_x ? jox_v2(p->face_x[i], p->face_y[i])
                                 : jox_unit(jox_v2(frame->vx[i], frame->vy[i]));
         JoxV2 at = jox_draw_to_pixels(d, jox_v2(frame->x[i], frame->y[i]));
@@ -223,10 +247,12 @@ void jox_draw_people(JoxDrawing *d) {
             char id[16];
             JoxV2 here = jox_draw_to_pixels(d, jox_v2(frame->x[i], frame->y[i]));
             snprintf(id, sizeof id, "p%u", frame->key[i]);
-            if (is_disc_on_map(d, here, find_disc_radius(d, i)))
-                jox_canvas_disc(d->canvas, here, find_disc_radius(d, i), id);
-            else
+            if (!is_disc_on_map(d, here, find_disc_radius(d, i)))
                 d->outside = true;
+            else if (has_torso(d, i))
+                draw_torso(d, i, here, id);
+            else
+                jox_canvas_disc(d->canvas, here, find_disc_radius(d, i), id);
         }
         jox_canvas_close(d->canvas);
     }

@@ -44,6 +44,7 @@ static const struct {
     {"plans_bounded_share", JOX_SUMMARY_FIGURE},
     {"density_max", JOX_SUMMARY_FIGURE},
     {"overlap_p99", JOX_SUMMARY_FIGURE},
+    {"depth_p99", JOX_SUMMARY_FIGURE},
     {"states.*", JOX_SUMMARY_FIGURE},
     {"transitions.*", JOX_SUMMARY_FIGURE},
     {"regions.*", JOX_SUMMARY_FIGURE},

@@ -25,8 +25,11 @@ typedef struct JoxFrame {
     const float *x, *y;   /* m */
     const float *vx, *vy; /* m/s: displacement over a step, or over a few frames around this one */
     /* Each is NULL where it is unknown, as in a recording of another program. */
-    const float *radius;       /* m */
-    bool one_radius;           /* `radius` has one element, which is everybody's radius */
+    const float *radius; /* m */
+    bool one_radius;     /* `radius` has one element, which is everybody's radius */
+    /* Torsos: from the centre to the left end of the axis, and the distance of the surface from the
+       axis, m. NULL, too, where all are discs; one disc among others has no axis. */
+    const float *axis_x, *axis_y, *contact_radius;
     const float *force;        /* magnitude of the net force, N */
     const float *compression;  /* sum of contact force magnitudes over circumference, N/m */
     const float *load;         /* greatest push borne from any one direction, N */

@@ -14,7 +14,7 @@
 #include "record/recorder_schema.h"
 #include "task/thread.h"
 
-enum { FRAMES = 4, COLUMNS = 12, BATCH = 50 }; /* BATCH: rows that one statement writes */
+enum { FRAMES = 4, COLUMNS = 15, BATCH = 50 }; /* BATCH: rows that one statement writes */
 static const double COMMITTED = 1.0;           /* s: frames are committed at least this often */
 
 typedef struct Frame {
@@ -90,8 +90,7 @@ static bool write_bounds(JoxRecorder *r) {
            set_number(r, "ymin", r->low_y) && set_number(r, "ymax", r->high_y);
 }
 
-/* Positions are recorded in 1 / PLACE_PARTS of a metre. */
-static const double PLACE_PARTS = 1e4;
+static const double PLACE_PARTS = 1e4; /* units of recorded positions in a metre */
 
 /* Returns a position, m, rounded as a reader will get it; NAN stays NAN. */
 static double round_as_recorded(float place) {
@@ -99,7 +98,7 @@ static double round_as_recorded(float place) {
                            : (double)NAN;
 }
 
-/* Binds value * parts as an integer. NAN becomes NULL, which the table refuses. */
+/* Binds value * parts as an integer. NAN becomes NULL, which the table takes of torsos alone. */
 static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
     if (isfinite(value))
         sqlite3_bind_int64(to, at, llround((double)value * parts));
@@ -109,15 +108,16 @@ static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
 
 static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecordRow *row) {
     const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
-                             row->force, row->compression, row->load};
-    const double parts[] = {PLACE_PARTS, PLACE_PARTS, 1e3, 1e3, 10.0, 10.0, 10.0};
+                             row->force, row->compression, row->load,  row->radius,
+                             row->chest, row->breadth,     row->depth};
+    const double parts[] = {PLACE_PARTS, PLACE_PARTS, 1e3, 1e3,         10.0,       10.0,
+                            10.0,        PLACE_PARTS, 1e3, PLACE_PARTS, PLACE_PARTS};
     sqlite3_bind_int64(to, first, frame);
     sqlite3_bind_int64(to, first + 1, row->id);
-    for (int k = 0; k < 7; k++)
-        bind_parts(to, first + 2 + k, numbers[k], parts[k]);
+    for (int k = 0; k < 11; k++) /* state and group stand between load and radius */
+        bind_parts(to, first + 2 + k + (k < 7 ? 0 : 2), numbers[k], parts[k]);
     sqlite3_bind_int64(to, first + 9, row->state);
     sqlite3_bind_int64(to, first + 10, row->group);
-    bind_parts(to, first + 11, row->radius, PLACE_PARTS);
 }
 
 static bool write_rows(JoxRecorder *r, const Frame *f) {
@@ -249,7 +249,7 @@ static bool resume_recording(JoxRecorder *r, uint32_t last) {
 
 static bool prepare_inserts(JoxRecorder *r) {
     static const char INSERT[] = "INSERT INTO jostle_row VALUES";
-    static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?),";
+    static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?),";
     char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
     char *end = stpcpy(batch, INSERT);
     for (int k = 0; k < BATCH; k++)

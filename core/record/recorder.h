@@ -28,6 +28,9 @@ typedef struct JoxRecordRow {
     float load;         /* N: mean since the previous frame */
     uint16_t group;     /* number in jostle_group */
     float radius;       /* m */
+    /* The torso, NAN of a disc: the angle to which the chest points, anticlockwise from +x, rad;
+       breadth and depth, m. */
+    float chest, breadth, depth;
 } JoxRecordRow;
 /* A body in a frame. */
 typedef struct JoxRecordBody {

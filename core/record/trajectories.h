@@ -28,9 +28,11 @@ typedef struct JoxTrajectories {
     float *x, *y, *vx, *vy;            /* m, m/s */
     float *force, *compression, *load; /* N, N/m, N; NULL unless recorded */
     float *radius;                     /* m; NULL unless recorded */
-    uint16_t *group;                   /* NULL unless recorded */
-    char **groups;                     /* names */
-    JoxColour *group_colours;          /* 0 where a group has none */
+    /* m: torsos as in JoxTrajectoryReaderFrame; NULL unless recorded */
+    float *axis_x, *axis_y, *contact_radius;
+    uint16_t *group;          /* NULL unless recorded */
+    char **groups;            /* names */
+    JoxColour *group_colours; /* 0 where a group has none */
     uint32_t group_count;
     uint32_t *state;          /* index in `states`; NULL unless recorded */
     char **states;            /* names; the first, "", is the state of people without a machine */

@@ -36,15 +36,20 @@ static void build_recorded_state_names(JoxTrajectories *t, const JoxTrajectoryRe
 }
 
 /* Makes room for `need` rows in the columns that only our recordings have. */
-enum { OWN = 8 }; /* number of such columns */
-static void reserve_own_columns(JoxTrajectories *t, bool loads, bool radii, size_t capacities[OWN],
-                                size_t need) {
+enum { OWN = 11 }; /* number of such columns */
+static void reserve_own_columns(JoxTrajectories *t, const JoxTrajectoryReader *r,
+                                size_t capacities[OWN], size_t need) {
     JOX_RESERVE(t->force, capacities[0], need);
     JOX_RESERVE(t->compression, capacities[1], need);
-    if (loads)
+    if (r->loads)
         JOX_RESERVE(t->load, capacities[6], need);
-    if (radii)
+    if (r->radii)
         JOX_RESERVE(t->radius, capacities[7], need);
+    if (r->torsos) {
+        JOX_RESERVE(t->axis_x, capacities[8], need);
+        JOX_RESERVE(t->axis_y, capacities[9], need);
+        JOX_RESERVE(t->contact_radius, capacities[10], need);
+    }
     JOX_RESERVE(t->group, capacities[2], need);
     JOX_RESERVE(t->face_x, capacities[3], need);
     JOX_RESERVE(t->face_y, capacities[4], need);
@@ -64,13 +69,18 @@ static void add_person_row(JoxTrajectories *t, const JoxTrajectoryReader *r, uin
     t->vx[row] = t->vy[row] = 0.0f;
     if (!r->ours)
         return;
-    reserve_own_columns(t, f->load != NULL, f->radius != NULL, capacities, row + 1);
+    reserve_own_columns(t, r, capacities, row + 1);
     t->force[row] = f->force[i];
     t->compression[row] = f->compression[i];
     if (f->load)
         t->load[row] = f->load[i];
     if (f->radius)
         t->radius[row] = f->radius[i];
+    if (r->torsos) {
+        t->axis_x[row] = r->axis_x[i];
+        t->axis_y[row] = r->axis_y[i];
+        t->contact_radius[row] = r->contact_radius[i];
+    }
     t->group[row] = f->group[i];
     t->face_x[row] = f->face_x[i];
     t->face_y[row] = f->face_y[i];

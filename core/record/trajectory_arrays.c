@@ -38,6 +38,9 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .compression = t->compression ? t->compression + first : NULL,
                       .load = t->load ? t->load + first : NULL,
                       .radius = t->radius ? t->radius + first : NULL,
+                      .axis_x = t->axis_x ? t->axis_x + first : NULL,
+                      .axis_y = t->axis_y ? t->axis_y + first : NULL,
+                      .contact_radius = t->contact_radius ? t->contact_radius + first : NULL,
                       .walls = t->history ? jox_wall_history_standing(t->history, t->number[first])
                                           : &t->walls,
                       .group = t->group ? t->group + first : NULL,
@@ -59,11 +62,28 @@ const JoxWalls *jox_trajectories_walls(const JoxTrajectories *t, uint32_t f) {
 void jox_trajectories_free(JoxTrajectories *t) {
     if (!t)
         return;
-    void *columns[] = {
-        t->number,       t->id,    t->line,   t->key,         t->x,      t->y,
-        t->vx,           t->vy,    t->force,  t->compression, t->load,   t->group,
-        t->first,        t->state, t->radius, t->face_x,      t->face_y, t->group_colours,
-        t->state_colours};
+    void *columns[] = {t->number,
+                       t->id,
+                       t->line,
+                       t->key,
+                       t->x,
+                       t->y,
+                       t->vx,
+                       t->vy,
+                       t->force,
+                       t->compression,
+                       t->load,
+                       t->group,
+                       t->first,
+                       t->state,
+                       t->radius,
+                       t->face_x,
+                       t->face_y,
+                       t->group_colours,
+                       t->state_colours,
+                       t->axis_x,
+                       t->axis_y,
+                       t->contact_radius};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     for (uint32_t g = 0; g < t->group_count; g++)

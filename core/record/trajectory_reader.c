@@ -4,7 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/mem.h"
+#include "base/number/pi.h"
 #include "record/trajectory_reader_parts.h"
 
 static const float RADIUS = 0.2f;        /* m: where none is recorded */
@@ -60,8 +62,9 @@ static void reserve_frame_columns(JoxTrajectoryReader *r, size_t need) {
         return;
     r->capacity = need + need / 2 + 64;
     r->id = jox_realloc(r->id, r->capacity, sizeof *r->id);
-    float **columns[] = {&r->x,     &r->y,           &r->face_x, &r->face_y,
-                         &r->force, &r->compression, &r->load,   &r->radius};
+    float **columns[] = {&r->x,      &r->y,           &r->face_x,        &r->face_y,
+                         &r->force,  &r->compression, &r->load,          &r->radius,
+                         &r->axis_x, &r->axis_y,      &r->contact_radius};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         *columns[c] = jox_realloc(*columns[c], r->capacity, sizeof(float));
     r->state = jox_realloc(r->state, r->capacity, sizeof *r->state);
@@ -98,6 +101,22 @@ static float read_radius(sqlite3_stmt *row, int column) {
     return radius > 0.0f && radius < MOST_RADIUS ? radius : RADIUS;
 }
 
+/* Reads the torso of person n: breadth and depth in columns from 12 on, the chest's angle before.
+   A disc where they are missing or implausible. */
+static void read_torso(JoxTrajectoryReader *r, uint32_t n) {
+    const double chest = sqlite3_column_double(r->rows, 11);
+    const float breadth = (float)sqlite3_column_double(r->rows, 12),
+                depth = (float)sqlite3_column_double(r->rows, 13);
+    const bool known = breadth > 0.0f && depth > 0.0f && breadth < 2.0f * MOST_RADIUS &&
+                       depth < 2.0f * MOST_RADIUS && fabs(chest) <= JOX_TURN;
+    const JoxTorso torso =
+        known ? jox_torso_of(breadth, depth, r->radius[n]) : (JoxTorso){r->radius[n], 0.0f};
+    r->axis_x[n] = -(float)sin(chest) * torso.half;
+    r->axis_y[n] = (float)cos(chest) * torso.half;
+    r->contact_radius[n] = torso.radius;
+    r->torso |= torso.half > 0.0f;
+}
+
 /* Copies the current row of the query into element n of the columns. */
 static void store_person_row(JoxTrajectoryReader *r, uint32_t n) {
     reserve_frame_columns(r, (size_t)n + 1);
@@ -120,6 +139,8 @@ static void store_person_row(JoxTrajectoryReader *r, uint32_t n) {
         r->load[n] = (float)sqlite3_column_double(r->rows, 9);
     if (r->radii)
         r->radius[n] = read_radius(r->rows, 10);
+    if (r->torsos)
+        read_torso(r, n);
 }
 
 bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
@@ -127,6 +148,7 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     uint32_t n = 0;
     int status;
     *out = (JoxTrajectoryReaderFrame){.time = jox_trajectory_reader_time(r, frame)};
+    r->torso = false;
     sqlite3_reset(r->rows);
     sqlite3_bind_int64(r->rows, 1, r->number[frame]);
     sqlite3_bind_int64(r->rows, 2, r->from[frame]);
@@ -160,6 +182,9 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     out->compression = r->ours ? r->compression : NULL;
     out->load = r->loads ? r->load : NULL;
     out->radius = r->radii ? r->radius : NULL;
+    out->axis_x = r->torso ? r->axis_x : NULL;
+    out->axis_y = r->torso ? r->axis_y : NULL;
+    out->contact_radius = r->torso ? r->contact_radius : NULL;
     out->group = r->ours ? r->group : NULL;
     return true;
 }
@@ -338,9 +363,10 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
         jox_free(r->states[s].name);
     }
     jox_free(r->states);
-    void *columns[] = {r->number, r->from,  r->id,          r->x,      r->y,      r->face_x,
-                       r->face_y, r->force, r->compression, r->load,   r->radius, r->state,
-                       r->group,  r->body,  r->changes,     r->corners};
+    void *columns[] = {r->axis_x, r->axis_y, r->contact_radius, r->number, r->from,  r->id,
+                       r->x,      r->y,      r->face_x,         r->face_y, r->force, r->compression,
+                       r->load,   r->radius, r->state,          r->group,  r->body,  r->changes,
+                       r->corners};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     jox_free(r);

@@ -21,6 +21,9 @@ typedef struct JoxTrajectoryReaderFrame {
     const uint32_t *state;
     const float *force, *compression, *load; /* N, N/m, N */
     const float *radius;                     /* m */
+    /* The torso: from its centre to the left end of its axis, and the distance of its surface from
+       the axis, m. A disc has no axis; NULL, too, where all are discs. */
+    const float *axis_x, *axis_y, *contact_radius;
     const uint16_t *group;
     uint32_t body_count;
     const JoxRecordBody *bodies; /* in ascending order of ids */

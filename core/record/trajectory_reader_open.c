@@ -122,8 +122,8 @@ static void read_state_names(JoxTrajectoryReader *r) {
 }
 
 /* Prepares the query for the rows of a frame, by the columns that the file has. In order: our
-   recordings; those before radii; before that, those with table jostle_agent; those before loads;
-   files of JuPedSim; files with nothing but positions. */
+   recordings; those before torsos; before radii; before that, those with table jostle_agent; those
+   before loads; files of JuPedSim; files with nothing but positions. */
 static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     static const char *const WAYS[] = {"WHERE d.frame = ?1 ORDER BY d.id",
                                        "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
@@ -133,6 +133,8 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.%s AND a.id = d.id"           \
     " AND a.frame = d.frame"
     static const char *const COLUMNS[] = {
+        PLACED ", d.state, d.force, d.compression, d.member, d.load, d.radius, d.chest, d.breadth, "
+               "d.depth FROM trajectory_data d",
         PLACED
         ", d.state, d.force, d.compression, d.member, d.load, d.radius FROM trajectory_data d",
         PLACED ", d.state, d.force, d.compression, d.member, d.load FROM trajectory_data d",
@@ -145,10 +147,11 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
         jox_text_printf(&sql, COLUMNS[c], r->sorted ? "source" : "rowid");
         jox_text_printf(&sql, " %s", WAYS[r->way]);
         r->rows = jox_database_prepare(r->db, sql.data);
-        r->radii = c < 1;
-        r->loads = c < 3;
-        r->ours = c < 4;
-        r->facing = c < 5;
+        r->torsos = c < 1;
+        r->radii = c < 2;
+        r->loads = c < 4;
+        r->ours = c < 5;
+        r->facing = c < 6;
         jox_text_free(&sql);
     }
     double last;
@@ -225,6 +228,15 @@ static bool has_frame_index(JoxDatabase *db, const char *table) {
     return indexed;
 }
 
+/* Returns whether the rows of our recording have a column. */
+static bool has_column(JoxDatabase *db, const char *name) {
+    char *sql = sqlite3_mprintf("SELECT %w FROM jostle_row LIMIT 0", name);
+    sqlite3_stmt *found = sql ? jox_database_prepare(db, sql) : NULL;
+    sqlite3_free(sql);
+    jox_database_finalize(db, found);
+    return found != NULL;
+}
+
 /* Finds the table of the rows. In our recordings trajectory_data is a view, which is created anew
    over our table; any other view of that name could be any query and is refused. Returns false with
    an error. */
@@ -236,12 +248,12 @@ static bool find_row_table(JoxTrajectoryReader *r, const char *path, const char 
                      "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = 'jostle_row'",
                      &found)) {
         *table = "jostle_row";
-        sqlite3_stmt *radii = jox_database_prepare(r->db, "SELECT radius FROM jostle_row LIMIT 0");
-        sqlite3_exec(r->db->sqlite,
-                     radii ? "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS
-                           : "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_RADII,
-                     NULL, NULL, NULL);
-        jox_database_finalize(r->db, radii);
+        static const char *const VIEWS[] = {
+            "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS,
+            "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_TORSOS,
+            "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_RADII};
+        const int version = has_column(r->db, "chest") ? 0 : has_column(r->db, "radius") ? 1 : 2;
+        sqlite3_exec(r->db->sqlite, VIEWS[version], NULL, NULL, NULL);
     } else if (query_number(
                    r->db,
                    "SELECT 1 FROM sqlite_schema WHERE type = 'view' AND name = 'trajectory_data'",

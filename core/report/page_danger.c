@@ -118,8 +118,8 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
         jox_html_paragraph(
             out,
             "Compression is another quantity: the sum of the magnitudes of all contact forces "
-            "over the circumference 2 pi r, held likewise. It cannot be turned into a load and is "
-            "compared with no limit.");
+            "over the circumference of the torso, held likewise. It cannot be turned into a load "
+            "and is compared with no limit.");
     else
         jox_html_paragraph(out, "Compression was not measured.");
 }

@@ -177,5 +177,6 @@ JoxSubject jox_report_subject(const JoxReport *r) {
                         .inside = (uint32_t)(t->people - r->exits.left),
                         .from = first.time,
                         .until = (double)t->last / t->fps,
-                        .overlap_p99 = NAN};
+                        .overlap_p99 = NAN,
+                        .depth_p99 = NAN};
 }

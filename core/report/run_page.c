@@ -62,10 +62,12 @@ static JoxPageFigures collect_run_figures(const JoScene *scene) {
         jox_page_add_probe(&f, probe);
     f.group = "The simulation itself";
     jox_page_add_figure(&f, "", jox_statistics_overlap_p99(s),
-                        "overlap that 99 %% stay below, share of a diameter");
+                        "overlap that 99 %% stay below, share of a person's depth");
+    jox_page_add_figure(&f, "m", jox_statistics_depth_p99(s),
+                        "overlap that 99 %% of those who touch stay below");
     jox_page_add_figure(
         &f, "", jox_statistics_overlap_share(s, JOX_TRUST_OVERLAP),
-        "share of people's time in which they overlap by more than %.0f %% of a diameter",
+        "share of people's time in which they overlap by more than %.0f %% of their depth",
         100.0 * JOX_TRUST_OVERLAP);
     jox_page_add_figure(&f, "", jox_statistics_share(s, s->failures),
                         "share of agent-steps whose 2-D program failed");

@@ -250,6 +250,7 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
     static const JoxStory none;
     const JoxLocal *local = jox_run_local_densities(scene);
     const JoxSceneSpec *spec = scene->spec;
+    const JoxStatistics *statistics = &scene->world->state.statistics;
     const JoxProbe **probes = jox_alloc(spec->probe_count + 1, sizeof *probes);
     for (uint32_t p = 0; p < spec->probe_count; p++)
         probes[p] = jox_run_probe(scene, p);
@@ -269,7 +270,8 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .inside = scene->world->state.agents.count,
                         .until = jo_world_time(scene->world),
                         .simulated = true,
-                        .overlap_p99 = jox_statistics_overlap_p99(&scene->world->state.statistics)};
+                        .overlap_p99 = jox_statistics_overlap_p99(statistics),
+                        .depth_p99 = jox_statistics_depth_p99(statistics)};
 }
 
 void jox_run_subject_free(JoxSubject *s) {

@@ -34,7 +34,7 @@ static void write_moment_names(const JoxSubject *s, int kind, char title[128], c
 /* Returns a frame of the moment, whose columns free_moment_frame frees. */
 static JoxFrame make_moment_frame(const JoxMoment *m) {
     uint32_t *key = jox_alloc(m->count + 1, sizeof *key);
-    float *x = jox_alloc(4 * m->count + 1, sizeof *x);
+    float *x = jox_alloc(7 * m->count + 1, sizeof *x);
     const bool radii = m->count && m->people[0].radius > 0.0f;
     for (size_t i = 0; i < m->count; i++) {
         const JoxMomentPerson *person = &m->people[i];
@@ -42,6 +42,9 @@ static JoxFrame make_moment_frame(const JoxMoment *m) {
         x[i] = person->x;
         x[m->count + i] = person->y;
         x[2 * m->count + i] = person->radius;
+        x[4 * m->count + i] = person->axis_x;
+        x[5 * m->count + i] = person->axis_y;
+        x[6 * m->count + i] = person->contact_radius;
     }
     float *still = x + 3 * m->count; /* zero velocities: no headings are drawn */
     return (JoxFrame){.time = m->time,
@@ -51,7 +54,10 @@ static JoxFrame make_moment_frame(const JoxMoment *m) {
                       .y = x + m->count,
                       .vx = still,
                       .vy = still,
-                      .radius = radii ? x + 2 * m->count : NULL};
+                      .radius = radii ? x + 2 * m->count : NULL,
+                      .axis_x = x + 4 * m->count,
+                      .axis_y = x + 5 * m->count,
+                      .contact_radius = x + 6 * m->count};
 }
 
 static void free_moment_frame(JoxFrame *frame) {

@@ -14,6 +14,19 @@ static void copy_bodies(JoxMoment *m, const JoxStorySample *sample) {
         m->bodies.items[b].name = NULL; /* the names' owner may be freed before the story */
 }
 
+static JoxMomentPerson get_moment_person(const JoxFrame *frame, uint32_t i) {
+    JoxMomentPerson person = {.key = frame->key[i],
+                              .x = frame->x[i],
+                              .y = frame->y[i],
+                              .radius = jox_frame_radius(frame, i, 0.0f)};
+    if (frame->axis_x) {
+        person.axis_x = frame->axis_x[i];
+        person.axis_y = frame->axis_y[i];
+        person.contact_radius = frame->contact_radius[i];
+    }
+    return person;
+}
+
 /* Copies a sample into a moment. */
 static void store_moment(JoxMoment *m, const JoxStorySample *sample) {
     const JoxFrame *frame = sample->frame;
@@ -25,9 +38,7 @@ static void store_moment(JoxMoment *m, const JoxStorySample *sample) {
     m->left = sample->left;
     JOX_RESERVE(m->people, m->capacity, frame->count);
     for (m->count = 0; m->count < frame->count; m->count++)
-        m->people[m->count] =
-            (JoxMomentPerson){frame->key[m->count], frame->x[m->count], frame->y[m->count],
-                              jox_frame_radius(frame, m->count, 0.0f)};
+        m->people[m->count] = get_moment_person(frame, (uint32_t)m->count);
     JOX_RESERVE(m->field, m->cell_capacity, cells);
     memcpy(m->field, grid->now, cells * sizeof *m->field);
     m->cells = cells;

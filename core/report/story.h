@@ -18,7 +18,8 @@ typedef enum JoxMomentKind {
 
 typedef struct JoxMomentPerson {
     uint32_t key;
-    float x, y, radius; /* m; radius 0: not known */
+    float x, y, radius;                   /* m; radius 0: not known */
+    float axis_x, axis_y, contact_radius; /* m: the torso, as in JoxFrame; no axis: a disc */
 } JoxMomentPerson;
 
 typedef struct JoxMoment {

@@ -25,8 +25,9 @@ typedef struct JoxSubject {
     uint32_t inside;              /* people still inside at the end */
     double from, until;           /* s: time range measured */
     bool simulated;
-    /* overlap of agents that 99 % stay below, share of a diameter; NAN: not known */
-    double overlap_p99;
+    /* Overlap that 99 % of people stay below, as a share of their depth; and 99 % of those who
+       touch, m. NAN: not known. */
+    double overlap_p99, depth_p99;
 } JoxSubject;
 
 /* describe_point.c: appends a point in words, as "(18.1, 0.6) m, 0.6 m from the line south, in

@@ -336,7 +336,7 @@ static void put_level_summary(FILE *out, const JoxSubject *s) {
 static void put_trust_summary(FILE *out, const JoxSubject *s) {
     const double density = jox_danger_most(s->danger, JOX_DANGER_DENSITY).value;
     JoxText text = {0};
-    jox_trust_append_signs(s->overlap_p99, density, &text);
+    jox_trust_append_signs(s->overlap_p99, s->depth_p99, density, &text);
     if (text.length)
         put_summary_statement(out, "Too dense to trust.", &text);
 }

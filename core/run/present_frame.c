@@ -2,6 +2,7 @@
    finds the area that they show. */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/mem.h"
 #include "run/present_frame.h"
 #include "run/run.h"
@@ -16,6 +17,7 @@ typedef struct JoxRunFrame {
     size_t name_capacity, states_capacity, state_capacity, group_colour_capacity;
     size_t state_colour_capacity;
     uint32_t *state, state_count;
+    JoxTorsos torsos;
     uint64_t made;  /* 1 + the tick of the frame */
     uint32_t parts; /* bits of the columns that are filled */
 } JoxRunFrame;
@@ -65,6 +67,14 @@ static void fill_forces(JoxRunFrame *f, const JoxAgents *a) {
     for (uint32_t i = 0; i < a->count; i++)
         f->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
     f->frame.force = f->force;
+}
+
+static void fill_torsos(JoxRunFrame *f, const JoWorld *world) {
+    if (!jox_torsos_list(&f->torsos, &world->state.agents, world->model.def.literal))
+        return;
+    f->frame.axis_x = f->torsos.axis_x;
+    f->frame.axis_y = f->torsos.axis_y;
+    f->frame.contact_radius = f->torsos.radius;
 }
 
 /* Starts the frame of a step with the columns that it shares with the world. */
@@ -118,6 +128,8 @@ const JoxFrame *jox_run_present_frame(JoScene *scene, uint32_t parts) {
         fill_forces(f, &world->state.agents);
     if (lacking & JOX_FRAME_STATES)
         fill_states(f, world);
+    if (lacking & JOX_FRAME_TORSOS)
+        fill_torsos(f, world);
     f->parts |= lacking;
     return &f->frame;
 }
@@ -134,6 +146,7 @@ void jox_run_free_frame(JoScene *scene) {
     jox_free(f->state_colours);
     jox_free(f->states);
     jox_free(f->state);
+    jox_torsos_free(&f->torsos);
     jox_free(f);
     scene->frame = NULL;
 }

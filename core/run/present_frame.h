@@ -7,7 +7,14 @@
 #include "record/frame.h"
 
 /* Columns that the world does not hold in a frame's form, and which are made when asked for. */
-enum { JOX_FRAME_VELOCITIES = 1, JOX_FRAME_FORCES = 2, JOX_FRAME_STATES = 4, JOX_FRAME_WHOLE = 7 };
+enum {
+    JOX_FRAME_VELOCITIES = 1,
+    JOX_FRAME_FORCES = 2,
+    JOX_FRAME_STATES = 4,
+    JOX_FRAME_TORSOS = 8,
+    JOX_FRAME_MEASURED = 7, /* what probes read */
+    JOX_FRAME_WHOLE = 15
+};
 
 /* Returns the frame of the present step, made once a step; valid until the next step. `parts`: bits
    of the columns that are needed; those that nobody needs in a step may be NULL. */

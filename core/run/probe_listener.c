@@ -30,7 +30,7 @@ static bool sample_probes(void *self, JoScene *scene, JoError *error) {
     (void)error;
     for (uint32_t n = 0; n < p->count; n++)
         if (jox_probe_is_due(p->items[n], jo_world_time(scene->world)))
-            jox_probe_frame(p->items[n], jox_run_present_frame(scene, JOX_FRAME_WHOLE));
+            jox_probe_frame(p->items[n], jox_run_present_frame(scene, JOX_FRAME_MEASURED));
     return true;
 }
 

@@ -3,10 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "record/recorder.h"
 #include "run/present_frame.h"
 #include "run/run.h"
@@ -188,6 +190,16 @@ static struct BorneForces take_mean_borne(Recording *r, uint32_t slot) {
                                 b.id};
 }
 
+/* Adds the torso of an agent to its row, unless it is a disc. */
+static void add_torso(const JoxAgents *a, uint32_t i, JoxRecordRow *row) {
+    const JoxTorso torso = jox_agent_torso(a, i, false);
+    if (!(torso.half > 0.0f))
+        return;
+    row->chest = (float)jox_atan2((double)a->chest_y[i], (double)a->chest_x[i]);
+    row->breadth = 2.0f * (torso.half + torso.radius);
+    row->depth = 2.0f * torso.radius;
+}
+
 static bool record_frame(void *self, JoScene *scene, JoError *error) {
     Recording *r = self;
     add_borne_forces(r, &scene->world->state.agents);
@@ -216,7 +228,12 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
                                    borne.compression,
                                    borne.load,
                                    a->group[i],
-                                   radius.cells[i & radius.mask]};
+                                   radius.cells[i & radius.mask],
+                                   NAN,
+                                   NAN,
+                                   NAN};
+        if (!scene->world->model.def.literal)
+            add_torso(a, i, &rows[n - 1]);
     }
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/format/plurals.h"
 #include "base/mem.h"
 #include "nav/spots/spots.h"
@@ -50,36 +51,47 @@ static JoxPosition get_position(const JoxMachine *machine, const JoxState *state
                : (JoxPosition){jox_machine_file(machine, state->source), state->line, 0, 0};
 }
 
+/* Returns the least measure of people in a state, m: the depth of their torsos, or of discs the
+   diameter. */
+static double find_least_depth(const JoScene *scene, uint32_t number, const JoxState *state) {
+    const JoxValue *unused;
+    const double radius = find_extreme(scene, number, state, JOX_PARAM_radius, false, &unused);
+    if (scene->spec->literal)
+        return 2.0 * radius;
+    const double breadth = find_extreme(scene, number, state, JOX_PARAM_breadth, false, &unused),
+                 depth = find_extreme(scene, number, state, JOX_PARAM_depth, false, &unused);
+    return 2.0 * (double)jox_torso_of((float)breadth, (float)depth, (float)radius).radius;
+}
+
 /* Warns if agents in a state walk past a person, or are pushed past one, within a step. Returns
    whether it did. */
 static bool check_state_step(const JoScene *scene, uint32_t number, const JoxState *state,
                              double step, JoxDiagnostics *diagnostics) {
     const JoxMachine *machine = scene->world->machines.set->items[number];
     const JoxValue *at, *unused;
-    const double breadth =
-        2.0 * find_extreme(scene, number, state, JOX_PARAM_radius, false, &unused);
+    const double depth = find_least_depth(scene, number, state);
     const double mass = find_extreme(scene, number, state, JOX_PARAM_mass, false, &unused);
     const double speed = find_extreme(scene, number, state, JOX_PARAM_max_speed, true, &at);
     char hint[80];
-    if (speed * step > breadth) {
-        snprintf(hint, sizeof hint, "step: %.2g", breadth / speed);
+    if (speed * step > depth) {
+        snprintf(hint, sizeof hint, "step: %.2g", depth / speed);
         jox_diag_warn(
             diagnostics, get_position(machine, state, at), "coarse-step", hint,
             "in state %.60s of %.60s people may go at %g m/s, %.3g m in a step of %.3g s: "
-            "they pass others, who are %.3g m broad, without meeting them",
-            state->name, machine->name, speed, speed * step, step, breadth);
+            "they pass others, who are %.3g m deep, without meeting them",
+            state->name, machine->name, speed, speed * step, step, depth);
         return true;
     }
     const double push = find_extreme(scene, number, state, JOX_PARAM_push, true, &at);
     const double way = push / mass * step * step;
-    if (!(way > breadth))
+    if (!(way > depth))
         return false;
-    snprintf(hint, sizeof hint, "step: %.2g", sqrt(breadth * mass / push));
+    snprintf(hint, sizeof hint, "step: %.2g", sqrt(depth * mass / push));
     jox_diag_warn(
         diagnostics, get_position(machine, state, at), "coarse-step", hint,
         "in state %.60s of %.60s people may push with %g N: that moves %g kg by %.3g m in "
-        "a step of %.3g s, through others, who are %.3g m broad",
-        state->name, machine->name, push, mass, way, step, breadth);
+        "a step of %.3g s, through others, who are %.3g m deep",
+        state->name, machine->name, push, mass, way, step, depth);
     return true;
 }
 

@@ -262,7 +262,7 @@ static const JoxKey KEYS[] = {
     {"group", "in", NAMES, "", 0, 0, "", READ_TO(jox_key_read_fills, JoxSceneDraft, fill.in, fill.in_count), .in_draft = true, .meaning = "places to fill; needed with count or density"},
     {"group", "outside", NAMES, "", 0, 0, "", READ_TO(jox_key_read_fills, JoxSceneDraft, fill.outside, fill.outside_count), .in_draft = true, .meaning = "places to keep out of"},
     {"group", "spacing", NUMBER, "m", 0.05, 100, "", IN_DRAFT(fill.spacing), .meaning = "least distance between agents"},
-    {"group", "facing", NUMBER, "deg", -1e4, 1e4, "", READ_TO(jox_key_read_facing, JoxGroup, facing, facing), .meaning = "direction that they face, anti-clockwise from +x"},
+    {"group", "facing", NUMBER, "deg", -1e4, 1e4, "", READ_TO(jox_key_read_facing, JoxGroup, facing, facing), .meaning = "direction that they face and to which their chests point, anti-clockwise from +x"},
     {"group", "party", WHOLE, "", 1, 1000, "1", TO(JoxGroup, party),
      .meaning = "size of parties: so many consecutive agents keep together, each party as a team of its own"},
     {"group", "team", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxGroup, team, team), .meaning = "name of their team; agents of other teams are opponents"},

@@ -42,7 +42,7 @@ static void copy_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
 /* Returns whether the agent was in the last step, so that its scratch columns are valid: not if it
    entered since, or the world was restored since. */
 static bool was_in_step(const JoWorld *w, uint32_t i) {
-    return w->scratch.substep.step.timing.dt > 0.0 && w->state.agents.breadth[i] > 0.0f;
+    return w->scratch.substep.step.timing.dt > 0.0 && w->state.agents.contact_radius[i] > 0.0f;
 }
 
 /* Computes what the agent would choose in the present state; nothing if it was not in the last

@@ -27,6 +27,9 @@ enum { MOST_TOLD = 5 };
     X("direction", face_y, 0.0f)                                                                   \
     X("preferred velocity", pref_x, 0.0f)                                                          \
     X("preferred velocity", pref_y, 0.0f)                                                          \
+    X("chest", chest_x, 1.0f)                                                                      \
+    X("chest", chest_y, 0.0f)                                                                      \
+    X("spin", spin, 0.0f)                                                                          \
     X("net force", force_x, 0.0f)                                                                  \
     X("net force", force_y, 0.0f)                                                                  \
     X("planned velocity", next_x, 0.0f)                                                            \
@@ -177,6 +180,11 @@ static bool put_to_rest(JoWorld *w, const Column *columns, uint32_t i) {
     if (!jox_is_unit(jox_v2(a->face_x[i], a->face_y[i]))) {
         a->face_x[i] = 1.0f;
         a->face_y[i] = 0.0f;
+    }
+    a->spin[i] = 0.0f;
+    if (!jox_is_unit(jox_v2(a->chest_x[i], a->chest_y[i]))) {
+        a->chest_x[i] = a->face_x[i];
+        a->chest_y[i] = a->face_y[i];
     }
     a->compression[i] = isfinite(a->compression[i]) ? a->compression[i] : 0.0f;
     a->load[i] = isfinite(a->load[i]) ? a->load[i] : 0.0f;

@@ -134,6 +134,12 @@ JoxBirth jox_world_birth(const JoWorld *world, uint32_t group, JoxV2 at) {
     return (JoxBirth){group, of->memory, of->memory_count, {.at = at}};
 }
 
+/* Lets an agent look, and its chest point, along a unit vector. */
+static void set_facing(JoxAgents *a, uint32_t i, JoxV2 along) {
+    a->face_x[i] = a->chest_x[i] = along.x;
+    a->face_y[i] = a->chest_y[i] = along.y;
+}
+
 /* Gives an agent with a machine the properties of its group. */
 static void join_group(JoWorld *world, uint32_t i, uint32_t number) {
     const JoxGroup *group = &world->model.groups[number];
@@ -142,10 +148,8 @@ static void join_group(JoWorld *world, uint32_t i, uint32_t number) {
         a->group[i] = (uint16_t)number;
     a->team[i] = (uint16_t)next_team(world, number);
     a->tags[i] |= group->tag_bits;
-    if (isfinite(group->facing)) {
-        a->face_x[i] = (float)jox_cos(group->facing);
-        a->face_y[i] = (float)jox_sin(group->facing);
-    }
+    if (isfinite(group->facing))
+        set_facing(a, i, (JoxV2){(float)jox_cos(group->facing), (float)jox_sin(group->facing)});
 }
 
 JoxBirthSpot jox_world_spawn(JoWorld *world, JoxBirth *birth, uint32_t *agent) {
@@ -243,8 +247,7 @@ static void set_velocity(JoWorld *world, uint32_t agent, JoxV2 velocity) {
     const float speed = jox_length(velocity);
     if (speed < 1e-3f)
         return;
-    a->face_x[agent] = velocity.x / speed;
-    a->face_y[agent] = velocity.y / speed;
+    set_facing(a, agent, (JoxV2){velocity.x / speed, velocity.y / speed});
 }
 
 static bool is_point_free(const JoxAgents *a, JoxV2 at) {

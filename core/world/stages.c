@@ -89,6 +89,7 @@ void jox_stage_solve(const JoxSolveStage *s) {
     if (totals.residual > s->statistics->contact_residual)
         s->statistics->contact_residual = (double)totals.residual;
     s->statistics->walls_relaxed += jox_nav_solve(s->nav, step);
+    jox_force_bear(s->forces_of);
     jox_inspect_after_solve(s->inspection, s->nav, step);
 }
 

@@ -71,8 +71,8 @@ typedef struct JoxPushStage {
 void jox_stage_push(const JoxPushStage *stage);
 
 typedef struct JoxSolveStage {
-    const JoxSubstep *substep;  /* writes the agents' next, failed */
-    const JoxForces *forces_of; /* totals of the contact solve */
+    const JoxSubstep *substep; /* writes the agents' next, failed */
+    JoxForces *forces_of;      /* totals of the contact solve */
     JoxNav *nav;
     JoxInspection *inspection;
     JoxStatistics *statistics;

@@ -3,21 +3,31 @@
 #include <math.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 
-/* Bins all agents by their deepest overlap with a neighbour. */
+/* Returns the bin of a share of the range that the bins cover. */
+static int find_bin(float share, int bins) {
+    const int bin = (int)(share * (float)bins);
+    return bin < bins ? bin : bins - 1;
+}
+
+/* Bins all agents by their deepest overlap with a neighbour, as a share of their depth, and those
+   that overlap anyone by that overlap in metres. */
 static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n) {
-    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     for (uint32_t i = 0; i < a->count; i++) {
         float deepest = 0.0f;
         for (uint32_t k = 0; k < n->count[i]; k++) {
             uint32_t j = n->index[jox_neighbour_at(n, i, k)]; /* agents moved since */
-            float gap = jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
-            deepest = -gap > deepest ? -gap : deepest;
+            deepest = jox_maxf(deepest, -jox_torso_gap(a, i, j));
         }
-        JOX_ASSERT(deepest >= 0.0f && jox_at(radius, i) > 0.0f);
-        int bin = (int)(deepest / (2.0f * jox_at(radius, i)) * JOX_OVERLAP_BINS);
-        s->overlap[bin < JOX_OVERLAP_BINS ? bin : JOX_OVERLAP_BINS - 1]++;
+        JOX_ASSERT(deepest >= 0.0f && a->contact_radius[i] > 0.0f);
+        const float depth = 2.0f * jox_agent_torso(a, i, false).radius;
+        s->overlap[find_bin(deepest / depth, JOX_OVERLAP_BINS)]++;
+        if (deepest > 0.0f) {
+            s->overlap_depth[find_bin(deepest / JOX_OVERLAP_DEPTH, JOX_OVERLAP_BINS)]++;
+            s->overlapping++;
+        }
     }
     s->overlap_samples += a->count;
 }
@@ -60,16 +70,28 @@ void jox_statistics_observe(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
     s->second_failures = s->second_agent_steps = 0;
 }
 
-double jox_statistics_overlap_p99(const JoxStatistics *s) {
-    uint64_t above = s->overlap_samples / 100, sum = 0;
-    if (s->overlap_samples == 0)
+/* Returns the 99th percentile of binned samples, as a share of the range of the bins. */
+static double find_p99(const uint64_t *bins, uint64_t samples) {
+    const uint64_t above = samples / 100;
+    uint64_t sum = 0;
+    if (samples == 0)
         return NAN;
     for (int bin = JOX_OVERLAP_BINS - 1; bin >= 0; bin--) {
-        sum += s->overlap[bin];
+        sum += bins[bin];
         if (sum > above)
             return (double)bin / JOX_OVERLAP_BINS;
     }
     return 0.0;
+}
+
+double jox_statistics_overlap_p99(const JoxStatistics *s) {
+    return find_p99(s->overlap, s->overlap_samples);
+}
+
+double jox_statistics_depth_p99(const JoxStatistics *s) {
+    if (s->overlap_samples > 0 && s->overlapping == 0)
+        return 0.0;
+    return (double)JOX_OVERLAP_DEPTH * find_p99(s->overlap_depth, s->overlapping);
 }
 
 double jox_statistics_overlap_share(const JoxStatistics *s, double over) {

@@ -12,6 +12,7 @@
 #include "jostle.h"
 
 enum { JOX_OVERLAP_BINS = 1000 };
+#define JOX_OVERLAP_DEPTH 0.5f /* m: overlaps up to here are told apart */
 
 typedef enum JoxStage {
     JOX_STAGE_PERCEIVE,
@@ -85,10 +86,11 @@ typedef struct JoxStatistics {
     uint64_t moved_out, not_moved_out;  /* agents in new walls: moved; without a free spot */
     uint64_t people_lost, bodies_lost;  /* found by number_guard.c */
     uint64_t opened, closed, announced; /* gates, and signals to all agents */
-    /* Agents by their deepest overlap, as a share of their diameter, in bins of 0.1 %; sampled once
-       a simulated second. */
-    uint64_t overlap[JOX_OVERLAP_BINS];
-    uint64_t overlap_samples;
+    /* Agents by their deepest overlap, as a share of their depth (a disc's diameter), in bins of
+       0.1 %; and those that overlap anyone by that overlap in m, in bins of 0.5 mm. Sampled once a
+       simulated second. */
+    uint64_t overlap[JOX_OVERLAP_BINS], overlap_depth[JOX_OVERLAP_BINS];
+    uint64_t overlap_samples, overlapping;
     JoxBondStatistics bonds;
     JoxDriveStatistics drives;
     JoxExchange exchange;
@@ -102,11 +104,15 @@ static inline double jox_statistics_share(const JoxStatistics *statistics, uint6
     return statistics->agent_steps ? (double)agent_steps / (double)statistics->agent_steps
                                    : (double)NAN;
 }
-/* Returns the overlap below which 99 % of the sampled agents stay, as a share of their diameter;
-   NAN without samples, as in runs of less than a second. */
+/* Returns the overlap below which 99 % of the sampled agents stay, as a share of their depth; NAN
+   without samples, as in runs of less than a second. */
 double jox_statistics_overlap_p99(const JoxStatistics *statistics);
-/* Returns the share of sampled agents that overlap by more than a share of their diameter; NAN
-   without samples. */
+/* Returns the overlap below which 99 % of the sampled agents that overlap anyone stay, m; 0 where
+   none did, NAN without samples. Agents that stand apart do not count: how deep contacts are does
+   not depend on them. */
+double jox_statistics_depth_p99(const JoxStatistics *statistics);
+/* Returns the share of sampled agents that overlap by more than a share of their depth; NAN without
+   samples. */
 double jox_statistics_overlap_share(const JoxStatistics *statistics, double over);
 
 #endif

@@ -43,6 +43,7 @@ static const char *find_agents_fault(const JoWorld *w) {
         JOX_MUST(jox_param(a, JOX_PARAM_radius, i) > 0.0f &&
                  jox_param(a, JOX_PARAM_mass, i) > 0.0f);
         JOX_MUST(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
+        JOX_MUST(jox_is_unit(jox_v2(a->chest_x[i], a->chest_y[i])));
         const char *fault = find_machine_fault(w, i);
         if (fault)
             return fault;
@@ -72,7 +73,7 @@ static const char *find_numbers_fault(const JoWorld *w) {
     const float *const others[] = {
         a->vx,          a->vy,    a->pref_x,      a->pref_y,      a->next_x,   a->next_y,
         a->eager,       a->still, a->force_x,     a->force_y,     a->course_x, a->course_y,
-        a->compression, a->load,  a->displaced_x, a->displaced_y, a->settled};
+        a->compression, a->load,  a->displaced_x, a->displaced_y, a->settled,  a->spin};
 #define COLUMNS_OF_STATE(name) a->name##_x, a->name##_y,
 #define COLUMNS_OF_SCRATCH(name)
 #define TERM_COLUMNS(X, keep, role, name, label) COLUMNS_OF_##keep(name)

@@ -98,8 +98,9 @@ static float find_way_share(const JoxForces *f, uint32_t drive) {
         const JoxTouch *t = &touches->items[k];
         if (t->drive != (int)drive || !(t->ahead > 0.0f && t->impulse > 0.0f))
             continue;
-        const float gives = jox_dot(f->contacts->solve.velocities[t->agent], t->normal) +
-                            jox_maxf(0.0f, t->gap) / (float)f->step.timing.dt;
+        const float gives =
+            jox_speed_along(&f->contacts->solve.motions[t->agent], t->normal, t->lever) +
+            jox_maxf(0.0f, t->gap) / (float)f->step.timing.dt;
         share = jox_minf(share, gives / (t->ahead * f->contacts->drives.items[drive].speed));
     }
     return jox_clampf(share, 0.0f, 1.0f);

@@ -1,36 +1,85 @@
 /* Finds contacts of agents with bodies ("touches"), chunk by chunk, and sorts them. */
+#include <math.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "force/contact/contacts.h"
 
-/* Finds the contact of agent i with body `row`. Returns false if the gap cannot close within the
-   step, or a wall stands between them. */
-static bool find_touch(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touch) {
+static const float SECOND_APART = 0.02f; /* m: least distance of two contacts along the axis */
+
+/* Finds the contact of a point of agent i's axis, `own` m from its centre, with body `row`. Returns
+   false if the gap cannot close within the step, or a wall stands between them. */
+static bool find_touch_at(const JoxForces *f, uint32_t i, JoxV2 own, uint32_t row,
+                          JoxTouch *touch) {
     const JoxAgents *a = f->step.agents;
     const JoxObject *body = &f->step.objects->rows[row];
-    JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
+    const JoxV2 centre = {a->x[i], a->y[i]};
+    JoxFootprintPoint at = jox_footprint_nearest(body, jox_add(centre, own));
     JoxV2 towards = jox_sub(jox_v2(a->vx[i], a->vy[i]), jox_object_velocity_at(body, at.point));
-    float closing = jox_length(towards) * (float)f->step.timing.dt;
-    float gap = at.gap - a->breadth[i];
+    const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
+    float closing = (jox_length(towards) + (half > 0.0f ? fabsf(a->spin[i]) * half : 0.0f)) *
+                    (float)f->step.timing.dt;
+    float gap = at.gap - a->contact_radius[i];
     if (!(gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))
         return false;
-    JoxV2 own = {a->x[i], a->y[i]};
-    if (at.gap > 0.0f && f->in.walls && jox_wall_grid_has_wall_between(f->in.walls, own, at.point))
+    if (at.gap > 0.0f && f->in.walls &&
+        jox_wall_grid_has_wall_between(f->in.walls, centre, at.point))
         return false;
     JOX_ASSERT(jox_is_unit(at.normal));
     JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
     *touch = (JoxTouch){.agent = i, .object = row, .normal = at.normal, .point = point, .gap = gap};
+    if (half > 0.0f)
+        touch->lever = jox_det(own, at.normal) /
+                       sqrtf(jox_torso_gyration2((JoxTorso){a->contact_radius[i], half}));
     return true;
+}
+
+/* Returns the point of agent i's axis, from its centre, m, at which a body is near as seen from one
+   `end` (-1 or 1): the end itself, or where the axis passes a corner or a round side. */
+static JoxV2 find_near_point(const JoxForces *f, uint32_t i, JoxV2 axis, float end, uint32_t row) {
+    const JoxObject *body = &f->step.objects->rows[row];
+    const JoxV2 centre = {f->step.agents->x[i], f->step.agents->y[i]};
+    const float half2 = jox_length2(axis);
+    for (int k = 0; k < 6; k++) {
+        const JoxV2 own = jox_scale(axis, end);
+        const JoxFootprintPoint at = jox_footprint_nearest(body, jox_add(centre, own));
+        const float along = jox_dot(jox_sub(at.point, centre), axis) / half2;
+        const float next = jox_clampf(along, -1.0f, 1.0f), step = next - end;
+        if (!(at.gap > 0.0f) || !(step * step * half2 > 1e-6f))
+            return own;
+        end = next;
+    }
+    return jox_scale(axis, end);
+}
+
+/* Finds the contacts of agent i with body `row`, the nearest first. Returns how many. */
+static uint32_t find_touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch out[2]) {
+    const JoxAgents *a = f->step.agents;
+    const JoxV2 axis = {a->axis_x[i], a->axis_y[i]};
+    if (axis.x == 0.0f && axis.y == 0.0f)
+        return find_touch_at(f, i, axis, row, &out[0]);
+    const JoxV2 right = find_near_point(f, i, axis, -1.0f, row);
+    const JoxV2 left = find_near_point(f, i, axis, 1.0f, row);
+    uint32_t count = find_touch_at(f, i, right, row, &out[0]);
+    if (jox_length2(jox_sub(left, right)) < SECOND_APART * SECOND_APART)
+        return count;
+    count += find_touch_at(f, i, left, row, &out[count]);
+    if (count == 2 && out[1].gap < out[0].gap) {
+        const JoxTouch nearer = out[1];
+        out[1] = out[0];
+        out[0] = nearer;
+    }
+    return count;
 }
 
 void jox_touches_reserve(JoxForces *f) {
     const uint32_t n = f->step.agents->count;
     JoxTouches *touches = &f->contacts->touches;
     jox_chunks_reserve(&touches->found, f->chunks,
-                       jox_most_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxTouch));
+                       2 * jox_most_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxTouch));
     JOX_RESERVE(touches->first, touches->first_capacity, n);
     JOX_RESERVE(touches->number, touches->number_capacity, n);
 }
@@ -43,22 +92,25 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     jox_chunk_clear(&touches->found, chunk);
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 at = {a->x[i], a->y[i]};
-        float reach = jox_param(a, JOX_PARAM_radius, i) + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+        const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
+        float reach = a->contact_radius[i] + half + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
         JoxNearest nearest;
         jox_nearest_begin(&nearest, JOX_MOST_BODIES_TOUCHED);
         JoxObjectWalk walk = jox_objects_near(f->step.objects, at, reach);
-        JoxTouch touch;
+        JoxTouch touch[2];
         uint32_t row;
         while (jox_objects_next(&walk, &row)) {
             const JoxObject *body = &f->step.objects->rows[row];
             if (!body->swept && jox_referred(a->parting[i]) != (int32_t)row &&
-                jox_object_reaches(body, at, reach) && find_touch(f, i, row, &touch))
-                jox_nearest_offer(&nearest, touch.gap, row);
+                jox_object_reaches(body, at, reach) && find_touches(f, i, row, touch))
+                jox_nearest_offer(&nearest, touch[0].gap, row);
         }
-        touches->number[i] = (uint8_t)nearest.count;
+        touches->number[i] = 0;
         for (uint32_t k = 0; k < nearest.count; k++) {
-            find_touch(f, i, nearest.rows[k], &touch);
-            list[touches->found.counts[chunk]++] = touch;
+            const uint32_t found = find_touches(f, i, nearest.rows[k], touch);
+            for (uint32_t n = 0; n < found; n++)
+                list[touches->found.counts[chunk]++] = touch[n];
+            touches->number[i] += (uint8_t)found;
         }
         JOX_ASSERT(touches->found.counts[chunk] <= touches->found.room);
     }
@@ -70,7 +122,9 @@ static int compare_touches(const void *a, const void *b, const void *context) {
     const uint32_t *id = ((const JoxAgents *)context)->id;
     if (x->agent != y->agent)
         return id[x->agent] < id[y->agent] ? -1 : 1;
-    return (x->object > y->object) - (x->object < y->object);
+    if (x->object != y->object)
+        return x->object < y->object ? -1 : 1;
+    return (x->lever > y->lever) - (x->lever < y->lever);
 }
 
 void jox_touches_sort(JoxForces *f) {

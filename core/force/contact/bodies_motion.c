@@ -19,9 +19,7 @@ float jox_touch_speed_after(const JoxForces *f, const JoxTouch *t) {
 
 void jox_touch_apply_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
     JoxContactSolve *solve = &f->contacts->solve;
-    float inverse_mass = solve->inverse_mass[t->agent];
-    solve->velocities[t->agent].x += t->normal.x * impulse * inverse_mass;
-    solve->velocities[t->agent].y += t->normal.y * impulse * inverse_mass;
+    jox_add_impulse(&solve->motions[t->agent], t->normal, t->lever, impulse);
     jox_body_apply_impulse(f, t->object, t->point,
                            (JoxV3){-t->normal.x * impulse, -t->normal.y * impulse, 0.0f});
 }

@@ -23,7 +23,8 @@ void jox_touches_start_solve(JoxForces *f) {
             jox_minf(jox_param(a, JOX_PARAM_restitution, t->agent), body->restitution);
         float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
                       jox_touch_speed_before(f, t);
-        t->mass = 1.0f / (1.0f / jox_param(a, JOX_PARAM_mass, t->agent) + give);
+        t->mass =
+            1.0f / ((1.0f + t->lever * t->lever) / jox_param(a, JOX_PARAM_mass, t->agent) + give);
         t->target = jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution,
                                        (float)f->step.timing.dt);
         t->impulse = jox_find_kept_impulse(kept, &at, a->id[t->agent], t->object);
@@ -36,14 +37,15 @@ void jox_touches_start_solve(JoxForces *f) {
 
 /* Runs in ascending agent id, on one thread: touches are few. */
 float jox_touches_solve_once(JoxForces *f) {
-    const JoxV2 *velocities = f->contacts->solve.velocities;
+    const JoxContactMotion *motions = f->contacts->solve.motions;
     JoxTouches *touches = &f->contacts->touches;
     if (!touches->count)
         return 0.0f;
     float most = jox_supports_solve_once(f);
     for (uint32_t k = 0; k < touches->count; k++) {
         JoxTouch *t = &touches->items[k];
-        float speed = jox_dot(velocities[t->agent], t->normal) - jox_touch_speed_after(f, t);
+        float speed =
+            jox_speed_along(&motions[t->agent], t->normal, t->lever) - jox_touch_speed_after(f, t);
         t->before = t->impulse;
         t->impulse = jox_maxf(0.0f, t->before + (t->target - speed) * t->mass);
         jox_touch_apply_impulse(f, t, t->impulse - t->before);
@@ -51,6 +53,49 @@ float jox_touches_solve_once(JoxForces *f) {
     jox_drives_limit_impulses(f);
     for (uint32_t k = 0; k < touches->count; k++)
         most = jox_maxf(most, fabsf(touches->items[k].impulse - touches->items[k].before));
+    return most;
+}
+
+/* Targets ask for no more than the solve of forces reached: its rounding is no matter of plans. */
+void jox_touches_start_bearing(JoxForces *f) {
+    const JoxContactMotion *motions = f->contacts->solve.motions; /* as that solve left them */
+    JoxTouches *touches = &f->contacts->touches;
+    for (uint32_t k = 0; k < touches->count; k++) {
+        JoxTouch *t = &touches->items[k];
+        t->before = 0.0f;
+        t->target =
+            jox_contact_target(t->gap - JOX_BODY_SLACK, 0.0f, 0.0f, (float)f->step.timing.dt) +
+            jox_touch_speed_after(f, t);
+        t->target = jox_minf(t->target, jox_speed_along(&motions[t->agent], t->normal, t->lever));
+    }
+}
+
+bool jox_touches_start_parting(JoxForces *f) {
+    JoxTouches *touches = &f->contacts->touches;
+    bool parts = false;
+    for (uint32_t k = 0; k < touches->count; k++) {
+        JoxTouch *t = &touches->items[k];
+        const float speed = jox_parting_speed(f, t->gap);
+        if (!(speed > 0.0f))
+            continue;
+        t->target = speed + jox_touch_speed_after(f, t);
+        parts = true;
+    }
+    return parts;
+}
+
+float jox_touches_bear_once(JoxForces *f) {
+    JoxContactMotion *motions = f->contacts->solve.motions;
+    JoxTouches *touches = &f->contacts->touches;
+    float most = 0.0f;
+    for (uint32_t k = 0; k < touches->count; k++) {
+        JoxTouch *t = &touches->items[k];
+        const float speed = jox_speed_along(&motions[t->agent], t->normal, t->lever);
+        const float last = t->before;
+        t->before = jox_maxf(0.0f, last + (t->target - speed) * t->mass);
+        jox_add_impulse(&motions[t->agent], t->normal, t->lever, t->before - last);
+        most = jox_maxf(most, fabsf(t->before - last));
+    }
     return most;
 }
 
@@ -71,7 +116,7 @@ void jox_touches_give_impulses(JoxForces *f) {
         kept->items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
         const JoxObject *body = &f->step.objects->rows[t->object];
         const bool moves = body->inverse_mass > 0.0f;
-        if (body->kinematic && t->gap + a->breadth[t->agent] < 0.0f && t->agent != inside) {
+        if (body->kinematic && t->gap + a->contact_radius[t->agent] < 0.0f && t->agent != inside) {
             inside = t->agent;
             totals->inside++;
         }

@@ -38,8 +38,9 @@ void jox_contacts_check(const JoxForces *f) {
         size += (double)touches->items[k].impulse * per_second;
     }
     for (uint32_t k = 0; k < walls->count; k++) {
-        x -= (double)(walls->items[k].normal.x * walls->items[k].impulse) * per_second;
-        y -= (double)(walls->items[k].normal.y * walls->items[k].impulse) * per_second;
+        const JoxV2 impulse = jox_wall_impulse(&walls->items[k]);
+        x -= (double)impulse.x * per_second;
+        y -= (double)impulse.y * per_second;
         size += (double)walls->items[k].impulse * per_second;
     }
     JOX_ASSERT(!(fabs(x) + fabs(y) > 1e-2 + 1e-4 * size));

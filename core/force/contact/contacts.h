@@ -4,17 +4,23 @@
 #ifndef JOX_FORCE_CONTACT_CONTACTS_H
 #define JOX_FORCE_CONTACT_CONTACTS_H
 
+#include <math.h>
+
 #include "agents/contact_planes.h"
 #include "force/contact/bodies.h"
 #include "force/contact/found.h"
 #include "force/contact/layout.h"
 #include "force/contact/wall_load.h"
 
-/* Motion of the agents while contacts are solved. */
+/* Motion of an agent while contacts are solved: velocity, and spin times the radius of gyration of
+   the torso, m/s, so that one mass serves both. 1/kg. */
+typedef struct JoxContactMotion {
+    float x, y, spin, inverse_mass;
+} JoxContactMotion;
+
 typedef struct JoxContactSolve {
-    JoxV2 *velocities;   /* per agent, m/s, in stage memory */
-    float *inverse_mass; /* per agent, 1/kg, in stage memory */
-    float *residuals;    /* per chunk of a pass: greatest change of an impulse, N s */
+    JoxContactMotion *motions; /* per agent, in stage memory */
+    float *residuals;          /* per chunk of a pass: greatest change of an impulse, N s */
     size_t residual_capacity;
 } JoxContactSolve;
 
@@ -54,6 +60,30 @@ void jox_contact_planes_make(JoxForces *forces);
    forces of contacts between agents cancel out. */
 void jox_contacts_check(const JoxForces *forces);
 void jox_contacts_free(JoxContacts *contacts);
+
+#define JOX_PARTS 0.2f         /* share of an overlap that a step removes */
+#define JOX_OVERLAP_LEFT 2e-3f /* m: overlap that stays, so that contacts last */
+#define JOX_PARTING_MOST 0.3f  /* m/s */
+/* Returns the speed, m/s, at which two surfaces with a gap of so many m (negative: they overlap)
+   part at least; -INFINITY unless they overlap too far. */
+static inline float jox_parting_speed(const JoxForces *f, float gap) {
+    const float depth = -gap - JOX_OVERLAP_LEFT;
+    if (!(depth > 0.0f))
+        return -INFINITY;
+    return jox_minf(JOX_PARTS * depth / (float)f->step.timing.dt, JOX_PARTING_MOST);
+}
+
+static inline float jox_speed_along(const JoxContactMotion *m, JoxV2 direction, float lever) {
+    return m->x * direction.x + m->y * direction.y + m->spin * lever;
+}
+/* Adds an impulse, N s, along a direction, with a lever (JoxContactPoint). */
+static inline void jox_add_impulse(JoxContactMotion *m, JoxV2 direction, float lever,
+                                   float impulse) {
+    const float change = impulse * m->inverse_mass;
+    m->x += direction.x * change;
+    m->y += direction.y * change;
+    m->spin += lever * change;
+}
 
 /* Returns whether agents [begin, end), at most JOX_LANES, have no contact with agents or bodies. */
 static inline bool jox_have_no_contacts(const JoxContacts *c, uint32_t begin, uint32_t end) {

@@ -2,13 +2,14 @@
    are solved.
 
    Compression is the sum of |f.n| over all contacts of an agent, with agents, walls and bodies,
-   divided by the circumference 2 pi r, N/m. Load is the greatest, over all directions d, of the sum
-   of the positive parts of f.d: the force that the agent bears from one side, N. An agent held
-   between two forces of 600 N has a load of 600 N. Pushes received and given count as contacts;
-   external forces, and forces passed on (equations 8 and 9), do not. */
+   divided by the circumference of its torso, N/m. Load is the greatest, over all directions d, of
+   the sum of the positive parts of f.d: the force that the agent bears from one side, N. An agent
+   held between two forces of 600 N has a load of 600 N. Pushes received and given count as
+   contacts; external forces, and forces passed on (equations 8 and 9), do not. */
 #include <math.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "force/contact/contacts.h"
 #include "force/push/pushes.h"
@@ -67,8 +68,9 @@ static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
     out->count = 0;
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1] && has_room(out); k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
-        const float force = p->impulse * per_second + p->squeeze;
-        add_force_if(out, jox_scale(p->normal, p->first == i ? force : -force), force > 0.0f);
+        const JoxV2 impulse = jox_pair_impulse(p, (float)f->step.timing.dt);
+        add_force_if(out, jox_scale(impulse, p->first == i ? per_second : -per_second),
+                     p->impulse + p->squeeze > 0.0f);
     }
     for (uint32_t k = 0; k < jox_touch_number_of(touches, i) && has_room(out); k++) {
         const JoxTouch *t = &touches->items[touches->first[i] + k];
@@ -76,7 +78,7 @@ static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
     }
     for (uint32_t k = 0; k < found->wall_count[i] && has_room(out); k++) {
         const JoxWallContact *w = &f->contacts->walls.items[found->first_wall[i] + k];
-        add_force_if(out, jox_scale(w->normal, w->impulse * per_second), w->impulse > 0.0f);
+        add_force_if(out, jox_scale(jox_wall_impulse(w), per_second), w->impulse > 0.0f);
     }
     for (uint32_t k = f->pushes->any ? pushed->starts[i] : 0;
          f->pushes->any && k < pushed->starts[i + 1] && has_room(out); k++)
@@ -110,7 +112,7 @@ void jox_load_measure(JoxForces *f, uint32_t i) {
     }
     for (uint32_t k = 0; k < pressing.count; k++)
         sum += jox_length(get_force(&pressing, k));
-    a->compression[i] = sum / jox_circumference(jox_param(a, JOX_PARAM_radius, i));
+    a->compression[i] = sum / jox_torso_circumference(jox_agent_torso(a, i, f->options.literal));
     a->load[i] = find_greatest_push(f, &pressing);
     JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
 }

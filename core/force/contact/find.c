@@ -31,7 +31,7 @@ static bool has_full_list(const JoxNeighbours *near, uint32_t count) {
 void jox_contacts_find(JoxForces *f) {
     JoxFoundContacts *found = &f->contacts->found;
     uint32_t n = f->step.agents->count;
-    jox_chunks_reserve(&found->pairs, f->chunks, jox_most_chunk_agents(f) * JOX_MOST_NEIGHBOURS,
+    jox_chunks_reserve(&found->pairs, f->chunks, jox_most_chunk_agents(f) * JOX_CONTACT_MOST_FOUND,
                        sizeof(JoxFoundPair));
     jox_chunks_reserve(&found->slots, f->chunks, found->pairs.room, sizeof(JoxPairSlot));
     jox_chunks_reserve(&found->walls, f->chunks, jox_most_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,

@@ -4,7 +4,7 @@
 #ifndef JOX_FORCE_CONTACT_FIND_LANES_H
 #define JOX_FORCE_CONTACT_FIND_LANES_H
 
-#include "agents/param_lanes.h"
+#include "agents/torso_lanes.h"
 #include "base/assert.h"
 #include "force/contact/contacts.h"
 #include "simd/vectors.h"
@@ -18,76 +18,235 @@ typedef struct JoxFindPacket {
     uint32_t walls;  /* bits of the lanes near walls */
     uint32_t walled; /* bits of the lanes that may touch a wall */
     uint32_t count[JOX_WIDTH];
-    JoxFoundPair found[JOX_WIDTH][JOX_MOST_NEIGHBOURS];
+    JoxFoundPair found[JOX_WIDTH][JOX_CONTACT_MOST_FOUND];
 } JoxFindPacket;
 
 /* Data of an agent that is the same for all of its contacts. */
 typedef struct JoxContactSelf {
-    JoxFloats x, y, vx, vy, breadth, radius, mass, restitution;
+    JoxFloats x, y, vx, vy, radius, outer, mass, restitution;
+    JoxVector axis; /* m */
+    JoxFloats inverse_half2;
     JoxInts least_id; /* neighbours of lesser id find the contact themselves */
     JoxV2 period;     /* m; 0: none */
 } JoxContactSelf;
 
-static inline JoxContactSelf jox_load_contact_self(const JoxAgents *a, uint32_t first) {
+static inline JoxContactSelf jox_load_contact_self(const JoxForces *f, uint32_t first) {
+    const JoxAgents *a = f->step.agents;
+    JoxFloats shape[4] = {jf_set(0.0f), jf_set(0.0f), jf_set(0.0f), jf_set(0.0f)}, build[4];
+    jf_fours((const float *)&f->records[first], 4, build);
+    if (f->step.neighbours->has_torsos)
+        jf_fours((const float *)&f->step.neighbours->shapes[first], 4, shape);
     return (JoxContactSelf){jf_load(a->x + first),
                             jf_load(a->y + first),
                             jf_load(a->vx + first),
                             jf_load(a->vy + first),
-                            jf_load(a->breadth + first),
-                            jox_param_lanes(a, JOX_PARAM_radius, first),
-                            jox_param_lanes(a, JOX_PARAM_mass, first),
+                            build[0],
+                            build[1],
+                            build[2],
                             jox_param_lanes(a, JOX_PARAM_restitution, first),
+                            {shape[0], shape[1]},
+                            shape[3],
                             ji_load(a->id + first),
                             a->period};
 }
 
 /* Data of one neighbour of each lane. */
 typedef struct JoxContactCandidates {
-    JoxFloats x, y; /* position of the agent relative to the neighbour, m */
-    JoxFloats distance2, distance, gap, squeeze; /* m2, m, m, N */
-    JoxVector velocity; /* velocity of the agent relative to the neighbour, m/s */
-    JoxFloats mass;     /* mass of the neighbour, kg */
+    JoxVector offset;             /* position of the agent relative to the neighbour, m */
+    JoxFloats distance2, squeeze; /* of the centres, m2; N */
+    JoxVector velocity;           /* velocity of the agent relative to the neighbour, m/s */
+    JoxFloats mass;               /* mass of the neighbour, kg */
+    JoxFloats radii;              /* sum of the radii, m */
+    JoxFloats reach;              /* m: gaps up to this are contacts */
+    JoxVector axis;               /* of the neighbour, m */
+    JoxFloats inverse_half2;
 } JoxContactCandidates;
 
-/* Returns those of `lanes` (bits) whose gap to their neighbour may close within the step, and fills
-   *m. A contact is found a little before the discs meet: agents that would meet within the step are
-   kept from moving into each other, so that agents at rest neither overlap nor lose and regain
-   contact from step to step. */
-static inline uint32_t jox_find_touching(const JoxForces *f, const JoxContactSelf *self,
-                                         const uint32_t *others, uint32_t lanes,
-                                         JoxContactCandidates *m) {
-    const float *motions = &f->step.neighbours->motions[0].x;
-    const JoxParameterColumn radius = f->step.agents->param[JOX_PARAM_radius];
+/* Returns those of `lanes` (bits) whose neighbour is near enough to touch them within the step, if
+   shape and direction allow it, and fills *m. A contact is found a little before the surfaces meet:
+   agents that would meet within the step are kept from moving into each other, so that agents at
+   rest neither overlap nor lose and regain contact from step to step. */
+static inline uint32_t jox_find_candidates(const JoxForces *f, const JoxContactSelf *self,
+                                           const uint32_t *others, uint32_t lanes,
+                                           JoxContactCandidates *m) {
+    const JoxNeighbours *near = f->step.neighbours;
     const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
-    JoxFloats motion[4], build[4];
-    jf_records_at(motions, others, motion);
-    m->x = self->x - motion[0];
-    m->y = self->y - motion[1];
+    JoxFloats motion[4], build[4], shape[4] = {zero, zero, zero, zero};
+    jf_records_at(&near->motions[0].x, others, motion);
+    m->offset = (JoxVector){self->x - motion[0], self->y - motion[1]};
     if (self->period.x > 0.0f || self->period.y > 0.0f) {
-        m->x = jf_wrap(m->x, self->period.x);
-        m->y = jf_wrap(m->y, self->period.y);
+        m->offset.x = jf_wrap(m->offset.x, self->period.x);
+        m->offset.y = jf_wrap(m->offset.y, self->period.y);
     }
-    m->distance2 = m->x * m->x + m->y * m->y;
-    const JoxFloats whole = self->radius + jox_param_of(radius, others);
-    const JoxFloats most = whole + least + JOX_TOUCH_MOST;
+    m->distance2 = jv_dot(m->offset, m->offset);
+    const JoxFloats most = self->outer + least + (JOX_TOUCH_MOST + f->widest);
     lanes &= jm_bits(jf_lt(m->distance2, most * most));
     if (!lanes)
         return 0;
-    jf_records_at(&f->records[0].breadth, others, build);
+    jf_records_at(&f->records[0].radius, others, build);
     lanes &= ~jm_bits(ji_less(jf_bits(build[3]), self->least_id));
-    const JoxFloats sum = self->breadth + build[0], slack = whole - sum;
-    m->distance = jf_sqrt(m->distance2);
-    m->gap = m->distance - sum;
-    JoxFloats into = whole - m->distance;
+    if (near->has_torsos)
+        jf_records_at(&near->shapes[0].axis_x, others, shape);
+    m->axis = (JoxVector){shape[0], shape[1]};
+    m->inverse_half2 = shape[3];
+    m->radii = self->radius + build[0];
+    const JoxFloats whole = self->outer + build[1], distance = jf_sqrt(m->distance2);
+    const JoxFloats slack = whole - m->radii;
+    JoxFloats into = whole - distance;
     into = jf_select(jf_lt(into, zero), zero, jf_select(jf_lt(slack, into), slack, into));
-    m->squeeze = JOX_SQUEEZE * into;
+    const JoxMask is_long = jf_lt(zero, self->inverse_half2 + m->inverse_half2);
+    m->squeeze = jf_select(is_long, zero, JOX_SQUEEZE * into);
     m->velocity = (JoxVector){self->vx - motion[2], self->vy - motion[3]};
     m->mass = build[2];
     JoxFloats closing = jf_sqrt(jv_dot(m->velocity, m->velocity));
     closing *= (float)f->step.timing.dt;
-    const JoxFloats reach = least + jf_min(jf_set(JOX_TOUCH_MOST), closing);
-    const JoxMask apart = jm_and(jf_lt(least, m->gap), jf_lt(reach, m->gap));
-    return lanes & ~jm_bits(jm_without(apart, jf_lt(zero, m->squeeze)));
+    m->reach = least + jf_min(jf_set(JOX_TOUCH_MOST), closing);
+    return lanes & jm_bits(jf_lt(distance, whole + m->reach));
+}
+
+/* A point at which two torsos are nearest: how far along the axes of both it is, -1 to 1, and the
+   vector from the axis of the neighbour to that of the agent. */
+typedef struct JoxNearPoint {
+    JoxFloats own, other;
+    JoxVector apart;
+    JoxFloats distance2;
+} JoxNearPoint;
+
+static inline JoxFloats jox_clamp_to_axis(JoxFloats along) {
+    return jf_max(jf_set(-1.0f), jf_min(jf_set(1.0f), along));
+}
+
+/* Returns the point where one end of the agent's axis (`end`: -1 or 1) is nearest to the axis of
+   the neighbour. */
+static inline JoxNearPoint jox_own_end(const JoxContactSelf *self, const JoxContactCandidates *m,
+                                       float end) {
+    const JoxVector at = jv_add(m->offset, jv_scale(self->axis, jf_set(end)));
+    const JoxFloats along = jox_clamp_to_axis(jv_dot(at, m->axis) * m->inverse_half2);
+    const JoxVector apart = jv_sub(at, jv_scale(m->axis, along));
+    return (JoxNearPoint){jf_set(end), along, apart, jv_dot(apart, apart)};
+}
+
+/* The same for one end of the neighbour's axis. */
+static inline JoxNearPoint jox_other_end(const JoxContactSelf *self, const JoxContactCandidates *m,
+                                         float end) {
+    const JoxVector at = jv_sub(jv_scale(m->axis, jf_set(end)), m->offset);
+    const JoxFloats along = jox_clamp_to_axis(jv_dot(at, self->axis) * self->inverse_half2);
+    const JoxVector apart = jv_sub(jv_scale(self->axis, along), at);
+    return (JoxNearPoint){along, jf_set(end), apart, jv_dot(apart, apart)};
+}
+
+static inline JoxNearPoint jox_select_point(JoxMask m, JoxNearPoint a, JoxNearPoint b) {
+    return (JoxNearPoint){jf_select(m, a.own, b.own), jf_select(m, a.other, b.other),
+                          jv_select(m, a.apart, b.apart), jf_select(m, a.distance2, b.distance2)};
+}
+
+/* What the solve needs of a point, by lane (JoxContactPoint). */
+typedef struct JoxPointLanes {
+    JoxVector normal;
+    JoxFloats gap, mass, slip_mass, levers[2], slips[2];
+} JoxPointLanes;
+
+#define JOX_SECOND_GAP 0.05f   /* m: greatest gap of a second point */
+#define JOX_SECOND_COSINE 0.7f /* least cosine between the normals of both points */
+#define JOX_SECOND_APART 0.02f /* m: least distance of both points along the surface */
+
+/* Finds the points at which the agents of `lanes` (bits) touch their neighbours: the nearest of the
+   axes' ends to the other axis, and, where it is that near, the one farthest from it along the
+   surface. Fills points[0] with the nearest; *second: lanes with another. Returns the lanes that
+   touch. */
+static inline uint32_t jox_find_points(const JoxContactSelf *self, const JoxContactCandidates *m,
+                                       uint32_t lanes, JoxNearPoint points[2], uint32_t *second) {
+    const JoxMask is_long = jf_lt(jf_set(0.0f), self->inverse_half2 + m->inverse_half2);
+    const JoxFloats zero = jf_set(0.0f);
+    *second = 0;
+    points[0] = (JoxNearPoint){zero, zero, m->offset, m->distance2};
+    const JoxFloats most = m->radii + m->reach;
+    if (!(jm_bits(is_long) & lanes))
+        return lanes & jm_bits(jf_le(points[0].distance2, most * most));
+    const JoxNearPoint ends[4] = {jox_own_end(self, m, 1.0f), jox_own_end(self, m, -1.0f),
+                                  jox_other_end(self, m, 1.0f), jox_other_end(self, m, -1.0f)};
+    JoxNearPoint best = ends[0];
+    for (int k = 1; k < 4; k++)
+        best = jox_select_point(jf_lt(ends[k].distance2, best.distance2), ends[k], best);
+    /* Axes that cross are parted along the line of the centres. */
+    const JoxVector left = jv_add(m->offset, self->axis), right = jv_sub(m->offset, self->axis);
+    const JoxVector up = jv_sub(m->axis, m->offset), down = jv_add(m->axis, m->offset);
+    const JoxFloats own =
+        (m->axis.x * left.y - m->axis.y * left.x) * (m->axis.x * right.y - m->axis.y * right.x);
+    const JoxFloats theirs = (self->axis.x * up.y - self->axis.y * up.x) *
+                             (self->axis.x * down.y - self->axis.y * down.x);
+    const JoxMask crosses = jm_and(jf_lt(own, zero), jf_lt(zero, theirs));
+    const JoxNearPoint centre = {zero, zero, jv_scale(m->offset, jf_set(1e-3f)), zero};
+    best = jox_select_point(crosses, centre, best);
+    best.distance2 = jv_dot(best.apart, best.apart);
+    points[0] = jox_select_point(is_long, best, points[0]);
+    lanes &= jm_bits(jf_le(points[0].distance2, most * most));
+    if (!lanes)
+        return 0;
+    const JoxFloats length = jf_sqrt(points[0].distance2), by = 1.0f / length;
+    const JoxVector tangent = {-points[0].apart.y * by, points[0].apart.x * by};
+    const JoxFloats along = jv_dot(tangent, self->axis);
+    const JoxFloats near = m->radii + JOX_SECOND_GAP;
+    JoxFloats farthest = jf_set(JOX_SECOND_APART);
+    points[1] = points[0];
+    JoxMask has = jm_of_bits(0);
+    for (int k = 0; k < 4; k++) {
+        const JoxFloats away = jf_abs((ends[k].own - points[0].own) * along);
+        const JoxFloats size = jf_sqrt(ends[k].distance2);
+        const JoxFloats facing = jv_dot(ends[k].apart, points[0].apart);
+        JoxMask takes = jm_and(jf_lt(farthest, away), jf_lt(size, near));
+        takes = jm_and(takes, jf_lt(JOX_SECOND_COSINE * size * length, facing));
+        points[1] = jox_select_point(takes, ends[k], points[1]);
+        farthest = jf_select(takes, away, farthest);
+        has = jm_or(has, takes);
+    }
+    *second = lanes & jm_bits(jm_without(has, crosses));
+    return lanes;
+}
+
+static inline JoxFloats jv_det(JoxVector a, JoxVector b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/* Returns the inverse radius of gyration of a torso, 1/m; 0 of a disc. */
+static inline JoxFloats jox_inverse_gyration(JoxVector axis, JoxFloats radius,
+                                             JoxFloats inverse_half2) {
+    const JoxFloats side = jf_sqrt(jv_dot(axis, axis)) + radius;
+    const JoxFloats gyration = 0.5f * jf_sqrt(side * side + radius * radius);
+    return jf_select(jf_lt(jf_set(0.0f), inverse_half2), 1.0f / gyration, jf_set(0.0f));
+}
+
+/* Computes what the solve needs of a point. Agents at the same point part along x. */
+static inline JoxPointLanes jox_point_lanes(const JoxContactSelf *self,
+                                            const JoxContactCandidates *m, const JoxNearPoint *p) {
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), distance = jf_sqrt(p->distance2);
+    const JoxFloats by = one / distance, other_radius = m->radii - self->radius;
+    const JoxMask together = jf_le(distance, zero);
+    JoxPointLanes out;
+    out.normal = (JoxVector){jf_select(together, one, p->apart.x * by),
+                             jf_select(together, zero, p->apart.y * by)};
+    out.gap = distance - m->radii;
+    const JoxVector at = jv_scale(self->axis, p->own), there = jv_scale(m->axis, p->other);
+    const JoxFloats turns = jox_inverse_gyration(self->axis, self->radius, self->inverse_half2);
+    const JoxFloats other_turns = jox_inverse_gyration(m->axis, other_radius, m->inverse_half2);
+    out.levers[0] = turns * jv_det(at, out.normal);
+    out.levers[1] = other_turns * jv_det(there, out.normal);
+    /* Friction acts midway between the surfaces, on both at one point: else it would turn the two.
+     */
+    const JoxFloats midway = jf_set(0.5f) * out.gap;
+    out.slips[0] = turns * (jv_dot(at, out.normal) - (self->radius + midway));
+    out.slips[1] = other_turns * (jv_dot(there, out.normal) + (other_radius + midway));
+    const JoxFloats inverse = one / self->mass, other = one / m->mass;
+    out.mass = one / (inverse * (one + out.levers[0] * out.levers[0]) +
+                      other * (one + out.levers[1] * out.levers[1]));
+    /* Axes that cross have no point at which they rub. */
+    const JoxMask rubs = jf_lt(zero, jf_abs(p->own) + jf_abs(p->other));
+    const JoxMask turn = jm_and(rubs, jf_lt(zero, turns * other_turns));
+    out.slip_mass = jf_select(turn,
+                              one / (inverse * (one + out.slips[0] * out.slips[0]) +
+                                     other * (one + out.slips[1] * out.slips[1])),
+                              zero);
+    return out;
 }
 
 /* jox_contact_target, by lane. */
@@ -98,57 +257,90 @@ static inline JoxFloats jox_target_lanes(JoxFloats gap, JoxFloats speed, JoxFloa
     return jf_select(bounces, jf_max(target, -restitution * speed), target);
 }
 
-/* Returns the targets (JoxPair) of the contacts with the lanes' neighbours, m/s. */
+/* Returns the targets (JoxContactPoint) of the contacts with the lanes' neighbours, m/s. */
 static inline JoxFloats jox_find_targets(const JoxForces *f, const JoxContactSelf *self,
                                          const uint32_t *others, const JoxContactCandidates *m,
-                                         JoxVector normal) {
+                                         const JoxPointLanes *at) {
     const float dt = (float)f->step.timing.dt;
     const JoxFloats zero = jf_set(0.0f);
     if (!jm_bits(jf_lt(zero, self->restitution)))
-        return jox_target_lanes(m->gap, zero, zero, dt);
+        return jox_target_lanes(at->gap, zero, zero, dt);
     const JoxParameterColumn column = f->step.agents->param[JOX_PARAM_restitution];
     const JoxFloats restitution = jf_min(self->restitution, jox_param_of(column, others));
-    return jox_target_lanes(m->gap, jv_dot(m->velocity, normal), restitution, dt);
+    return jox_target_lanes(at->gap, jv_dot(m->velocity, at->normal), restitution, dt);
 }
 
-/* Adds the contacts of `lanes` (bits) with their neighbours, unless a wall stands between. Agents
-   at the same point part along x. */
+/* Writes the points of all lanes. */
+static inline void jox_write_points(const JoxPointLanes *p, JoxFloats target,
+                                    JoxContactPoint out[JOX_WIDTH]) {
+    float of[10][JOX_WIDTH];
+    const JoxFloats values[10] = {p->normal.x, p->normal.y,  p->gap,       target,
+                                  p->mass,     p->slip_mass, p->levers[0], p->levers[1],
+                                  p->slips[0], p->slips[1]};
+    for (int k = 0; k < 10; k++)
+        jf_store(of[k], values[k]);
+    for (int lane = 0; lane < JOX_WIDTH; lane++)
+        out[lane] = (JoxContactPoint){.normal = {of[0][lane], of[1][lane]},
+                                      .gap = of[2][lane],
+                                      .target = of[3][lane],
+                                      .mass = of[4][lane],
+                                      .slip_mass = of[5][lane],
+                                      .levers = {of[6][lane], of[7][lane]},
+                                      .slips = {of[8][lane], of[9][lane]}};
+}
+
+/* Returns whether a wall stands between an agent and a neighbour at `offset` from it, m. */
+static inline bool jox_is_behind_wall(const JoxForces *f, uint32_t i, float x, float y) {
+    const JoxV2 at = {f->step.agents->x[i], f->step.agents->y[i]};
+    return jox_wall_grid_has_wall_between(f->in.walls, at, jox_sub(at, jox_v2(x, y)));
+}
+
+/* Adds the contacts of `lanes` (bits) with their neighbours, unless a wall stands between. Two
+   points are in the order in which they lie along the tangent, so that each is the same from step
+   to step. */
 static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self, uint32_t lanes,
                                     const uint32_t *other, const JoxContactCandidates *m) {
     JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
-    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), by = one / m->distance;
-    const JoxMask together = jf_le(m->distance, zero);
-    const JoxVector normal = {jf_select(together, one, m->x * by),
-                              jf_select(together, zero, m->y * by)};
-    float x[JOX_WIDTH], y[JOX_WIDTH], nx[JOX_WIDTH], ny[JOX_WIDTH], gap[JOX_WIDTH];
-    float squeeze[JOX_WIDTH], target[JOX_WIDTH], mass[JOX_WIDTH];
-    jf_store(x, m->x);
-    jf_store(y, m->y);
-    jv_store(nx, ny, 0, normal);
-    jf_store(gap, m->gap);
+    JoxNearPoint near[2];
+    uint32_t second;
+    lanes = jox_find_points(self, m, lanes, near, &second) |
+            (lanes & jm_bits(jf_lt(jf_set(0.0f), m->squeeze)));
+    if (!lanes)
+        return;
+    JoxContactPoint points[2][JOX_WIDTH];
+    float x[JOX_WIDTH], y[JOX_WIDTH], squeeze[JOX_WIDTH], own[2][JOX_WIDTH];
+    for (int k = 0; k < (second ? 2 : 1); k++) {
+        const JoxPointLanes at = jox_point_lanes(self, m, &near[k]);
+        jox_write_points(&at, jox_find_targets(f, self, other, m, &at), points[k]);
+        jf_store(own[k], jv_det(at.normal, jv_scale(self->axis, near[k].own)));
+    }
+    jv_store(x, y, 0, m->offset);
     jf_store(squeeze, m->squeeze);
-    jf_store(target, jox_find_targets(f, self, other, m, normal));
-    jf_store(mass, self->mass * m->mass / (self->mass + m->mass));
     uint32_t may_be_hidden = p->walls;
     if (p->walls && f->in.unhidden2)
         may_be_hidden &= ~jm_bits(jf_lt(m->distance2, jf_load(f->in.unhidden2 + p->first)));
     for (uint32_t lane = 0; lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
-        if (!(lanes >> lane & 1))
+        if (!(lanes >> lane & 1) ||
+            ((may_be_hidden >> lane & 1) && jox_is_behind_wall(f, i, x[lane], y[lane])))
             continue;
-        JoxV2 at = {a->x[i], a->y[i]};
-        if ((may_be_hidden >> lane & 1) &&
-            jox_wall_grid_has_wall_between(f->in.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
+        f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += points[0][lane].gap < 0.0f;
+        JoxFoundPair pair = {.other = other[lane],
+                             .other_id = a->id[other[lane]],
+                             .at = points[0][lane],
+                             .squeeze = squeeze[lane]};
+        JOX_ASSERT(jox_is_unit(pair.at.normal));
+        const bool both = second >> lane & 1;
+        points[1][lane].again = true;
+        if (both && own[1][lane] < own[0][lane]) {
+            pair.at = points[1][lane];
+            points[1][lane] = points[0][lane];
+        }
+        jox_insert_pair(p->found[lane], p->count[lane]++, &pair);
+        if (!both)
             continue;
-        f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += gap[lane] < 0.0f;
-        const JoxFoundPair pair = {.other = other[lane],
-                                   .other_id = a->id[other[lane]],
-                                   .normal = {nx[lane], ny[lane]},
-                                   .squeeze = squeeze[lane],
-                                   .target = target[lane],
-                                   .mass = mass[lane]};
-        JOX_ASSERT(jox_is_unit(pair.normal));
+        pair.at = points[1][lane];
         jox_insert_pair(p->found[lane], p->count[lane]++, &pair);
     }
 }

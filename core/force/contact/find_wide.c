@@ -8,10 +8,9 @@
 /* Adds the contacts of lanes whose neighbour list covers touch range. */
 static void add_covered_contacts(JoxFindPacket *p, uint32_t lanes) {
     const JoxForces *f = p->f;
-    const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
     const uint32_t i = p->first;
-    const JoxContactSelf self = jox_load_contact_self(a, i);
+    const JoxContactSelf self = jox_load_contact_self(f, i);
     const JoxInts most = ji_load_bytes(jox_touch_candidate_counts(near, f->widest) + i);
     const uint32_t *others = near->index + jox_neighbour_at(near, i, 0);
     for (uint32_t k = 0; k < near->stride; k++, others += JOX_LANES) {
@@ -19,7 +18,7 @@ static void add_covered_contacts(JoxFindPacket *p, uint32_t lanes) {
         if (!lanes)
             break;
         JoxContactCandidates m;
-        const uint32_t meeting = jox_find_touching(f, &self, others, lanes, &m);
+        const uint32_t meeting = jox_find_candidates(f, &self, others, lanes, &m);
         if (meeting)
             jox_add_contacts(p, &self, meeting, others, &m);
     }
@@ -84,7 +83,7 @@ static void find_packet(JoxFindPacket *p) {
     p->walls = p->walled = 0;
     if (f->in.walls) {
         const JoxFloats touch = jf_set(JOX_TOUCH_LEAST + JOX_TOUCH_MOST);
-        const JoxFloats reach = jf_load(a->breadth + p->first) + touch;
+        const JoxFloats reach = jox_outer_lanes(a, p->first) + touch;
         p->walls = jm_bits(jox_wall_grid_near_lanes(f->in.walls, jf_load(a->x + p->first),
                                                     jf_load(a->y + p->first)));
         p->walled =

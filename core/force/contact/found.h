@@ -7,19 +7,32 @@
 #include "simd/isa.h"
 
 enum {
-    JOX_NO_COLOUR = 255,       /* a contact that is left out */
-    JOX_CONTACT_MOST_WALLS = 6 /* most edges that one agent touches at a time */
+    JOX_NO_COLOUR = 255,        /* a contact that is left out */
+    JOX_CONTACT_MOST_WALLS = 8, /* most points at which one agent touches walls */
+    JOX_CONTACT_MOST_FOUND =
+        2 * JOX_MOST_NEIGHBOURS /* most contacts that one agent finds with others */
 };
 
 /* N/m: stiffness of turned shoulders, until the bodies themselves meet */
 #define JOX_SQUEEZE 2000.0f
 
+/* A point at which two agents touch. The normal points to the first, the tangent to the left of it.
+   A lever is that of an impulse on the agent about its centre, in its radii of gyration; 0 of a
+   disc, which does not turn. */
+typedef struct JoxContactPoint {
+    JoxV2 normal;
+    float gap, target;     /* m; least normal velocity of the first relative to the second, m/s */
+    float mass, slip_mass; /* kg: what the point opposes to impulses along normal and tangent */
+    float levers[2], slips[2]; /* of both agents, along normal and tangent */
+    bool again; /* the two touch at another point, too, which comes before this one */
+} JoxContactPoint;
+
 /* A contact that an agent was found to have; the normal points to the agent. One of the two agents
    finds a contact between them. */
 typedef struct JoxFoundPair {
     uint32_t other, other_id;
-    JoxV2 normal;
-    float squeeze, target, mass; /* as in JoxPair */
+    JoxContactPoint at;
+    float squeeze; /* as in JoxPair */
 } JoxFoundPair;
 /* The part of a found pair that its layout needs, in few bytes: the other agent, its colour, and
    its number among the contacts of either agent. */
@@ -31,6 +44,7 @@ typedef struct JoxFoundWall {
     uint32_t edge;
     JoxV2 normal;
     float gap, along; /* m; along: from the start of the edge */
+    JoxV2 own;        /* point of the agent's axis that is nearest, from its centre, m */
 } JoxFoundWall;
 
 /* Zero-initialise; it owns its arrays. */

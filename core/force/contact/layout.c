@@ -1,7 +1,9 @@
 /* Lays out the contacts found for the solve, in an order that depends on ids alone, each with the
    impulse that it had in the last step; keeps the impulses afterwards. */
+#include <math.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
@@ -17,7 +19,7 @@ float jox_find_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id
            (items[*at].id < id || (items[*at].id == id && items[*at].other < other)))
         ++*at;
     bool found = *at < kept->count && items[*at].id == id && items[*at].other == other;
-    return found ? items[*at].impulse : 0.0f;
+    return found ? items[(*at)++].impulse : 0.0f;
 }
 
 static inline const JoxFoundPair *get_found_pairs(const JoxForces *f, uint32_t i) {
@@ -141,15 +143,42 @@ static void place_pairs(void *context, uint32_t begin, uint32_t end, uint32_t wo
             pairs->items[at] =
                 (JoxPair){i,
                           j,
-                          found[k].normal,
-                          found[k].target,
-                          found[k].mass,
+                          found[k].at,
                           found[k].squeeze,
-                          jox_find_kept_impulse(last, &kept, a->id[i], found[k].other_id)};
+                          jox_find_kept_impulse(last, &kept, a->id[i], found[k].other_id),
+                          0.0f};
             pairs->ends[pairs->end_starts[i] + slots[k].first_end] = (JoxPairEnd){at, j};
             pairs->ends[pairs->end_starts[j] + slots[k].second_end] = (JoxPairEnd){at, i};
         }
     }
+}
+
+/* Sorts the contacts of an agent with walls by edge, those with one edge from its start on. */
+static void sort_by_edge(JoxFoundWall *found, uint32_t count) {
+    for (uint32_t k = 1; k < count; k++) {
+        const JoxFoundWall moved = found[k];
+        uint32_t at = k;
+        for (; at > 0 && (found[at - 1].edge > moved.edge ||
+                          (found[at - 1].edge == moved.edge && found[at - 1].along > moved.along));
+             at--)
+            found[at] = found[at - 1];
+        found[at] = moved;
+    }
+}
+
+/* Computes the levers and masses of a contact with a wall. */
+static void find_wall_levers(const JoxAgents *a, const JoxFoundWall *found, JoxWallContact *out) {
+    const uint32_t i = out->agent;
+    const float mass = jox_param(a, JOX_PARAM_mass, i);
+    const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
+    out->mass = mass;
+    if (!(half > 0.0f))
+        return;
+    const float turns = 1.0f / sqrtf(jox_torso_gyration2((JoxTorso){a->contact_radius[i], half}));
+    out->lever = turns * jox_det(found->own, found->normal);
+    out->slip_lever = turns * (jox_dot(found->own, found->normal) - a->contact_radius[i]);
+    out->mass = mass / (1.0f + out->lever * out->lever);
+    out->slip_mass = mass / (1.0f + out->slip_lever * out->slip_lever);
 }
 
 /* Lists the contacts with walls, in ascending order of agent ids. */
@@ -166,22 +195,19 @@ static void lay_out_walls(JoxForces *f) {
         JoxFoundWall *found = (JoxFoundWall *)lists->walls.items + lists->first_wall[i];
         if (lists->wall_count[i])
             lists->first_wall[i] = walls->groups[walls->group_count++] = walls->count;
-        for (uint32_t k = 1; k < lists->wall_count[i]; k++) { /* sorts by edge */
-            JoxFoundWall moved = found[k];
-            uint32_t at = k;
-            for (; at > 0 && found[at - 1].edge > moved.edge; at--)
-                found[at] = found[at - 1];
-            found[at] = moved;
-        }
+        sort_by_edge(found, lists->wall_count[i]);
         for (uint32_t k = 0; k < lists->wall_count[i]; k++) {
             float speed = jox_dot(jox_v2(a->vx[i], a->vy[i]), found[k].normal);
-            walls->items[walls->count++] = (JoxWallContact){
+            JoxWallContact contact = {
                 .agent = i,
                 .edge = found[k].edge,
                 .normal = found[k].normal,
                 .along = found[k].along,
+                .gap = found[k].gap,
                 .target = jox_contact_target(found[k].gap, speed, jox_at(e, i), dt),
                 .impulse = jox_find_kept_impulse(last, &kept, a->id[i], found[k].edge)};
+            find_wall_levers(a, &found[k], &contact);
+            walls->items[walls->count++] = contact;
         }
     }
     walls->groups[walls->group_count] = walls->count;
@@ -201,10 +227,7 @@ static void reserve_layout(JoxForces *f, uint32_t pair_count, uint32_t wall_coun
     JOX_RESERVE(pairs->end_starts, pairs->end_start_capacity, (size_t)agents + 1);
     JOX_RESERVE(pairs->items, pairs->capacity, room);
     JOX_RESERVE(pairs->ends, pairs->end_capacity, 2 * (size_t)room);
-    solve->velocities =
-        jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *solve->velocities);
-    solve->inverse_mass =
-        jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *solve->inverse_mass);
+    solve->motions = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *solve->motions);
     JOX_RESERVE(walls->items, walls->capacity, wall_count);
     JOX_RESERVE(walls->groups, walls->group_capacity, (size_t)wall_count + 1);
 }

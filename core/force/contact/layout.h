@@ -3,24 +3,29 @@
 #ifndef JOX_FORCE_CONTACT_LAYOUT_H
 #define JOX_FORCE_CONTACT_LAYOUT_H
 
-#include "force/forces.h"
-#include "simd/isa.h"
+#include "force/contact/found.h"
 
 enum {
     JOX_CONTACT_MOST_COLOURS = 64 /* most contacts of an agent with other agents */
 };
 
-/* A contact between two agents; the normal points to the first, which found it. Half a cache line,
-   as every use reads all of it. */
+/* A contact between two agents, of which the first found it. Two agents have two contacts if they
+   touch at two points. */
 typedef struct JoxPair {
     uint32_t first, second;
-    JoxV2 normal;
-    float target;  /* least normal velocity of the first relative to the second, m/s */
-    float mass;    /* reduced mass, kg */
+    JoxContactPoint at;
     float squeeze; /* N: force of turned shoulders, which overlap within the radii; added to the
                       impulse */
-    float impulse; /* accumulated, not negative, N s */
+    float impulse; /* along the normal: accumulated, not negative, N s */
+    float slip;    /* along the tangent, by friction, N s */
 } JoxPair;
+
+/* Returns the impulse of a contact on its first agent, N s. */
+static inline JoxV2 jox_pair_impulse(const JoxPair *p, float dt) {
+    const float along = p->impulse + p->squeeze * dt;
+    return (JoxV2){p->at.normal.x * along - p->at.normal.y * p->slip,
+                   p->at.normal.y * along + p->at.normal.x * p->slip};
+}
 
 /* One agent's end of a contact with another agent. */
 typedef struct JoxPairEnd {
@@ -54,8 +59,17 @@ typedef struct JoxPairs {
 typedef struct JoxWallContact {
     uint32_t agent, edge;
     JoxV2 normal;
-    float along, target, impulse; /* m from the start of the edge, m/s, N s */
+    float along, gap, target; /* m from the start of the edge, m, m/s */
+    float mass, slip_mass;    /* kg, as in JoxContactPoint */
+    float lever, slip_lever;  /* likewise */
+    float impulse, slip;      /* N s */
 } JoxWallContact;
+
+/* Returns the impulse of a wall on an agent, N s. */
+static inline JoxV2 jox_wall_impulse(const JoxWallContact *w) {
+    return (JoxV2){w->normal.x * w->impulse - w->normal.y * w->slip,
+                   w->normal.y * w->impulse + w->normal.x * w->slip};
+}
 
 /* Zero-initialise; it owns its arrays. */
 typedef struct JoxWallContacts {

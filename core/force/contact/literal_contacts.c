@@ -17,7 +17,8 @@ static void solve_single_pairs(void *context, uint32_t begin, uint32_t end, uint
         p->impulse = 0.0f;
         if (!(jox_length2(jox_offset(a, i, j)) < touch * touch))
             continue;
-        float speed = (a->vx[i] - a->vx[j]) * p->normal.x + (a->vy[i] - a->vy[j]) * p->normal.y;
+        float speed =
+            (a->vx[i] - a->vx[j]) * p->at.normal.x + (a->vy[i] - a->vy[j]) * p->at.normal.y;
         p->impulse = jox_contact_impulse(speed, jox_minf(jox_at(e, i), jox_at(e, j)),
                                          1.0f / jox_at(mass, i) + 1.0f / jox_at(mass, j));
     }

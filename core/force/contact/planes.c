@@ -2,8 +2,10 @@
    step. Along the normal, two agents in contact may move as their mean does, so that neither plans
    to move into the other. An agent that is pushed may brake with its feet; an agent that follows a
    receding one need not. */
+#include <math.h>
 #include <string.h>
 
+#include "agents/torso.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 
@@ -32,6 +34,20 @@ static float find_least_speed(const JoxStep *step, uint32_t i, uint32_t j, JoxV2
     return speed + brakes;
 }
 
+/* Returns the speed at which the torsos of a pair part by turning, m/s. */
+static float find_turning(const JoxAgents *a, const JoxPair *p) {
+    float speed = 0.0f;
+    const uint32_t of[2] = {p->first, p->second};
+    for (int k = 0; k < 2; k++) {
+        const float half = jox_length(jox_v2(a->axis_x[of[k]], a->axis_y[of[k]]));
+        const JoxTorso torso = {a->contact_radius[of[k]], half};
+        if (half > 0.0f)
+            speed += (k ? -1.0f : 1.0f) * a->spin[of[k]] * p->at.levers[k] *
+                     sqrtf(jox_torso_gyration2(torso));
+    }
+    return speed;
+}
+
 /* Makes the planes of the agents that press on agent i or overlap it. Returns how many. */
 static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
                                    JoxDecay *decay) {
@@ -42,18 +58,19 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1]; k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
         const uint32_t j = pairs->ends[k].other;
-        if (!(p->impulse > 0.0f || p->target >= 0.0f) || n == JOX_MOST_TOUCHED)
+        if (p->at.again || !(p->impulse > 0.0f || p->at.target >= 0.0f) || n == JOX_MOST_TOUCHED)
             continue;
         float sign = p->first == i ? 1.0f : -1.0f;
-        JoxV2 normal = {sign * p->normal.x, sign * p->normal.y};
+        JoxV2 normal = {sign * p->at.normal.x, sign * p->at.normal.y};
         JoxV2 mean = {0.5f * (a->forced_x[i] + a->forced_x[j]),
                       0.5f * (a->forced_y[i] + a->forced_y[j])};
-        float gap = p->target < 0.0f ? -p->target * (float)f->step.timing.dt : 0.0f;
+        float gap = p->at.target < 0.0f ? -p->at.target * (float)f->step.timing.dt : 0.0f;
         float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
         float both = jox_minf(jox_dot(mean, normal), own);
         float least = find_least_speed(&f->step, i, j, normal, both, decay) - SLACK;
-        float radii = a->breadth[i] + a->breadth[j];
-        out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j, radii};
+        const float apart = jox_dot(jox_offset(a, j, i), normal) - p->at.gap;
+        const float turning = 0.5f * jox_maxf(0.0f, -find_turning(a, p));
+        out[n++] = (JoxContactPlane){normal, least + turning - 0.5f * gap / time, j, apart};
     }
     return n;
 }

@@ -8,19 +8,20 @@
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 
+static const float BEARS = 4.0f; /* tolerance of plans, in tolerances of forces */
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
 
 /* One pass over a part of the contacts. */
 typedef struct Pass {
     JoxForces *forces;
+    bool bears;       /* of plans, which rub on nobody */
     uint32_t first;   /* first contact of the colour */
     float *residuals; /* per chunk: greatest change of an impulse, N s */
     uint32_t chunk;   /* index in `residuals` of the first chunk of the pass's part */
 } Pass;
 
-static inline void add_along(JoxV2 *velocity, JoxV2 normal, float change) {
-    velocity->x += normal.x * change;
-    velocity->y += normal.y * change;
+static inline JoxV2 get_tangent(JoxV2 normal) {
+    return (JoxV2){-normal.y, normal.x};
 }
 
 /* Applies the impulses that the contacts of a colour start with. */
@@ -34,14 +35,14 @@ static void apply_colour_impulses(void *context, uint32_t begin, uint32_t end, u
         float impulse = p->impulse + p->squeeze * (float)f->step.timing.dt;
         if (!(impulse > 0.0f))
             continue;
-        add_along(&solve->velocities[p->first], p->normal, impulse * solve->inverse_mass[p->first]);
-        add_along(&solve->velocities[p->second], p->normal,
-                  -impulse * solve->inverse_mass[p->second]);
+        jox_add_impulse(&solve->motions[p->first], p->at.normal, p->at.levers[0], impulse);
+        jox_add_impulse(&solve->motions[p->second], p->at.normal, p->at.levers[1], -impulse);
     }
 }
 
 /* Solves the contacts [begin, end) of a colour once: each impulse becomes what its target asks for
-   at the present velocities, but never pulls. */
+   at the present velocities, but never pulls; friction stops the tangential motion as far as the
+   impulse allows. */
 static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Pass *pass = context;
@@ -50,15 +51,27 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
     float most = 0.0f;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
         JoxPair *p = &f->contacts->pairs.items[k];
-        JoxV2 *vi = &solve->velocities[p->first], *vj = &solve->velocities[p->second];
-        float speed = (vi->x - vj->x) * p->normal.x + (vi->y - vj->y) * p->normal.y;
+        const JoxContactPoint *at = &p->at;
+        JoxContactMotion *one = &solve->motions[p->first], *other = &solve->motions[p->second];
+        float speed = jox_speed_along(one, at->normal, at->levers[0]) -
+                      jox_speed_along(other, at->normal, at->levers[1]);
         float before = p->impulse;
-        float after = jox_maxf(0.0f, before + (p->target - speed) * p->mass);
+        float after = jox_maxf(0.0f, before + (at->target - speed) * at->mass);
         float change = after - before;
         p->impulse = after;
         most = jox_maxf(most, fabsf(change));
-        add_along(vi, p->normal, change * solve->inverse_mass[p->first]);
-        add_along(vj, p->normal, -change * solve->inverse_mass[p->second]);
+        jox_add_impulse(one, at->normal, at->levers[0], change);
+        jox_add_impulse(other, at->normal, at->levers[1], -change);
+        if (!(at->slip_mass > 0.0f) || pass->bears)
+            continue;
+        const JoxV2 tangent = get_tangent(at->normal);
+        const float slips = jox_speed_along(one, tangent, at->slips[0]) -
+                            jox_speed_along(other, tangent, at->slips[1]);
+        const float bound = f->options.friction * after, last = p->slip;
+        p->slip = jox_clampf(last - slips * at->slip_mass, -bound, bound);
+        most = jox_maxf(most, fabsf(p->slip - last));
+        jox_add_impulse(one, tangent, at->slips[0], p->slip - last);
+        jox_add_impulse(other, tangent, at->slips[1], last - p->slip);
     }
     pass->residuals[pass->chunk + begin / PAIR_GRAIN] = most;
 }
@@ -68,8 +81,7 @@ static void apply_wall_impulses(JoxForces *f) {
     JoxContactSolve *solve = &f->contacts->solve;
     for (uint32_t k = 0; k < walls->count; k++) {
         const JoxWallContact *w = &walls->items[k];
-        add_along(&solve->velocities[w->agent], w->normal,
-                  w->impulse * solve->inverse_mass[w->agent]);
+        jox_add_impulse(&solve->motions[w->agent], w->normal, w->lever, w->impulse);
     }
 }
 
@@ -80,15 +92,23 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = pass->forces;
     JoxWallContacts *walls = &f->contacts->walls;
     JoxContactSolve *solve = &f->contacts->solve;
-    const JoxParameterColumn mass = f->step.agents->param[JOX_PARAM_mass];
     float most = 0.0f;
     for (uint32_t k = walls->groups[begin]; k < walls->groups[end]; k++) {
         JoxWallContact *w = &walls->items[k];
-        float before = w->impulse, speed = jox_dot(solve->velocities[w->agent], w->normal);
-        w->impulse = jox_maxf(0.0f, before + (w->target - speed) * jox_at(mass, w->agent));
+        JoxContactMotion *motion = &solve->motions[w->agent];
+        float before = w->impulse, speed = jox_speed_along(motion, w->normal, w->lever);
+        w->impulse = jox_maxf(0.0f, before + (w->target - speed) * w->mass);
         float change = w->impulse - before;
         most = jox_maxf(most, fabsf(change));
-        add_along(&solve->velocities[w->agent], w->normal, change * solve->inverse_mass[w->agent]);
+        jox_add_impulse(motion, w->normal, w->lever, change);
+        if (!(w->slip_mass > 0.0f) || pass->bears)
+            continue;
+        const JoxV2 tangent = get_tangent(w->normal);
+        const float bound = f->options.friction * w->impulse, last = w->slip;
+        w->slip = jox_clampf(last - jox_speed_along(motion, tangent, w->slip_lever) * w->slip_mass,
+                             -bound, bound);
+        most = jox_maxf(most, fabsf(w->slip - last));
+        jox_add_impulse(motion, tangent, w->slip_lever, w->slip - last);
     }
     pass->residuals[pass->chunk + begin / WALL_GRAIN] = most;
 }
@@ -97,12 +117,13 @@ static uint32_t count_chunks(uint32_t count, uint32_t grain) {
     return (count + grain - 1) / grain;
 }
 
-/* Runs one pass over all contacts; returns the greatest change of an impulse, N s. */
-static float solve_once(JoxForces *f) {
+/* Runs one pass over all contacts, of forces or of plans (`bears`); returns the greatest change of
+ * an impulse, N s. */
+static float solve_once(JoxForces *f, bool bears) {
     JoxContactSolve *solve = &f->contacts->solve;
     JoxWallContacts *walls = &f->contacts->walls;
     JoxPairs *p = &f->contacts->pairs;
-    Pass pass = {.forces = f, .residuals = solve->residuals};
+    Pass pass = {.forces = f, .bears = bears, .residuals = solve->residuals};
     for (uint32_t c = 0; c < p->colours; c++) {
         uint32_t count = p->starts[c + 1] - p->starts[c];
         pass.first = p->starts[c];
@@ -111,7 +132,7 @@ static float solve_once(JoxForces *f) {
     }
     jox_parallel_for(f->step.pool, walls->group_count, WALL_GRAIN, solve_walls, &pass);
     pass.chunk += count_chunks(walls->group_count, WALL_GRAIN);
-    float most = jox_touches_solve_once(f);
+    float most = bears ? jox_touches_bear_once(f) : jox_touches_solve_once(f);
     for (uint32_t k = 0; k < pass.chunk; k++)
         most = jox_maxf(most, solve->residuals[k]);
     return most;
@@ -139,8 +160,102 @@ void jox_contacts_solve(JoxForces *f) {
     f->totals.passes = 0;
     float enough = f->options.tolerance * (float)f->step.timing.dt, most = INFINITY;
     while (most > enough && f->totals.passes < f->options.iterations) {
-        most = solve_once(f);
+        most = solve_once(f, false);
         f->totals.passes++;
     }
     f->totals.residual = most / (float)f->step.timing.dt;
+}
+
+/* Computes the mean velocities of agents [begin, end) within the step, as they are planned. */
+static void start_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const JoxAgents *a = f->step.agents;
+    const float on_the_way = (float)f->step.timing.on_the_way;
+    for (uint32_t i = begin; i < end; i++) {
+        JoxContactMotion *m = &f->contacts->solve.motions[i];
+        m->x = a->forced_x[i] + (a->next_x[i] - a->forced_x[i]) * on_the_way;
+        m->y = a->forced_y[i] + (a->next_y[i] - a->forced_y[i]) * on_the_way;
+        a->borne_x[i] = -m->x;
+        a->borne_y[i] = -m->y;
+    }
+}
+
+/* Writes what contacts have changed of the velocities of agents [begin, end) so far. */
+static void end_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxAgents *a = f->step.agents;
+    const JoxContactMotion *motions = f->contacts->solve.motions;
+    for (uint32_t i = begin; i < end; i++) {
+        a->borne_x[i] += motions[i].x;
+        a->borne_y[i] += motions[i].y;
+        a->parted_x[i] = -motions[i].x;
+        a->parted_y[i] = -motions[i].y;
+    }
+}
+
+static void end_parting(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxAgents *a = f->step.agents;
+    const JoxContactMotion *motions = f->contacts->solve.motions;
+    for (uint32_t i = begin; i < end; i++) {
+        a->parted_x[i] += motions[i].x;
+        a->parted_y[i] += motions[i].y;
+    }
+}
+
+/* Raises the targets of contacts that overlap to their parting speeds; returns whether any does. */
+static bool start_parting(JoxForces *f) {
+    JoxWallContacts *walls = &f->contacts->walls;
+    JoxPairs *pairs = &f->contacts->pairs;
+    bool parts = jox_touches_start_parting(f);
+    for (uint32_t k = 0; k < pairs->count; k++) {
+        JoxContactPoint *at = &pairs->items[k].at;
+        const float speed = jox_parting_speed(f, at->gap);
+        if (!(speed > at->target))
+            continue;
+        at->target = speed;
+        parts = true;
+    }
+    for (uint32_t k = 0; k < walls->count; k++) {
+        const float speed = jox_parting_speed(f, walls->items[k].gap);
+        if (!(speed > walls->items[k].target))
+            continue;
+        walls->items[k].target = speed;
+        parts = true;
+    }
+    return parts;
+}
+
+static void solve_bearing(JoxForces *f) {
+    const float enough = BEARS * f->options.tolerance * (float)f->step.timing.dt;
+    float most = INFINITY;
+    for (uint32_t pass = 0; most > enough && pass < f->options.iterations; pass++)
+        most = solve_once(f, true);
+}
+
+void jox_force_bear(JoxForces *f) {
+    JoxAgents *a = f->step.agents;
+    JoxPairs *pairs = &f->contacts->pairs;
+    JoxWallContacts *walls = &f->contacts->walls;
+    if (!f->contacts->known || f->options.literal || !f->step.neighbours->has_torsos ||
+        !(pairs->count || walls->count || f->contacts->touches.count)) {
+        float *const columns[] = {a->borne_x, a->borne_y, a->parted_x, a->parted_y};
+        for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
+            jox_mem_fill(columns[k], 0, a->count * sizeof *columns[k]);
+        return;
+    }
+    for (uint32_t k = 0; k < pairs->count; k++)
+        pairs->items[k].impulse = pairs->items[k].slip = 0.0f;
+    for (uint32_t k = 0; k < walls->count; k++)
+        walls->items[k].impulse = walls->items[k].slip = 0.0f;
+    jox_touches_start_bearing(f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, start_bearing, f);
+    solve_bearing(f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, end_bearing, f);
+    if (start_parting(f))
+        solve_bearing(f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, end_parting, f);
 }

@@ -1,5 +1,8 @@
 /* The stage contact, equations 6 and 7: finds the contacts, solves all of them together, and writes
    the agents' contact forces. world/step.c calls it after push. */
+#include <math.h>
+
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
@@ -12,10 +15,9 @@ static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1]; k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
-        float size = p->impulse + p->squeeze * (float)f->step.timing.dt;
-        float impulse = p->first == i ? size : -size;
-        sum = jox_add(sum, (JoxV2){p->normal.x * impulse, p->normal.y * impulse});
-        *contacts += size > 0.0f || p->target >= 0.0f;
+        const JoxV2 impulse = jox_pair_impulse(p, (float)f->step.timing.dt);
+        sum = p->first == i ? jox_add(sum, impulse) : jox_sub(sum, impulse);
+        *contacts += !p->at.again && (p->impulse + p->squeeze > 0.0f || p->at.target >= 0.0f);
     }
     for (uint32_t k = 0; k < jox_touch_number_of(touches, i); k++) {
         const JoxTouch *touch = &touches->items[touches->first[i] + k];
@@ -49,6 +51,20 @@ static void write_contact_forces(void *context, uint32_t begin, uint32_t end, ui
     }
 }
 
+/* Writes the spins that contacts give. */
+static void write_spins(JoxForces *f) {
+    JoxAgents *a = f->step.agents;
+    const JoxContacts *c = f->contacts;
+    if (f->options.literal || !(c->pairs.count || c->walls.count || c->touches.count))
+        return;
+    for (uint32_t i = 0; i < a->count; i++) {
+        const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
+        if (half > 0.0f && isfinite(a->spin[i])) /* else the world reports it */
+            a->spin[i] = c->solve.motions[i].spin /
+                         sqrtf(jox_torso_gyration2((JoxTorso){a->contact_radius[i], half}));
+    }
+}
+
 /* Adds the forces of walls, which have a list of their own. */
 static void add_wall_forces(JoxForces *f) {
     JoxWallContacts *walls = &f->contacts->walls;
@@ -56,8 +72,9 @@ static void add_wall_forces(JoxForces *f) {
     float per_second = 1.0f / (float)f->step.timing.dt;
     for (uint32_t k = 0; k < walls->count; k++) {
         const JoxWallContact *w = &walls->items[k];
-        a->contact_x[w->agent] += w->normal.x * w->impulse * per_second;
-        a->contact_y[w->agent] += w->normal.y * w->impulse * per_second;
+        const JoxV2 impulse = jox_wall_impulse(w);
+        a->contact_x[w->agent] += impulse.x * per_second;
+        a->contact_y[w->agent] += impulse.y * per_second;
     }
 }
 
@@ -74,6 +91,8 @@ void jox_force_contact(JoxForces *f) {
     else if (found->pairs.count || found->walls.count || found->touches.count)
         jox_contacts_solve(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, write_contact_forces, f);
+    if (f->step.neighbours->has_torsos && f->contacts->pairs.end_starts)
+        write_spins(f);
     add_wall_forces(f); /* in literal mode walls do not press */
     JOX_CHECK(jox_contacts_check(f));
     jox_contacts_keep_impulses(f);

@@ -1,6 +1,7 @@
 /* The kernel that computes the start of the contact solve; a lane is an agent. */
 #include <float.h>
 
+#include "agents/torso_lanes.h"
 #include "force/contact/contacts.h"
 #include "force/terms_lanes.h"
 
@@ -21,10 +22,13 @@ void JOX_WIDE(jox_start_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
         const JoxVector change = jv_scale(jv_scale(force, inverse_mass), dt);
         const JoxVector begins = jv_add(jv_load(a->vx, a->vy, i), change);
         const JoxMask finite = jm_and(are_finite(begins.x), are_finite(begins.y));
-        float x[JOX_WIDTH], y[JOX_WIDTH];
-        jf_store(solve->inverse_mass + i, inverse_mass);
+        float x[JOX_WIDTH], y[JOX_WIDTH], spin[JOX_WIDTH], inverse[JOX_WIDTH];
+        jf_store(inverse, inverse_mass);
         jv_store(x, y, 0, jv_select(finite, begins, (JoxVector){zero, zero}));
+        const JoxFloats turns = jf_load(a->spin + i) * jox_gyration_lanes(a, i);
+        jf_store(spin, jf_select(are_finite(turns), turns, zero));
         for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-            solve->velocities[i + lane] = (JoxV2){x[lane], y[lane]};
+            solve->motions[i + lane] =
+                (JoxContactMotion){x[lane], y[lane], spin[lane], inverse[lane]};
     }
 }

@@ -6,7 +6,7 @@
 #include "base/number/bits.h"
 #include "base/number/random.h"
 #include "force/stages/kernels.h"
-#include "simd/lanes.h"
+#include "simd/vectors.h"
 
 static const double TURN_INTERVAL = 1.0; /* s between the random values of an agent */
 static const double TWO_TO_52 = 0x1p+52; /* doubles from this on are whole numbers */
@@ -63,13 +63,15 @@ void JOX_WIDE(jox_breadth_packets)(const JoxForces *f, uint32_t begin, uint32_t 
     const JoxFloats least2 = jf_set(JOX_STANDS * JOX_STANDS), zero = jf_set(0.0f);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxFloats x = jf_load(a->pref_x + i), y = jf_load(a->pref_y + i);
-        const JoxMask stands = jf_lt(x * x + y * y, least2);
+        const JoxVector axis = jv_load(a->axis_x, a->axis_y, i);
+        const JoxMask is_long = jf_lt(zero, jv_dot(axis, axis));
+        const JoxMask stands = jm_or(is_long, jf_lt(x * x + y * y, least2));
         const JoxFloats turn = f->in.turning ? jox_param_lanes(a, JOX_PARAM_turn, i) : zero;
         float out[JOX_WIDTH], turned[JOX_WIDTH];
         jf_store(turned, jf_select(stands, zero, turn)); /* agents that stand do not turn */
         for (int lane = 0; lane < JOX_WIDTH; lane++)
             out[lane] = compute_breadth(stream, &moments, a->id[i + lane], time,
-                                        jox_param(a, JOX_PARAM_radius, i + lane), turned[lane]);
-        memcpy(a->breadth + i, out, sizeof out);
+                                        a->contact_radius[i + lane], turned[lane]);
+        memcpy(a->contact_radius + i, out, sizeof out);
     }
 }

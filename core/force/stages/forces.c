@@ -1,6 +1,7 @@
 /* Creates, frees and configures the stages of force; begins a step; lists what outlasts it. */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
@@ -83,18 +84,22 @@ static void begin_agents(void *context, uint32_t begin, uint32_t end, uint32_t w
     zero_columns(f, begin, end);
     KERNELS[f->isa](f, begin, end);
     for (uint32_t i = begin; i < end; i += JOX_AGENTS_PADDING)
-        jox_interleave(&f->records[i], a->breadth + i, jox_params(a, JOX_PARAM_radius, i),
+        jox_interleave(&f->records[i], a->contact_radius + i, jox_params(a, JOX_PARAM_radius, i),
                        jox_params(a, JOX_PARAM_mass, i), a->id + i,
                        end - i < JOX_AGENTS_PADDING ? (end - i + 3) / 4 * 4 : JOX_AGENTS_PADDING);
+    /* From the shapes that discs had before they turned a shoulder. */
+    const bool torsos = f->step.neighbours->has_torsos;
+    for (uint32_t i = begin; i < end; i++)
+        f->records[i].outer = f->step.neighbours->shapes[i].radius +
+                              (torsos ? jox_length(jox_v2(a->axis_x[i], a->axis_y[i])) : 0.0f);
 }
 
-/* Returns the stage memory for so many agents, bytes: builds, padded to fours, and what
+/* Returns the stage memory for so many agents, bytes: builds, padded to packets, and what
    contact/layout.c takes. */
 static size_t measure_stage_memory(size_t agents) {
-    return jox_stage_memory_bytes(agents + 3, sizeof(JoxAgentRecord)) +
+    return jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxAgentRecord)) +
            jox_stage_memory_bytes(agents, sizeof(uint64_t)) +
-           jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxV2)) +
-           jox_stage_memory_bytes(agents + JOX_LANES, sizeof(float));
+           jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxContactMotion));
 }
 
 void jox_force_begin(JoxForces *f, const JoxStep *step, const JoxForceInputs *inputs) {
@@ -114,9 +119,9 @@ void jox_force_begin(JoxForces *f, const JoxStep *step, const JoxForceInputs *in
     JOX_RESERVE(f->transfers.starts, f->transfers.start_capacity, (size_t)n + 1);
     jox_pushes_start_step(f);
     jox_stage_memory_begin(f->memory, measure_stage_memory(n));
-    f->records = jox_stage_memory_take(f->memory, (size_t)n + 3, sizeof *f->records);
+    f->records = jox_stage_memory_take(f->memory, (size_t)n + JOX_LANES, sizeof *f->records);
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
-    f->widest = jox_param_greatest(a, JOX_PARAM_radius);
+    f->widest = jox_agents_widest(a, f->options.literal);
     if (n)
         jox_decay(&f->decay, jox_param(a, JOX_PARAM_damping, 0), (float)timing->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, begin_agents, f);

@@ -70,6 +70,19 @@ static inline bool touch_nothing_in_eight(const JoxContactPlanes *t, uint32_t be
     return (people | bodies) == 0;
 }
 
+/* Returns agent i's share, by mass, of the shift that resolves its overlap with one that it
+   touches, m. */
+static inline JoxV2 find_contact_shift(const JoxMove *m, const JoxV2 *from, uint32_t i,
+                                       const JoxContactPlane *plane) {
+    const JoxAgents *a = m->step.agents;
+    const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
+    const uint32_t j = plane->other;
+    const float depth =
+        plane->apart - jox_dot(jox_wrap(a, jox_sub(from[i], from[j])), plane->normal);
+    const float share = jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j));
+    return jox_scale(plane->normal, m->stiffness * share * jox_maxf(0.0f, depth));
+}
+
 /* Shifts each agent of the range out of the agents and bodies that it touches. Velocities stay as
    they are, so that overlaps add no energy. */
 static void sweep_contacts(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -87,12 +100,11 @@ static void sweep_contacts(void *context, uint32_t begin, uint32_t end, uint32_t
         const JoxContactPlane *planes = t->planes + t->starts[i];
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < t->people[i]; k++)
-            shift =
-                jox_add(shift, find_overlap_shift(m, from, i, planes[k].other, planes[k].apart));
+            shift = jox_add(shift, find_contact_shift(m, from, i, &planes[k]));
         for (uint32_t k = 0; k < t->bodies[i]; k++) {
             const JoxObject *body = &m->step.objects->rows[planes[t->people[i] + k].other];
             JoxFootprintPoint side = jox_footprint_nearest(body, from[i]);
-            float overlap = m->step.agents->breadth[i] - side.gap;
+            float overlap = m->step.agents->contact_radius[i] - side.gap;
             shift = jox_add(shift, jox_scale(side.normal, m->stiffness * jox_maxf(0.0f, overlap)));
         }
         to[i] = jox_add(from[i], shift);

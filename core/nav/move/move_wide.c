@@ -8,6 +8,18 @@
 #include "nav/step_back_lanes.h"
 #include "simd/vectors.h"
 
+/* Turns the chests of a packet by their spin. */
+static inline void turn_chests(const JoxMove *m, uint32_t i) {
+    JoxAgents *a = m->step.agents;
+    const JoxVector chest = jv_load(a->chest_x, a->chest_y, i);
+    const JoxFloats half = jf_load(a->spin + i) * (0.5f * (float)m->step.timing.dt);
+    const JoxFloats one = jf_set(1.0f), by = one / (one + half * half);
+    const JoxFloats c = (one - half * half) * by, s = (half + half) * by;
+    const JoxVector to = {c * chest.x - s * chest.y, s * chest.x + c * chest.y};
+    const JoxFloats inverse = one / jf_sqrt(jv_dot(to, to));
+    jv_store(a->chest_x, a->chest_y, i, jv_scale(to, inverse));
+}
+
 void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end) {
     JoxAgents *a = m->step.agents;
     const JoxFloats on_the_way = jf_set((float)m->step.timing.on_the_way),
@@ -17,12 +29,17 @@ void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end
         const JoxVector at = jv_load(a->x, a->y, i);
         const JoxVector forced = jv_load(a->forced_x, a->forced_y, i);
         const JoxVector rest = jv_sub(jv_load(a->next_x, a->next_y, i), forced);
-        const JoxVector mean = jv_add(forced, jv_scale(rest, on_the_way));
+        const JoxVector borne = jv_load(a->borne_x, a->borne_y, i);
+        const JoxVector parted = jv_load(a->parted_x, a->parted_y, i);
+        const JoxVector mean =
+            jv_add(jv_add(jv_add(forced, jv_scale(rest, on_the_way)), borne), parted);
         const JoxVector to = jv_add(at, jv_scale(mean, dt));
         float x[JOX_WIDTH], y[JOX_WIDTH];
         jv_store(a->prev_x, a->prev_y, i, at);
-        jv_store(a->vx, a->vy, i, jv_add(forced, jv_scale(rest, response)));
+        jv_store(a->vx, a->vy, i, jv_add(jv_add(forced, jv_scale(rest, response)), borne));
         jv_store(x, y, 0, to);
+        if (m->step.neighbours->has_torsos)
+            turn_chests(m, i);
         for (uint32_t lane = 0; lane < JOX_WIDTH && i + lane < end; lane++)
             m->position[0][i + lane] = (JoxV2){x[lane], y[lane]};
     }
@@ -55,7 +72,7 @@ static inline uint32_t find_near_walls(const JoxMove *m, uint32_t first, JoxVect
     if (!grid->first)
         return 0;
     const JoxFloats way2 = jv_dot(way, way), served = jf_set(m->served);
-    const JoxFloats reach = jf_sqrt(way2) + jf_load(m->step.agents->breadth + first);
+    const JoxFloats reach = jf_sqrt(way2) + jf_load(m->step.agents->contact_radius + first);
     const JoxMask far = jf_lt(served * served, way2);
     const JoxMask clear =
         jm_and(jf_le(reach, served), jox_wall_grid_clear_lanes(m->unhidden2, first, reach));
@@ -120,7 +137,7 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
                 continue;
             const JoxV2 at =
                 jox_nav_move_past_walls(m, (JoxV2){a->prev_x[i + lane], a->prev_y[i + lane]},
-                                        (JoxV2){x[lane], y[lane]}, a->breadth[i + lane]);
+                                        (JoxV2){x[lane], y[lane]}, a->contact_radius[i + lane]);
             x[lane] = at.x;
             y[lane] = at.y;
         }

@@ -3,6 +3,7 @@
    touch range; jox_nav_plan calls it between two steps. */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/number/bits.h"
 #include "base/number/pi.h"
 #include "nav/near/perceive.h"
@@ -171,7 +172,7 @@ float jox_nav_sight(const JoxAgents *a) {
 void jox_perceive_alone(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
     Nearest found = {.most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i)};
     jox_neighbours_reserve(out, i + 1, found.most > 0 ? found.most : 1);
-    out->widest = jox_param_greatest(a, JOX_PARAM_radius);
+    out->widest = jox_agents_widest(a, false);
     search_nearest(NULL, a, i, jox_minf(jox_param(a, JOX_PARAM_perception, i), jox_nav_sight(a)),
                    &found);
     list_nearest(a, i, &found, out);

@@ -2,11 +2,16 @@
  */
 #include "nav/near/perceive.h"
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_perceive_packets_##name,
 static JoxPerceiveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+#define X(name, isa) [isa] = jox_shape_packets_##name,
+static JoxPerceiveKernel *const SHAPES[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -15,17 +20,19 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
     const JoxAgents *a = p->agents;
     jox_interleave(&p->out->motions[begin], a->x + begin, a->y + begin, a->vx + begin,
                    a->vy + begin, end - begin);
+    SHAPES[p->nav->isa](p, begin, end);
     KERNELS[p->nav->isa](p, begin, end);
 }
 
-static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
+static void reserve_neighbours(const JoxNav *nav, JoxNeighbours *out, const JoxAgents *a) {
     const uint32_t most = (uint32_t)jox_param_greatest(a, JOX_PARAM_neighbours);
-    out->widest = jox_param_greatest(a, JOX_PARAM_radius);
     jox_neighbours_reserve(out, a->count, most > 0 ? most : 1);
+    out->widest = jox_agents_widest(a, nav->literal);
+    out->has_torsos = !nav->literal && jox_agents_have_torsos(a);
 }
 
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {
-    reserve_neighbours(out, agents);
+    reserve_neighbours(nav, out, agents);
     nav->unhidden_reach = -1.0f;
     JoxPerceive perceive = {nav, agents, out, jox_nav_sight(agents)};
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, perceive_range, &perceive);

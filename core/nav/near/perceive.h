@@ -25,7 +25,13 @@ typedef void JoxPerceiveKernel(const JoxPerceive *perceive, uint32_t begin, uint
 #define X(name, isa) JoxPerceiveKernel jox_perceive_packets_##name;
 JOX_ISAS(X)
 #undef X
-/* Does so for one agent, with any number of candidates; searches within `radius` (m) first. */
+/* shape_wide.c: writes contact_radius, axis_x and axis_y, and the shapes, of agents [begin, end);
+   stops the turning of discs, which may have been torsos. */
+#define X(name, isa) JoxPerceiveKernel jox_shape_packets_##name;
+JOX_ISAS(X)
+#undef X
+/* Finds the neighbours of one agent, with any number of candidates; searches within `radius` (m)
+ * first. */
 void jox_perceive_one(const JoxPerceive *perceive, uint32_t agent, float radius);
 /* Finds the neighbours of one agent exactly as the kernel does, at any time and by no grid; writes
    no column. */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "agents/param_lanes.h"
+#include "agents/torso_lanes.h"
 #include "nav/near/near_lanes.h"
 
 /* Ranges of columns and rows of cells of each lane, both ends included. */
@@ -365,8 +366,7 @@ static void write_found(const Packet *packet, const Found *f, uint32_t lanes,
 /* Finds the agents within touch range for lanes whose neighbour lists do not cover it. */
 static void find_touching(const Packet *packet, JoxMask sees) {
     const JoxPerceive *p = packet->p;
-    const JoxFloats radius = jox_param_lanes(p->agents, JOX_PARAM_radius, packet->first);
-    JoxFloats range = radius + p->out->widest + JOX_TOUCH_LEAST;
+    JoxFloats range = jox_outer_lanes(p->agents, packet->first) + p->out->widest + JOX_TOUCH_LEAST;
     range = jf_min(range + JOX_TOUCH_MOST, jf_set(p->sight));
     JoxFloats reach =
         jf_select(sees, jf_load(p->agents->search_radius + packet->first), jf_set(0.0f));

@@ -1,5 +1,6 @@
 /* Half-planes of rigid bodies: equation 4. half_planes.c calls jox_orca_objects for one agent at a
    time. */
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "nav/orca/solve.h"
 
@@ -34,6 +35,8 @@ static JoxHalfPlane make_body_plane(const JoxAgents *a, uint32_t i, Minded *m, f
                                    (JoxV2){1.0f, 0.0f});
     }
     const JoxFootprintPoint *side = find_side(m);
+    if (a->axis_x[i] != 0.0f || a->axis_y[i] != 0.0f)
+        radius = jox_torso_reach(a, i, side->normal);
     float gap = side->gap - radius, time = gap < 0.0f ? planning_time : tau;
     moving = jox_object_velocity_at(o, side->point);
     return (JoxHalfPlane){side->normal, jox_dot(moving, side->normal) - gap / time};
@@ -70,7 +73,7 @@ static bool needs_avoidance(const JoxContactPlanes *touched, const JoxAgents *a,
     for (uint32_t k = 0; k < touched->bodies[i]; k++)
         if (planes[k].other == row)
             return false;
-    float radius = a->breadth[i];
+    float radius = a->contact_radius[i];
     return !jox_object_reaches(m->body, m->at, radius) || find_side(m)->gap >= radius;
 }
 

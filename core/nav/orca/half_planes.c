@@ -100,8 +100,10 @@ uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) 
         if (jox_solve_passes_over(s, i, j))
             continue;
         const JoxV2 p = jox_offset(a, i, j);
-        const JoxPair q = {p.x, p.y, a->vx[i] - a->vx[j], a->vy[i] - a->vy[j],
-                           jox_at(radius, i) + jox_at(radius, j)};
+        JoxPair q = {p.x, p.y, a->vx[i] - a->vx[j], a->vy[i] - a->vy[j],
+                     jox_at(radius, i) + jox_at(radius, j)};
+        if (s->step.neighbours->has_torsos && !walks)
+            q.radii = jox_radii_of_torsos(s->step.neighbours, &self, &j, &q);
         if (!walks)
             out[made++] = find_orca_plane(s, i, j, &self, &q);
         else
@@ -112,12 +114,17 @@ uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) 
 
 uint32_t jox_solve_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->step.agents;
-    const float tau = jox_param(a, JOX_PARAM_wall_horizon, i), radius = a->breadth[i];
-    const float range = tau * jox_param(a, JOX_PARAM_max_speed, i) + radius;
+    const bool pressed = a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
+    const JoxWallShape shape = {{a->axis_x[i], a->axis_y[i]},
+                                a->contact_radius[i],
+                                pressed ? 0.0f : jox_param(a, JOX_PARAM_radius, i)};
+    const float tau = jox_param(a, JOX_PARAM_wall_horizon, i);
+    const float reach = jox_maxf(shape.radius + jox_length(shape.axis), shape.keeps);
+    const float range = tau * jox_param(a, JOX_PARAM_max_speed, i) + reach;
     if (!s->nav->grid.first || jox_wall_grid_is_clear(s->unhidden2, i, range))
         return 0;
     return jox_orca_walls(&s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]},
-                          radius, tau, range, out, JOX_MOST_WALLS);
+                          &shape, tau, range, out, JOX_MOST_WALLS);
 }
 
 uint32_t jox_solve_objects(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) {

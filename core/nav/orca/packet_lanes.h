@@ -195,6 +195,9 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
             q.x = jf_wrap(q.x, a->period.x);
             q.y = jf_wrap(q.y, a->period.y);
         }
+        if (near->has_torsos)
+            q.radii = jf_select(jm_of_bits(walkers), q.radii,
+                                jox_radii_of_torsos(near, self, others, &q));
         out[k].pair = q;
         widest = jf_max(widest, q.radii);
         if (walkers)

@@ -79,10 +79,17 @@ bool jox_solve_one(const JoxSolve *solve, uint32_t agent, const JoxHalfPlaneCoun
    (s), along `away` where the centres coincide. */
 JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own,
                                  float share, JoxV2 away);
+/* The shape of an agent towards walls: torso, and the distance that it keeps by its own will, m. */
+typedef struct JoxWallShape {
+    JoxV2 axis;
+    float radius, keeps;
+} JoxWallShape;
+
 /* Makes the half-planes of the wall edges near an agent; returns how many, at most `most`. tau:
    horizon, s; range: m. */
-uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
-                        float tau, float range, JoxHalfPlane *out, uint32_t most);
+uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity,
+                        const JoxWallShape *shape, float tau, float range, JoxHalfPlane *out,
+                        uint32_t most);
 /* Makes the half-planes of the bodies that an agent avoids, except those that it touches; returns
    how many, at most `most`. */
 uint32_t jox_orca_objects(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out, uint32_t most);

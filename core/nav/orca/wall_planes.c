@@ -189,16 +189,30 @@ static uint32_t list_near_edges(const JoxWallGrid *grid, JoxV2 position, float r
     return n;
 }
 
-uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
-                        float tau, float range, JoxHalfPlane *out, uint32_t most) {
-    JOX_ASSERT(tau > 0.0f && radius > 0.0f);
+/* Returns how far a torso reaches towards an edge from p1 to p2, relative to its centre, m. */
+static float find_reach(JoxV2 p1, JoxV2 p2, const JoxWallShape *s) {
+    if (s->axis.x == 0.0f && s->axis.y == 0.0f)
+        return s->radius;
+    const JoxV2 to = jox_segment_nearest(p1, p2, (JoxV2){0.0f, 0.0f});
+    const float kept = jox_maxf(s->radius, jox_minf(s->keeps, jox_length(to)));
+    /* An end is passed by another side of the torso than the one that points to it now. */
+    if ((to.x == p1.x && to.y == p1.y) || (to.x == p2.x && to.y == p2.y))
+        return kept;
+    return jox_maxf(kept, s->radius + fabsf(jox_dot(s->axis, jox_unit(to))));
+}
+
+uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity,
+                        const JoxWallShape *shape, float tau, float range, JoxHalfPlane *out,
+                        uint32_t most) {
+    JOX_ASSERT(tau > 0.0f && shape->radius > 0.0f);
     NearEdge near[16];
     uint32_t edges = list_near_edges(grid, position, range, near, 16), made = 0;
-    float inverse = 1.0f / tau, r2 = radius * radius;
+    float inverse = 1.0f / tau;
     for (uint32_t i = 0; i < edges && made < most; i++) {
         const JoxWallVertex *a = &grid->walls->vertices[near[i].edge];
         const JoxWallVertex *b = find_edge_end(grid->walls, near[i].edge);
         JoxV2 p1 = jox_sub(a->point, position), p2 = jox_sub(b->point, position);
+        const float radius = find_reach(p1, p2, shape), r2 = radius * radius;
         if (is_covered(out, made, p1, p2, inverse, radius))
             continue;
         JoxV2 edge = jox_sub(p2, p1);

@@ -43,6 +43,16 @@ static void walk_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
     KERNELS[w->nav->isa].walk(w, begin, end);
 }
 
+#define X(name, isa) [isa] = jox_torso_packets_##name,
+static JoxWalkKernel *const TORSOS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+static void turn_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxWalk *w = context;
+    TORSOS[w->nav->isa](w, begin, end);
+}
+
 /* Computes the aims of all agents; *reach: how far walls matter, m. Returns whether any agent walks
    by the law. */
 static bool aim_agents(JoxWalk *w, float *reach) {
@@ -91,10 +101,17 @@ void jox_nav_walk(JoxNav *nav, const JoxStep *step) {
     const double knot = floor(time / KNOTS);
     JoxWalk walk = {.nav = nav, .step = *step, .law = law};
     JOX_ASSERT(nav->capacity >= step->agents->count);
-    if (!aim_agents(&walk, &reach) || !step->timing.plans)
-        return;
-    if (nav->grid.walls)
+    const bool walks = aim_agents(&walk, &reach), turns = step->neighbours->has_torsos;
+    if (turns)
+        reach = jox_maxf(reach, 1.0f);
+    if (nav->grid.walls && (walks || turns))
         jox_wall_grid_fit(&nav->grid, reach);
+    if ((walks && step->timing.plans) || turns)
+        jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, head_range, &walk);
+    if (turns)
+        jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, turn_range, &walk);
+    if (!walks || !step->timing.plans)
+        return;
     walk.stream = jox_random_stream(step->timing.seed);
     walk.knots[0] = jox_random_moment((uint64_t)knot, JOX_DRAW_GAP);
     walk.knots[1] = jox_random_moment((uint64_t)knot + 1, JOX_DRAW_GAP);
@@ -106,7 +123,6 @@ void jox_nav_walk(JoxNav *nav, const JoxStep *step) {
     walk.course = compute_share(interval, law->course_time);
     walk.start = jox_minf(1.0f, (float)(interval / law->start_time));
     walk.stop = jox_minf(1.0f, (float)(interval / law->stop_time));
-    jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, head_range, &walk);
     jox_nav_find_unhidden(nav, step);
     jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, walk_range, &walk);
 }

@@ -39,6 +39,11 @@ typedef void JoxWalkKernel(const JoxWalk *walk, uint32_t begin, uint32_t end);
 JOX_ISAS(X)
 #undef X
 
+/* torso_wide.c: gives the torsos of agents [begin, end) the spin that they want; after aim. */
+#define X(name, isa) JoxWalkKernel jox_torso_packets_##name;
+JOX_ISAS(X)
+#undef X
+
 /* Fills one lane of the table with what walls allow one agent. Straight on is left out, as the way
    itself leads around walls. Speeds above the wanted one have no effect. */
 typedef void JoxWalkWallsKernel(const JoxWalk *walk, uint32_t agent, uint32_t lane,

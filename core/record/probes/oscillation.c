@@ -16,8 +16,8 @@ enum { MOST_WINDOWS = 10000, MOST_CELLS = 1 << 24, LEAST_SAMPLES = 16, LEAST_BIN
 static const double LEAST_SHARE = 0.8;
 
 typedef struct Cell {
-    float vx, vy; /* m/s: sums during an interval */
-    float people; /* person-frames */
+    double vx, vy; /* m/s: sums during an interval; double, as people come in any order */
+    double people; /* person-frames */
 } Cell;
 
 typedef struct Oscillation {
@@ -75,7 +75,7 @@ static void take_oscillation_frame(const JoxProbeDef *def, void *state, const Jo
         Cell *cell = &o->cells[interval * windows + (uint32_t)y * o->columns + (uint32_t)x];
         cell->vx += frame->vx[i];
         cell->vy += frame->vy[i];
-        cell->people += 1.0f;
+        cell->people += 1.0;
     }
 }
 
@@ -120,8 +120,8 @@ static bool fill_segment(const Oscillation *o, const Spectrum *s, uint32_t windo
         const double v = hypot(c->vx, c->vy);
         nx[t] = v > 0.0 ? c->vx / v : 0.0;
         ny[t] = v > 0.0 ? c->vy / v : 0.0;
-        speed[t] = c->people > 0.0f ? v / c->people : 0.0;
-        there += c->people > 0.0f;
+        speed[t] = c->people > 0.0 ? v / c->people : 0.0;
+        there += c->people > 0.0;
         mean[0] += nx[t] / s->samples;
         mean[1] += ny[t] / s->samples;
         mean[2] += speed[t] / s->samples;
@@ -251,7 +251,7 @@ static void add_oscillation_figures(const JoxProbeDef *def, const void *state, J
         for (uint32_t w = 0; w < count_windows(o); w++) {
             const Cell *c = &o->cells[t * count_windows(o) + w];
             people += c->people;
-            if (c->people > 0.0f) {
+            if (c->people > 0.0) {
                 const double v = hypot(c->vx, c->vy) / c->people;
                 square += v * v;
                 filled += 1.0;

@@ -167,12 +167,13 @@ static void say_standing(const JoScene *scene, JoxText *out) {
 
 /* Appends a warning if people overlapped, or stood denser, than real people can. */
 static void say_trust(const JoScene *scene, JoxText *out) {
-    const double overlap = jox_statistics_overlap_p99(&scene->world->state.statistics);
+    const JoxStatistics *s = &scene->world->state.statistics;
+    const double overlap = jox_statistics_overlap_p99(s);
     const double density = jox_run_greatest_density(scene);
     if (jox_trust_holds(overlap, density))
         return;
     jox_text_add(out, " ");
-    jox_trust_append_signs(overlap, density, out);
+    jox_trust_append_signs(overlap, jox_statistics_depth_p99(s), density, out);
 }
 
 /* Appends the flow probes whose line was crossed only against the direction that it counts: their

@@ -321,6 +321,7 @@ char *jo_scene_summary(const JoScene *scene) {
     jox_json_number(&json, "plans_bounded_share", jox_statistics_share(s, s->plans_bounded));
     jox_json_number(&json, "density_max", jox_run_greatest_density(scene));
     jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
+    jox_json_number(&json, "depth_p99", jox_statistics_depth_p99(s));
     add_trust(&json, scene);
     add_standing(&json, scene);
     add_states(&json, world);

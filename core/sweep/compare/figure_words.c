@@ -119,8 +119,9 @@ static const struct {
     {"turned_aside_share", "share of agent-steps turned aside", "", false},
     {"plans_bounded_share", "share of agent-steps whose plans were bounded", "", false},
     {"trust.overlap_share",
-     "share of people's time in which they overlap by more than 10 % of a diameter", "", false},
-    {"overlap_p99", "99 % value of overlap, share of a diameter", "", false},
+     "share of people's time in which they overlap by more than 10 % of their depth", "", false},
+    {"overlap_p99", "99 % value of overlap, share of a person's depth", "", false},
+    {"depth_p99", "99 % value of overlap of those who touch", "m", false},
 };
 enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
 

@@ -26,7 +26,7 @@ import { View } from "./draw/view.js";
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
 const LOST = ["The connection is lost. The page tries again by itself.",
     "The connection is lost. If the program was started anew, open the address that it prints."];
-const PROTOCOL = 3; // of the messages, as the program counts it
+const PROTOCOL = 4; // of the messages, as the program counts it
 const MOVE = 0.08; // share of the distance to the target that an arrow key moves
 
 class Page {
@@ -301,9 +301,9 @@ class Page {
         if (!at) return void this.takePerson({ agent: null });
         const from = crowd.position(slot, 0) ?? at, passed = crowd.next.time - crowd.previous.time;
         this.agentPage.takeSeen({
-            slot, x: at[0], y: at[1], radius: crowd.radius(slot),
+            slot, x: at[0], y: at[1], radius: crowd.radius(slot), torso: crowd.torso(slot),
             speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
-            state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.person[2 * slot + 1]]?.name,
+            state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.group(slot)]?.name,
         });
     }
 

@@ -19,6 +19,12 @@
     X("density", density, JO_F32)                                                                  \
     X("face_x", face_x, JO_F32)                                                                    \
     X("face_y", face_y, JO_F32)                                                                    \
+    X("chest_x", chest_x, JO_F32)                                                                  \
+    X("chest_y", chest_y, JO_F32)                                                                  \
+    X("spin", spin, JO_F32)                                                                        \
+    X("axis_x", axis_x, JO_F32)                                                                    \
+    X("axis_y", axis_y, JO_F32)                                                                    \
+    X("contact_radius", contact_radius, JO_F32)                                                    \
     X("pref_x", pref_x, JO_F32)                                                                    \
     X("pref_y", pref_y, JO_F32)                                                                    \
     X("eager", eager, JO_F32)                                                                      \

@@ -113,7 +113,7 @@ export class Overlay {
     drawRing(slot, share, colour, text) {
         const at = this.crowd.position(slot, share);
         if (!at) return null;
-        const r = this.crowd.radius(slot) + 0.15;
+        const r = this.crowd.reach(slot) + 0.15;
         const path = Array.from({ length: 33 }, (_, i) => [at[0] + r * Math.cos((i * Math.PI) / 16), at[1] + r * Math.sin((i * Math.PI) / 16), 0.03]);
         stroke(this.pen, path.map((p) => this.view.project(...p)), "#000000a0", 5);
         stroke(this.pen, path.map((p) => this.view.project(...p)), colour, 2.5);

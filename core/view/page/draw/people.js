@@ -1,7 +1,7 @@
 // People: everyone as a point, those near the eye as figures, and the shade around their feet. Three
 // draw calls for any number.
 import * as THREE from "/three/build/three.module.js";
-import { NOBODY } from "../net/crowd.js";
+import { NOBODY, PERSON } from "../net/crowd.js";
 import { makeFigure } from "./figure.js";
 import { FIGURE_FRAGMENT, FIGURE_VERTEX, POINT_FRAGMENT, POINT_VERTEX, SHADE_FRAGMENT, SHADE_VERTEX } from "./shaders.js";
 
@@ -42,13 +42,15 @@ export class People {
         }
         const empty = () => new Uint8Array(8 * this.capacity).fill(NOBODY);
         this.buffers = [0, 1].map(() => new THREE.InterleavedBuffer(empty(), 8));
-        this.persons = new THREE.BufferAttribute(new Uint8Array(2 * this.capacity), 2);
+        this.persons = new THREE.BufferAttribute(new Uint8Array(PERSON * this.capacity), PERSON);
         const geometry = new THREE.BufferGeometry();
         setRecords(geometry, this.buffers);
         geometry.setAttribute("person", this.persons);
+        this.chests = [0, 1].map(() => new THREE.BufferAttribute(new Uint8Array(this.capacity), 1));
+        setChests(geometry, this.chests);
         this.looks = Uint8Array.from({ length: this.capacity }, (_, slot) => lookOf(slot));
         geometry.setAttribute("look", new THREE.BufferAttribute(this.looks, 1));
-        for (const buffer of this.buffers) buffer.setUsage(THREE.DynamicDrawUsage);
+        for (const buffer of [...this.buffers, ...this.chests]) buffer.setUsage(THREE.DynamicDrawUsage);
         this.points = new THREE.Points(geometry, this.pointMaterial ??= this.material(POINT_VERTEX, POINT_FRAGMENT));
         this.points.frustumCulled = false;
         this.created = false; // whether buffers are on the card; until then, frames are copied into arrays of full size
@@ -70,12 +72,14 @@ export class People {
         geometry.setAttribute("normal", new THREE.BufferAttribute(figure.normal, 3));
         geometry.setAttribute("swing", new THREE.BufferAttribute(figure.swing, 3));
         this.near = [0, 1].map(() => new THREE.InstancedInterleavedBuffer(new Uint8Array(8 * FIGURES), 8));
-        this.nearPersons = new THREE.InstancedBufferAttribute(new Uint8Array(2 * FIGURES), 2);
+        this.nearPersons = new THREE.InstancedBufferAttribute(new Uint8Array(PERSON * FIGURES), PERSON);
         setRecords(geometry, this.near);
         geometry.setAttribute("person", this.nearPersons);
+        this.nearChests = [0, 1].map(() => new THREE.InstancedBufferAttribute(new Uint8Array(FIGURES), 1));
+        setChests(geometry, this.nearChests);
         this.nearLooks = new THREE.InstancedBufferAttribute(new Uint8Array(FIGURES), 1);
         geometry.setAttribute("look", this.nearLooks);
-        for (const buffer of this.near) buffer.setUsage(THREE.DynamicDrawUsage);
+        for (const buffer of [...this.near, ...this.nearChests]) buffer.setUsage(THREE.DynamicDrawUsage);
         this.figures = new THREE.Mesh(geometry, this.material(FIGURE_VERTEX, FIGURE_FRAGMENT));
         this.figures.frustumCulled = false;
         this.group.add(this.figures);
@@ -99,7 +103,7 @@ export class People {
     /** Updates radii and groups that changed. */
     uploadPersons(crowd) {
         if (this.personVersion === crowd.personVersion) return;
-        this.persons.array.set(crowd.person.subarray(0, 2 * this.capacity));
+        this.persons.array.set(crowd.person.subarray(0, PERSON * this.capacity));
         this.persons.needsUpdate = true;
         this.personVersion = crowd.personVersion;
     }
@@ -109,6 +113,10 @@ export class People {
         if (this.created) buffer.array = frame.bytes; // uploaded without a copy
         else buffer.array.set(frame.bytes);
         if (frame.slots > 0) buffer.needsUpdate = true;
+        if (frame.chests) {
+            this.chests[which].array.set(frame.chests);
+            this.chests[which].needsUpdate = true;
+        }
         this.uniforms[which === 0 ? "mapA" : "mapB"].value.set(frame.x0, frame.y0, frame.sx, frame.sy);
     }
 
@@ -121,7 +129,8 @@ export class People {
         this.figures.geometry.maxInstancedCount = count;
         this.figures.visible = count > 0 && frame !== null;
         u.nearer.value = count > 0 ? reach : 0;
-        for (const [buffer, size] of [[this.near[0], 8], [this.near[1], 8], [this.nearPersons, 2], [this.nearLooks, 1]]) {
+        for (const [buffer, size] of [[this.near[0], 8], [this.near[1], 8], [this.nearPersons, PERSON], [this.nearLooks, 1],
+            [this.nearChests[0], 1], [this.nearChests[1], 1]]) {
             buffer.updateRange.count = size * count;
             if (count > 0) buffer.needsUpdate = true;
         }
@@ -150,6 +159,7 @@ export class People {
         const { words, bytes, x0, y0, sx, sy } = b;
         const newer = this.near[this.newest].array, older = this.near[1 - this.newest].array;
         const persons = this.nearPersons.array, looks = this.nearLooks.array;
+        const chests = this.nearChests.map((chest) => chest.array);
         const rise = eye.z - 0.85, flat = (reach + MARGIN) ** 2 - rise * rise;
         let count = 0;
         for (let slot = 0, w = 0; slot < b.slots && count < FIGURES; slot++, w += 4) {
@@ -160,8 +170,11 @@ export class People {
                 newer[to + k] = bytes[from + k];
                 older[to + k] = known ? a.bytes[from + k] : NOBODY;
             }
-            persons[2 * count] = person[2 * slot];
-            persons[2 * count + 1] = person[2 * slot + 1];
+            for (let k = 0; k < PERSON; k++) persons[PERSON * count + k] = person[PERSON * slot + k];
+            if (b.chests) {
+                chests[this.newest][count] = b.chests[slot];
+                chests[1 - this.newest][count] = (known ? a.chests : b.chests)?.[slot] ?? b.chests[slot];
+            }
             looks[count] = this.looks[slot];
             count++;
         }
@@ -172,6 +185,11 @@ export class People {
 /** 0 to 255: how the person of a slot differs from others, the same in every picture. */
 function lookOf(slot) {
     return (Math.imul(slot + 1, 0x9e3779b1) >>> 24) & 255;
+}
+
+function setChests(geometry, [a, b]) {
+    geometry.setAttribute("chestA", a);
+    geometry.setAttribute("chestB", b);
 }
 
 function setRecords(geometry, [a, b]) {

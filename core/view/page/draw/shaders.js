@@ -8,7 +8,8 @@ attribute vec4 position;   // frame A: x low, x high, y low, y high
 attribute vec4 infoA;      // heading, state, value, flags
 attribute vec4 placeB;
 attribute vec4 infoB;
-attribute vec2 person;     // radius in cm, group
+attribute vec4 person;     // radius in cm, group, breadth and depth of the torso in cm (0: a disc)
+attribute float chestA, chestB; // where the chest points, 256ths of a turn
 attribute float look;      // 0 to 255: how this one differs from others
 uniform vec4 mapA, mapB;   // x0, y0, sx, sy, in m
 uniform float share, swapped;
@@ -17,7 +18,8 @@ uniform float classes;     // 0: by value, 1: by state, 2: by group, 3: whether 
 uniform mat4 viewMatrix, projectionMatrix;
 const float TURN = 6.28318530718;
 
-struct Person { vec2 at; vec2 ahead; vec2 lean; float radius; float colour; float flags; float speed; bool here; bool lies; };
+// half_axis: half of the length of the torso's axis, m, 0 of a disc; surface: its distance from the axis, m
+struct Person { vec2 at; vec2 ahead; vec2 chest; vec2 lean; float radius; float half_axis; float surface; float colour; float flags; float speed; bool here; bool lies; };
 
 vec2 place(vec4 b, vec4 map) { return map.xy + map.zw * vec2(b.x + 256.0 * b.y, b.z + 256.0 * b.w); }
 
@@ -25,6 +27,11 @@ vec2 place(vec4 b, vec4 map) { return map.xy + map.zw * vec2(b.x + 256.0 * b.y, 
 vec2 leanOf(float flags) {
     float code = floor(flags / 8.0), way = mod(code - 1.0, 8.0) * TURN / 8.0;
     return code < 0.5 || code > 24.5 ? vec2(0.0) : (0.1 + 0.12 * floor((code - 1.0) / 8.0)) * vec2(cos(way), sin(way));
+}
+
+// Angle on the shorter way between two, of 256ths of a turn; rad.
+float turned(float from, float to, float t) {
+    return (from + t * (mod(to - from + 384.0, 256.0) - 128.0)) * TURN / 256.0;
 }
 
 Person decode() {
@@ -36,12 +43,16 @@ Person decode() {
     // A slot that was empty or has another person now does not slide.
     bool another = oldInfo.y > 254.5 || mod(oldInfo.w, 2.0) != mod(info.w, 2.0);
     if (another) t = 1.0;
-    float from = oldInfo.x / 256.0, to = info.x / 256.0;
-    float turn = (from + t * (mod(to - from + 1.5, 1.0) - 0.5)) * TURN;
+    float turn = turned(oldInfo.x, info.x, t);
     Person p;
     p.at = mix(before, after, t);
     p.ahead = vec2(cos(turn), sin(turn));
     p.radius = (person.x < 0.5 ? 20.0 : max(person.x, 5.0)) / 100.0; // 0: not told yet
+    bool isLong = person.z > person.w + 0.5;
+    p.half_axis = isLong ? (person.z - person.w) / 200.0 : 0.0;
+    p.surface = isLong ? person.w / 200.0 : p.radius;
+    float breast = turned(late ? chestB : chestA, late ? chestA : chestB, t);
+    p.chest = isLong ? vec2(cos(breast), sin(breast)) : p.ahead;
     float failed = mod(floor(info.w / 2.0), 2.0);
     p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : classes < 2.5 ? person.y
         : classes < 3.5 ? 4.0 - failed : floor(256.0 * fract(turn / TURN + 1.0))) + 0.5) / 256.0;
@@ -73,7 +84,8 @@ uniform float tall;        // visible share of a height: cosine of the camera's 
 uniform float nearer;      // m: people nearer to the camera are drawn as figures
 uniform vec3 eye;
 varying vec4 paint;        // radius and half of the spine in pixels, colour, flags
-varying vec3 nose;         // where it looks on the screen, and its look
+varying vec4 nose;         // where it looks on the screen, its look, and the radius of its head in pixels
+varying vec2 across;       // from the middle to the left end of the torso's axis, in pixels
 const float HEIGHT = 1.7;
 void main() {
     Person p = decode();
@@ -81,12 +93,13 @@ void main() {
     vec3 middle = vec3(p.at, 0.5 * high);
     gl_Position = projectionMatrix * viewMatrix * vec4(middle, 1.0);
     float metre = pixels / gl_Position.w;
-    float r = max(p.radius * metre, 0.6);
+    float r = max(p.surface * metre, 0.6);
     float spine = max(0.0, 0.5 * high * tall * metre - r);
     paint = vec4(r, spine, p.colour, p.flags);
     vec2 seen = (viewMatrix * vec4(p.ahead, 0.0, 0.0)).xy;
-    nose = vec3(seen.x, -seen.y, look / 255.0);
-    gl_PointSize = 2.0 * (r + spine);
+    nose = vec4(seen.x, -seen.y, look / 255.0, 0.5 * r + 0.25 * p.half_axis * metre);
+    across = p.half_axis * metre * vec2(1.0, -1.0) * (viewMatrix * vec4(-p.chest.y, p.chest.x, 0.0, 0.0)).xy;
+    gl_PointSize = 2.0 * (r + spine + length(across));
     if (!p.here || distance(middle, eye) < nearer) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }`;
 
@@ -94,23 +107,24 @@ export const POINT_FRAGMENT = `
 precision highp float;
 uniform sampler2D colours;
 uniform float tall, classes;
-varying vec4 paint;
-varying vec3 nose;
+varying vec4 paint, nose;
+varying vec2 across;
 ` + LOOKS + `
 void main() {
     float r = paint.x, spine = paint.y;
     vec3 colour = clothes(texture2D(colours, vec2(paint.z, 0.5)).rgb, nose.z, classes);
     if (r > 1.2) {
         // A body, and over it a head; from above the head is in the middle of the shoulders.
-        vec2 at = (gl_PointCoord - 0.5) * 2.0 * (r + spine);
+        vec2 at = (gl_PointCoord - 0.5) * 2.0 * (r + spine + length(across));
         float shoulder = max(0.0, spine - 0.8 * r);
-        float body = length(vec2(at.x, at.y - clamp(at.y, -shoulder, spine))) / r;
+        vec2 side = at - across * clamp(dot(at, across) / max(dot(across, across), 1e-6), -1.0, 1.0);
+        float body = length(vec2(side.x, side.y - clamp(side.y, -shoulder, spine))) / r;
         vec2 middle = vec2(0.0, -(spine + 0.4 * r * tall));
-        float head = distance(at, middle) / (0.5 * r);
+        float head = distance(at, middle) / nose.w;
         if (body > 1.0 && head > 1.0) discard;
         vec3 top = hair(nose.z);
         bool seen = tall < 0.4 || nose.y > 0.0;
-        if (seen && distance(at, middle + nose.xy * 0.3 * r) < 0.36 * r) top = skin(nose.z);
+        if (seen && distance(at, middle + nose.xy * 0.6 * nose.w) < 0.72 * nose.w) top = skin(nose.z);
         float d = min(head < 1.0 ? head : body, 1.0);
         colour = head < 1.0 ? mix(colour, top, 0.85) : colour * (0.78 + 0.22 * smoothstep(spine, -shoulder, at.y));
         colour *= 1.02 - 0.26 * d * d;
@@ -156,7 +170,9 @@ void main() {
     Person p = decode();
     float own = look / 255.0;
     float high = 1.7 * clamp(sqrt(p.radius / 0.2), 0.6, 1.15) * (0.95 + 0.1 * fract(own * 5.1));
-    vec3 scale = vec3(2.0 * p.radius, 2.0 * p.radius, high);
+    // The body of the figure is 0.48 deep where it is 1 wide.
+    bool broad = p.half_axis > 0.0;
+    vec3 scale = vec3(broad ? p.surface / 0.24 : 2.0 * p.radius, broad ? 2.0 * (p.half_axis + p.surface) : 2.0 * p.radius, high);
     vec3 c = corner * scale, n = normal / scale;
     float wide = p.lies ? 0.0 : min(0.5, 0.34 * p.speed) * smoothstep(0.05, 0.3, p.speed);
     float turn = wide * swing.x * sin(TURN * (CADENCE * (0.9 + 0.2 * own) * clock * max(1.0, 0.75 * p.speed) + own));
@@ -165,9 +181,9 @@ void main() {
         c.x += down * sin(turn);
         c.z += down * (1.0 - cos(turn));
     }
-    c.x += 0.05 * min(p.speed, 3.0) * c.z * c.z / high; // runners lean forward
-    vec2 ahead = p.ahead, left = vec2(-ahead.y, ahead.x);
-    vec3 at = vec3(p.at + ahead * c.x + left * c.y + p.lean * c.z, c.z * (1.0 - 0.5 * dot(p.lean, p.lean)));
+    vec2 runs = p.chest * 0.05 * min(p.speed, 3.0) * c.z * c.z / high; // runners lean forward
+    vec2 ahead = swing.z > 2.5 ? p.ahead : p.chest, left = vec2(-ahead.y, ahead.x); // heads look, bodies turn
+    vec3 at = vec3(p.at + ahead * c.x + left * c.y + runs + p.lean * c.z, c.z * (1.0 - 0.5 * dot(p.lean, p.lean)));
     facing = normalize(vec3(ahead * n.x + left * n.y, n.z));
     if (p.lies) { // on the back, the head ahead
         at = vec3(p.at + ahead * (c.z - 0.5 * high) - left * c.y, 0.14 + c.x);

@@ -2,14 +2,16 @@
 
 const HEADER = 48; // bytes of a frame before its slots
 const BODY = 20;
+export const PERSON = 4; // bytes of a slot in Crowd.person
 export const NOBODY = 255;
 export const FLAG = { parity: 1, failed: 2, player: 4 }; // higher bits: lean under pushes, or lying
 
 /** Reads a frame's header; its slots stay where they are in the buffer. Lengths in m. */
 export function readFrame(buffer) {
     const view = new DataView(buffer);
-    const slots = view.getUint32(16, true), bodies = view.getUint32(20, true);
-    if (buffer.byteLength < HEADER + 8 * slots + BODY * bodies) throw new Error("a frame that is cut short");
+    const slots = view.getUint32(16, true), bodies = view.getUint32(20, true), chest = view.getUint32(44, true);
+    const end = HEADER + 8 * slots + BODY * bodies;
+    if (buffer.byteLength < end + chest * slots) throw new Error("a frame that is cut short");
     return {
         tick: view.getUint32(4, true), time: view.getFloat64(8, true), slots, bodies,
         x0: view.getFloat32(24, true), y0: view.getFloat32(28, true),
@@ -18,6 +20,7 @@ export function readFrame(buffer) {
         bytes: new Uint8Array(buffer, HEADER, 8 * slots),
         words: new Uint16Array(buffer, HEADER, 4 * slots),
         poses: new DataView(buffer, HEADER + 8 * slots, BODY * bodies),
+        chests: chest ? new Uint8Array(buffer, end, slots) : null, // 256ths of a turn; null: all are discs
     };
 }
 
@@ -38,7 +41,7 @@ export class Crowd {
     constructor() {
         this.previous = null;
         this.next = null;
-        this.person = new Uint8Array(0); // radius in cm and group, two bytes a slot
+        this.person = new Uint8Array(0); // a slot's radius in cm, group, and breadth and depth of the torso in cm; 0: a disc
         this.personVersion = 0;
         this.arrived = 0;
         this.interval = 50; // ms between frames, as measured
@@ -64,17 +67,20 @@ export class Crowd {
         return "new";
     }
 
-    /** Radii and groups of slots from `first` on. */
+    /** Takes radii, groups and torsos of slots from `first` on. */
     takePeople(buffer) {
         const view = new DataView(buffer);
-        const first = view.getUint32(4, true), count = view.getUint32(8, true);
-        if (buffer.byteLength < 16 + 2 * count) throw new Error("people that are cut short");
-        if (this.person.length < 2 * (first + count)) {
-            const grown = new Uint8Array(2 * (first + count)).fill(0);
+        const first = view.getUint32(4, true), count = view.getUint32(8, true), size = view.getUint32(12, true);
+        if (buffer.byteLength < 16 + size * count) throw new Error("people that are cut short");
+        if (this.person.length < PERSON * (first + count)) {
+            const grown = new Uint8Array(PERSON * (first + count)).fill(0);
             grown.set(this.person);
             this.person = grown;
         }
-        this.person.set(new Uint8Array(buffer, 16, 2 * count), 2 * first);
+        const given = new Uint8Array(buffer, 16, size * count);
+        for (let n = 0; n < count; n++) {
+            for (let k = 0; k < PERSON; k++) this.person[PERSON * (first + n) + k] = k < size ? given[size * n + k] : 0;
+        }
         this.personVersion++;
     }
 
@@ -118,7 +124,23 @@ export class Crowd {
 
     /** m */
     radius(slot) {
-        return 2 * slot < this.person.length ? this.person[2 * slot] / 100 : 0.2;
+        return PERSON * slot < this.person.length ? this.person[PERSON * slot] / 100 : 0.2;
+    }
+
+    /** Returns breadth and depth of a slot's torso, m, and where its chest points, degrees; null of a disc. */
+    torso(slot) {
+        const at = PERSON * slot, breadth = this.person[at + 2] / 100, depth = this.person[at + 3] / 100;
+        if (!(breadth > depth) || !this.next?.chests) return null;
+        return { breadth, depth, chest: (360 * this.next.chests[slot]) / 256 };
+    }
+
+    /** m: how far a slot's person reaches from its centre. */
+    reach(slot) {
+        return Math.max(this.radius(slot), (this.torso(slot)?.breadth ?? 0) / 2);
+    }
+
+    group(slot) {
+        return this.person[PERSON * slot + 1];
     }
 
     /** Returns the position of a body in the newest frame: [x, y, z], m; null if there is none. */

@@ -16,6 +16,13 @@ function pairs(list) {
     return el("dl", { className: "pairs" }, list.map(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]));
 }
 
+/** Rows of a torso: {breadth, depth: m, chest: degrees, spin: degrees/s or undefined}; none of a disc. */
+function torsoRows(torso) {
+    if (!torso) return [];
+    const spin = torso.spin === undefined ? "" : `, turning by ${Math.round(torso.spin)}°/s`;
+    return [["breadth, depth", `${figure(torso.breadth)} m, ${figure(torso.depth)} m`], ["chest", `to ${Math.round(torso.chest) % 360}°${spin}`]];
+}
+
 export class AgentPage {
     /** `page`: {letGo()} */
     constructor(node, page) {
@@ -46,6 +53,7 @@ export class AgentPage {
             ["place", `${figure(agent.x)}, ${figure(agent.y)} m`],
             ["speed", amount(speed, "m/s")],
             ["radius, mass", `${figure(agent.radius)} m, ${figure(agent.mass)} kg`],
+            ...torsoRows(agent.torso),
             ["compression", amount(message.compression, "N/m")],
             ["load from one side", amount(message.load, "N")],
         ]));
@@ -71,12 +79,12 @@ export class AgentPage {
         fill(this.memory, memory.map(([name, value]) => [el("dt", {}, name), el("dd", {}, typeof value === "number" ? figure(value) : String(value))]));
     }
 
-    /** Takes a person of a recording: {slot, state, group, x, y, speed, radius}. */
+    /** Takes a person of a recording: {slot, state, group, x, y, speed, radius, torso}. */
     takeSeen(seen) {
         this.id = `slot ${seen.slot}`;
         fill(this.node, el("div", { className: "row" }, el("h2", {}, "Person"), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
             pairs([["state", seen.state ?? "–"], ["group", seen.group ?? "–"], ["place", `${figure(seen.x)}, ${figure(seen.y)} m`],
-                ["speed", `${figure(seen.speed)} m/s`], ["radius", `${figure(seen.radius)} m`]]));
+                ["speed", `${figure(seen.speed)} m/s`], ["radius", `${figure(seen.radius)} m`], ...torsoRows(seen.torso)]));
     }
 
     build(agent) {
