@@ -37,7 +37,8 @@ test("of two queues the shorter is taken, unless it is far", function()
 end)
 
 test("who does not leave stays", function()
-  local s = scene(trip { { to = "shop" }, { wait = 1 } })
+  local s = scene(trip({ { to = "shop" }, { wait = 1 } }, { groups = {
+    people = { count = 3, ["in"] = "hall", spacing = 0.8, journey = { { to = "shop" }, { wait = 1 } } } } }))
   s:reaches("Stay", { within = 60 })
 end)
 

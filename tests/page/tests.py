@@ -494,7 +494,30 @@ def replays(browser):
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+def torsos(browser):
+    """torsos are drawn as broad and deep as they are, and a person's panel tells of them"""
+    folder = temporary_copy({"scene.yaml": """jostle: 1
+groups:
+  torsos: {behaviour: stander.lua, at: [[0, 0]], facing: 90, set: {breadth: 0.45, depth: 0.25}}
+  discs: {behaviour: stander.lua, at: [[2, 0]]}
+"""})
+    session = Session("run", os.path.join(folder, "scene.yaml"), "--view")
+    try:
+        browser.open(session)
+        browser.wait("return page.crowd.torso(0)", "there is no torso")
+        told = browser.run("return [page.crowd.torso(0), page.crowd.reach(0), page.crowd.torso(1), page.crowd.reach(1)]")
+        expect(told == [{"breadth": 0.45, "depth": 0.25, "chest": 90}, 0.225, None, 0.2], f"the page knows {told}")
+        browser.run("page.view.setTop(true)")
+        browser.run("page.inspect(0); page.panel.show('agent')")
+        browser.wait("return /0.45 m, 0.25 m/.test(document.getElementById('page-agent').textContent)", "the panel does not tell of the torso")
+        browser.picture("torsos")
+        expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+    finally:
+        session.stop()
+        shutil.rmtree(folder)
+
+
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, torsos, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

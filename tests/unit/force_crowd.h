@@ -13,6 +13,7 @@
 
 #include "agents/agents.h"
 #include "agents/neighbours.h"
+#include "agents/torso.h"
 #include "base/mem.h"
 #include "base/number/random.h"
 #include "force/equations.h"
@@ -27,9 +28,12 @@ typedef struct Crowd {
     JoxForceInputs in;
 } Crowd;
 
+/* Adds an agent, a disc of 0.2 m. */
 static inline uint32_t add_agent(Crowd *c, float x, float y, float vx, float vy) {
     JoxAgents *a = &c->agents;
     uint32_t i = jox_agents_add(a);
+    jox_param_set(a, JOX_PARAM_breadth, i, 2.0f * jox_param(a, JOX_PARAM_radius, i));
+    jox_param_set(a, JOX_PARAM_depth, i, 2.0f * jox_param(a, JOX_PARAM_radius, i));
     a->x[i] = x;
     a->y[i] = y;
     a->vx[i] = vx;
@@ -49,8 +53,11 @@ static inline void find_crowd_neighbours(Crowd *c) {
         jox_free(n->index); /* entries beyond a count must be indices too: zeros */
         n->index = jox_alloc((size_t)room * n->stride, sizeof *n->index);
         n->count = jox_realloc(n->count, room, 1);
+        n->close = jox_realloc(n->close, room, 1);
         jox_free(n->motions);
         n->motions = jox_alloc(room, sizeof *n->motions);
+        jox_free(n->shapes);
+        n->shapes = jox_alloc(room, sizeof *n->shapes);
     }
     for (uint32_t i = 0; i < a->count; i++)
         n->motions[i] = (JoxMotion){a->x[i], a->y[i], a->vx[i], a->vy[i]};
@@ -79,8 +86,26 @@ static inline void find_crowd_neighbours(Crowd *c) {
             }
             count += count < most;
         }
-        n->count[i] = (uint8_t)count;
+        n->count[i] = n->close[i] = (uint8_t)count;
     }
+}
+
+/* Computes the shapes of all agents. */
+static inline void shape_crowd(Crowd *c) {
+    JoxAgents *a = &c->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        const float radius = jox_param(a, JOX_PARAM_radius, i);
+        const JoxTorso torso = jox_torso_of(jox_param(a, JOX_PARAM_breadth, i),
+                                            jox_param(a, JOX_PARAM_depth, i), radius);
+        const float half = torso.half;
+        a->contact_radius[i] = torso.radius;
+        a->axis_x[i] = -a->chest_y[i] * half;
+        a->axis_y[i] = a->chest_x[i] * half;
+        c->near.shapes[i] = (JoxTorsoShape){a->axis_x[i], a->axis_y[i], torso.radius,
+                                            half > 0.0f ? 1.0f / (half * half) : 0.0f};
+    }
+    c->near.widest = jox_agents_widest(a, false);
+    c->near.has_torsos = jox_agents_have_torsos(a);
 }
 
 static inline void open_crowd(Crowd *c, double dt) {
@@ -98,6 +123,7 @@ static inline void set_literal(Crowd *c) {
 
 static inline void begin_crowd_step(Crowd *c) {
     find_crowd_neighbours(c);
+    shape_crowd(c);
     jox_force_begin(c->forces, &c->step, &c->in);
 }
 
@@ -106,7 +132,9 @@ static inline void close_crowd(Crowd *c) {
     jox_agents_free(&c->agents);
     jox_free(c->near.index);
     jox_free(c->near.count);
+    jox_free(c->near.close);
     jox_free(c->near.motions);
+    jox_free(c->near.shapes);
 }
 
 static inline void set_param(Crowd *c, uint32_t i, JoxParameter p, double value) {

@@ -231,6 +231,35 @@ static void people_message_reports_changes(void **state) {
     jo_scene_free(scene);
 }
 
+/* A scene with one torso sends breadths, depths and chests of all; a disc is as broad as deep. */
+static void torsos_are_sent_with_frames(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(4), EASTWARD);
+    JoxAgents *a = &scene->world->state.agents;
+    JoxBytes people = {0}, frame = {0};
+    assert_true(jox_live_people(scene, &people));
+    step_scene(scene, 1);
+    jox_param_set(a, JOX_PARAM_breadth, 2, 0.45f);
+    jox_param_set(a, JOX_PARAM_depth, 2, 0.25f);
+    a->chest_x[2] = 0.0f;
+    a->chest_y[2] = 1.0f;
+    assert_true(jox_live_people(scene, &people));
+    assert_false(jox_live_people(scene, &people));
+    assert_int_equal(get32(people.data + 12), 4);
+    assert_int_equal(people.length, 16 + 4 * (size_t)a->slot_count);
+    const uint8_t *torso = people.data + 16 + 4 * a->slot[2], *disc = people.data + 16;
+    assert_memory_equal(torso, ((const uint8_t[]){20, 0, 45, 25}), 4);
+    assert_memory_equal(disc + 4 * a->slot[1], ((const uint8_t[]){20, 0, 40, 40}), 4);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    assert_int_equal(get32(frame.data + 44), 1);
+    assert_int_equal(frame.length, JOX_LIVE_HEAD + (JOX_LIVE_SLOT + 1) * (size_t)a->slot_count +
+                                       JOX_LIVE_BODY * (size_t)get32(frame.data + 20));
+    assert_int_equal(frame.data[frame.length - a->slot_count + a->slot[2]], 64);
+    jox_bytes_free(&people);
+    jox_bytes_free(&frame);
+    jo_scene_free(scene);
+}
+
 /* ---- fields ---- */
 
 static double sum_field(const JoxBytes *field, double *most) {
@@ -398,6 +427,7 @@ int main(void) {
         cmocka_unit_test(averaged_pushes_set_the_lean),
         cmocka_unit_test(colour_values_match_the_columns),
         cmocka_unit_test(people_message_reports_changes),
+        cmocka_unit_test(torsos_are_sent_with_frames),
         cmocka_unit_test(density_field_sums_to_the_number_of_people),
         cmocka_unit_test(pressure_field_matches_the_run),
         cmocka_unit_test(status_counts_transitions_of_the_last_second),

@@ -65,6 +65,28 @@ static void inspected_forces_and_planes_match_the_step(void **state) {
     jo_scene_free(plain);
 }
 
+/* Measures in m, angles in degrees; a disc has no torso. */
+static void torso_is_inspected(void **state) {
+    (void)state;
+    static const char TURNED[] =
+        "jostle: 1\n"
+        "groups: {people: {behaviour: own.lua, at: [[0, 0]], facing: 90}}\n";
+    JoScene *scene =
+        load_scene_text(TURNED, MACHINE_START
+                        "\"A\", states = { A = { steer = hold, breadth = 0.45, depth = 0.25, "
+                        "{ to = \"B\", when = after(1) } }, B = { steer = hold, breadth = 0.3, "
+                        "depth = 0.3 } } }\n");
+    char *json = jo_scene_inspect(scene, 0);
+    assert_non_null(strstr(json, "\"torso\": {\"breadth\": 0.45, \"depth\": 0.25, \"chest\": 90, "
+                                 "\"spin\": 0}"));
+    jo_free(json);
+    step_scene(scene, 30);
+    json = jo_scene_inspect(scene, 0);
+    assert_non_null(strstr(json, "\"torso\": null"));
+    jo_free(json);
+    jo_scene_free(scene);
+}
+
 #define LEAVING                                                                                    \
     "jostle: 1\nseed: 4\n"                                                                         \
     "places:\n"                                                                                    \
@@ -245,6 +267,7 @@ static void inspections_expire(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(torso_is_inspected),
         cmocka_unit_test(inspected_forces_and_planes_match_the_step),
         cmocka_unit_test(inspection_between_steps_predicts_the_next_step),
         cmocka_unit_test(inspection_names_the_places_that_set_values),

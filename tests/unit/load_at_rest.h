@@ -277,6 +277,8 @@ static inline JoWorld *open_setup(const Setup *s, double dt, Sight sight, JoAgen
         people[i] = jo_world_add_agent(world, &agent, &error);
         if (!people[i].generation)
             fail_msg("%s", error.text);
+        jo_agent_set_parameter(world, people[i], "breadth", 2.0 * agent.radius, NULL);
+        jo_agent_set_parameter(world, people[i], "depth", 2.0 * agent.radius, NULL);
         if (sight.neighbours >= 0.0)
             jo_agent_set_parameter(world, people[i], "neighbours", sight.neighbours, NULL);
     }

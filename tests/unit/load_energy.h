@@ -156,6 +156,7 @@ static inline Growth watch_energy(Encounter *e, double seconds, bool print) {
     return g;
 }
 
+/* Adds a person who is a disc. */
 static inline JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double vy) {
     JoError error;
     JoAgent one = jo_world_add_agent(e->world, &def, &error);
@@ -166,6 +167,8 @@ static inline JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double
     e->world->state.agents.vy[i] = (float)vy;
     /* Steps back take energy from the agent's own feet. */
     jo_agent_set_parameter(e->world, one, "step_back", 0.0, NULL);
+    jo_agent_set_parameter(e->world, one, "breadth", 2.0 * def.radius, NULL);
+    jo_agent_set_parameter(e->world, one, "depth", 2.0 * def.radius, NULL);
     if (e->coasting) {
         jo_agent_set_parameter(e->world, one, "damping", 0.0, NULL);
         jo_agent_set_parameter(e->world, one, "absorb", 0.0, NULL);

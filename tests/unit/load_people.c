@@ -266,6 +266,36 @@ static void many_press_on_one(void **state) {
     check_setup(&s, hand);
 }
 
+/* Two torsos of 0.45 m by 0.25 m, chest to back, between forces of 600 N: each bears 600 N over its
+   circumference, 2 pi 0.125 m + 4 * 0.1 m = 1.1854 m. */
+static void compression_is_over_circumference_of_torso(void **state) {
+    (void)state;
+    const double dt = 0.05;
+    JoError error = {0};
+    JoWorldDef def = jo_default_world_def();
+    def.dt = dt;
+    JoWorld *world = jo_world_create(&def, &error);
+    JoAgent people[2];
+    for (int i = 0; i < 2; i++) {
+        JoAgentDef agent = jo_default_agent_def();
+        agent.x = 0.35 * i; /* the forces bring them together */
+        people[i] = jo_world_add_agent(world, &agent, &error);
+        jo_agent_set_parameter(world, people[i], "breadth", 0.45, NULL);
+        jo_agent_set_parameter(world, people[i], "depth", 0.25, NULL);
+    }
+    for (int step = 0; step < (int)(1.0 / dt); step++) { /* later it buckles */
+        for (int i = 0; i < 2; i++)
+            jo_agent_apply_force(world, people[i], i ? -600.0 : 600.0, 0.0);
+        jo_world_step(world, 1);
+    }
+    for (int i = 0; i < 2; i++) {
+        const JoAgentState a = jo_agent_state(world, people[i]);
+        assert_float_equal(a.load, 600.0, 600.0 * WITHIN);
+        assert_float_equal(a.compression, 600.0 / 1.1854, 600.0 / 1.1854 * WITHIN);
+    }
+    jo_world_free(world);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(row_of_two_between_forces),
@@ -282,6 +312,7 @@ int main(void) {
         cmocka_unit_test(a_pyramid_of_three_two_and_one),
         cmocka_unit_test(a_pile_in_a_valley),
         cmocka_unit_test(many_press_on_one),
+        cmocka_unit_test(compression_is_over_circumference_of_torso),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,11 @@ static Sides open_sides(double dt, double low, double high, double gap, double p
     s.left = jo_world_add_agent(s.world, &person, NULL);
     person.x = 0.2 + gap;
     s.right = jo_world_add_agent(s.world, &person, NULL);
+    for (int k = 0; k < 2; k++) { /* discs */
+        const JoAgent one = k ? s.right : s.left;
+        jo_agent_set_parameter(s.world, one, "breadth", 2.0 * person.radius, NULL);
+        jo_agent_set_parameter(s.world, one, "depth", 2.0 * person.radius, NULL);
+    }
     return s;
 }
 

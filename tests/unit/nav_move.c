@@ -1,6 +1,6 @@
-/* The kernels of move and of breadth against plain loops, on every instruction set that the machine
-   runs: agents with random velocities and plans, in the open, around walls, over periodic edges,
-   and with NaN. */
+/* The kernels of move and of contact radii against plain loops, on every instruction set that the
+   machine runs: agents with random velocities and plans, in the open, around walls, over periodic
+   edges, and with NaN. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@
 #include "nav/orca/solve.h"
 #include "nav/walk/walk.h"
 
-enum { PEOPLE = 61, CROWDS = 12, COLUMNS = 9 }; /* not a whole number of packets */
+enum { PEOPLE = 61, CROWDS = 12, COLUMNS = 11 }; /* not a whole number of packets */
 
 static float draw_move(uint32_t crowd, uint32_t *drawn, double from, double to) {
     double unit = jox_random_unit(7, crowd, 0, JOX_DRAW_FILL, (*drawn)++);
@@ -28,6 +28,7 @@ static float draw_move(uint32_t crowd, uint32_t *drawn, double from, double to) 
 typedef struct Crowd {
     JoxAgents agents;
     JoxNav *nav;
+    JoxNeighbours neighbours;
     JoxWalls walls;
     JoxMove move;
     JoxV2 at[PEOPLE + JOX_LANES];
@@ -62,18 +63,35 @@ static void open_move_crowd(Crowd *c, uint32_t number) {
         a->still_x[i] = a->x[i] + draw_move(number, &drawn, -0.3, 0.3);
         a->still_y[i] = a->y[i];
         a->still[i] = draw_move(number, &drawn, 0.0, 5.0);
-        a->breadth[i] = 0.2f;
+        a->contact_radius[i] = 0.2f;
+        a->chest_x[i] = 0.6f;
+        a->chest_y[i] = 0.8f;
+        a->spin[i] = draw_move(number, &drawn, -20.0, 20.0);
     }
-    c->move = (JoxMove){
-        .nav = c->nav,
-        .step = {.timing = {.dt = 0.05, .response = 0.6, .on_the_way = 0.35}, .agents = a},
-        .position = {c->at}};
+    c->neighbours.has_torsos = number % 2;
+    c->move = (JoxMove){.nav = c->nav,
+                        .step = {.timing = {.dt = 0.05, .response = 0.6, .on_the_way = 0.35},
+                                 .agents = a,
+                                 .neighbours = &c->neighbours},
+                        .position = {c->at}};
 }
 
 static void close_move_crowd(Crowd *c) {
     jox_nav_free(c->nav);
     jox_agents_free(&c->agents);
     jox_walls_free(&c->walls);
+}
+
+/* Turns the chest of agent i by 2 atan(spin dt / 2). */
+static void turn_by_loops(JoxAgents *a, uint32_t i, float dt) {
+    const float half = a->spin[i] * (0.5f * dt), by = 1.0f / (1.0f + half * half);
+    const float c = (1.0f - half * half) * by, s = (half + half) * by;
+    const JoxV2 chest = {c * a->chest_x[i] - s * a->chest_y[i],
+                         s * a->chest_x[i] + c * a->chest_y[i]};
+    const float inverse = 1.0f / jox_length(chest);
+    a->chest_x[i] = chest.x * inverse;
+    a->chest_y[i] = chest.y * inverse;
+    assert_true(jox_is_unit(chest));
 }
 
 /* Moves the agents by plain loops. Returns their drift. */
@@ -91,8 +109,10 @@ static JoxDrift move_by_loops(Crowd *c) {
         a->prev_y[i] = from.y;
         a->vx[i] = forced.x + rest.x * response;
         a->vy[i] = forced.y + rest.y * response;
+        if (c->neighbours.has_torsos)
+            turn_by_loops(a, i, dt);
         if (c->nav->grid.first)
-            to = jox_way_by_walls(&c->nav->grid, from, to, a->breadth[i]);
+            to = jox_way_by_walls(&c->nav->grid, from, to, a->contact_radius[i]);
         a->x[i] = to.x;
         a->y[i] = to.y;
         const JoxV2 way = jox_sub(to, from);
@@ -115,8 +135,8 @@ static JoxDrift move_by_loops(Crowd *c) {
 }
 
 static void list_move_columns(const JoxAgents *a, float *out[COLUMNS]) {
-    float *columns[COLUMNS] = {a->x,  a->y,     a->prev_x,  a->prev_y, a->vx,
-                               a->vy, a->still, a->still_x, a->still_y};
+    float *columns[COLUMNS] = {a->x,     a->y,       a->prev_x,  a->prev_y,  a->vx,     a->vy,
+                               a->still, a->still_x, a->still_y, a->chest_x, a->chest_y};
     memcpy(out, columns, sizeof columns);
 }
 
@@ -156,13 +176,13 @@ static void test_move(void **state) {
     assert_true(over > 0 && moved > 0);
 }
 
-/* Returns the breadth by its definition: a share of `turn` that runs linearly in time between two
-   random values. */
-static float compute_plain_breadth(const JoxForces *f, uint32_t i) {
+/* Returns the contact radius of a disc by its definition: a share of `turn` that runs linearly in
+   time between two random values. A torso has that of its shape. */
+static float compute_plain_radius(const JoxForces *f, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     const uint64_t seed = f->step.timing.seed;
     const float radius = jox_param(a, JOX_PARAM_radius, i), turn = jox_param(a, JOX_PARAM_turn, i);
-    if (!f->in.turning || jox_stands(a, i))
+    if (!f->in.turning || jox_stands(a, i) || a->axis_x[i] != 0.0f)
         return radius;
     const double own = (double)a->id[i] * 0.6180339887498949;
     const double phase = f->step.timing.time + (own - floor(own));
@@ -173,7 +193,7 @@ static float compute_plain_breadth(const JoxForces *f, uint32_t i) {
     return radius * (1.0f - turn * (first + (second - first) * (float)(phase - (double)knot)));
 }
 
-static void test_breadth(void **state) {
+static void test_contact_radius(void **state) {
 #define X(name, isa) [isa] = jox_breadth_packets_##name,
     static JoxBreadthKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
@@ -187,6 +207,8 @@ static void test_breadth(void **state) {
             for (uint32_t i = 0; i < PEOPLE; i++) {
                 jox_param_set(a, JOX_PARAM_radius, i, draw_move(number, &drawn, 0.1, 0.4));
                 jox_param_set(a, JOX_PARAM_turn, i, draw_move(number, &drawn, 0.0, 0.5));
+                a->contact_radius[i] = jox_param(a, JOX_PARAM_radius, i);
+                a->axis_x[i] = i % 4 ? 0.0f : 0.1f;
                 a->pref_x[i] = draw_move(number, &drawn, -0.1, 0.3);
                 a->id[i] = number % 2 ? UINT32_MAX - i : i * 7;
             }
@@ -197,8 +219,8 @@ static void test_breadth(void **state) {
             f->in.turning = number != 5;
             KERNELS[isa](f, 0, PEOPLE);
             for (uint32_t i = 0; i < PEOPLE; i++) {
-                const float expected = compute_plain_breadth(f, i);
-                assert_memory_equal(&a->breadth[i], &expected, sizeof expected);
+                const float expected = compute_plain_radius(f, i);
+                assert_memory_equal(&a->contact_radius[i], &expected, sizeof expected);
                 turned += expected < jox_param(a, JOX_PARAM_radius, i);
             }
             assert_true(number == 5 ? turned == 0 : turned > PEOPLE / 4);
@@ -208,6 +230,7 @@ static void test_breadth(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_move), cmocka_unit_test(test_breadth)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_move),
+                                       cmocka_unit_test(test_contact_radius)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

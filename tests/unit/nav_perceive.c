@@ -168,7 +168,9 @@ static float find_sight(const JoxAgents *a, float reach) {
 
 static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_t i, float seen,
                              Other *all) {
-    float range = find_sight(a, jox_touch_reach(n, jox_param(a, JOX_PARAM_radius, i)));
+    float range =
+        find_sight(a, jox_touch_reach(n, a->contact_radius[i] +
+                                             jox_length(jox_v2(a->axis_x[i], a->axis_y[i]))));
     assert_int_equal(n->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS, seen >= range);
     if (n->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS)
         return;

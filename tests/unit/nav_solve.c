@@ -75,7 +75,10 @@ static void add_solve_agent(Crowd *c, uint32_t k, bool mixed) {
     a->walk_x[i] = 0.7f * wants.x;
     a->walk_y[i] = 0.7f * wants.y;
     a->still[i] = draw_solve(c, 0.0, 8.0);
-    jox_param_set(a, JOX_PARAM_radius, i, c->number % 3 == 1 ? 0.22f : draw_solve(c, 0.15, 0.3));
+    const float radius = c->number % 3 == 1 ? 0.22f : draw_solve(c, 0.15, 0.3);
+    jox_param_set(a, JOX_PARAM_radius, i, radius);
+    jox_param_set(a, JOX_PARAM_breadth, i, 2.0f * radius);
+    jox_param_set(a, JOX_PARAM_depth, i, 2.0f * radius);
     jox_param_set(a, JOX_PARAM_push, i, draw_chance(c, 0.5) ? 100.0f : 0.0f);
     a->tags[i] = draw_chance(c, 0.5);
     if (!mixed)
@@ -96,7 +99,7 @@ static void press_agents(Crowd *c, bool pressed) {
     t->planes = jox_alloc((size_t)a->count * MOST_PLANES, sizeof *t->planes);
     t->agents = pressed ? a->count : 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
+        a->contact_radius[i] = jox_param(a, JOX_PARAM_radius, i);
         a->speed_limit[i] = draw_solve(c, 0.8, 2.5);
         a->forced_x[i] = a->vx[i] + draw_solve(c, -0.2, 0.2);
         a->forced_y[i] = a->vy[i] + draw_solve(c, -0.2, 0.2);

@@ -81,7 +81,7 @@ static void set_wishes(Crowd *c) {
         a->pref_y[i] = draw_walk(k, 6) < 0.1f ? 0.0f : pref.y;
         a->way_left[i] = 20.0f * draw_walk(k, 7);
         a->speed_limit[i] = 3.0f;
-        a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
+        a->contact_radius[i] = jox_param(a, JOX_PARAM_radius, i);
     }
 }
 

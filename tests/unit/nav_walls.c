@@ -50,7 +50,7 @@ static void run_walls_step(Fixture *f, const JoxV2 *goals, float speed, double d
         a->pref_x[i] = way.x * speed;
         a->pref_y[i] = way.y * speed;
         a->speed_limit[i] = jox_maxf(jox_param(a, JOX_PARAM_max_speed, i), speed);
-        a->breadth[i] = jox_param(a, JOX_PARAM_radius, i);
+        a->contact_radius[i] = jox_param(a, JOX_PARAM_radius, i);
     }
     JoxStep step = {
         .timing = jox_timing_at_once(dt), .agents = a, .neighbours = &f->neighbours, .pool = pool};

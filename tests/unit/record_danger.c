@@ -315,11 +315,12 @@ static void distrust_names_overlap_and_density(void **state) {
     (void)state;
     JoxText text = {0};
     assert_true(jox_trust_holds(0.1, 10.0) && jox_trust_holds(NAN, NAN));
-    jox_trust_append_signs(0.1, 10.0, &text);
+    jox_trust_append_signs(0.1, 0.02, 10.0, &text);
     assert_int_equal(text.length, 0);
     assert_false(jox_trust_holds(0.101, NAN) || jox_trust_holds(0.0, 10.1));
-    jox_trust_append_signs(0.36, 12.7, &text);
-    assert_non_null(strstr(text.data, "overlap by 36 % of a diameter"));
+    jox_trust_append_signs(0.36, 0.0903, 12.7, &text);
+    assert_non_null(strstr(text.data, "overlap by 36 % of their depth"));
+    assert_non_null(strstr(text.data, "those that touch by 90 mm, and the density"));
     assert_non_null(strstr(text.data, "reached 12.7 per m"));
     jox_text_free(&text);
     JoxStatistics statistics = {.overlap_samples = 200};
@@ -328,8 +329,15 @@ static void distrust_names_overlap_and_density(void **state) {
     statistics.overlap[300] = 1;
     assert_float_equal(jox_statistics_overlap_p99(&statistics), 0.1, 1e-9);
     assert_float_equal(jox_statistics_overlap_share(&statistics, 0.1), 0.02, 1e-9);
+    statistics.overlap_depth[40] = 99; /* 20 mm */
+    statistics.overlap_depth[80] = 1;
+    statistics.overlapping = 100;
+    assert_float_equal(jox_statistics_depth_p99(&statistics), 0.02, 1e-9);
+    statistics.overlapping = 0;
+    assert_float_equal(jox_statistics_depth_p99(&statistics), 0.0, 0);
     statistics.overlap_samples = 0;
     assert_true(isnan(jox_statistics_overlap_share(&statistics, 0.1)));
+    assert_true(isnan(jox_statistics_depth_p99(&statistics)));
 }
 
 int main(void) {

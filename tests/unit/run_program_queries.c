@@ -53,6 +53,29 @@ static void columns_point_at_the_state(void **state) {
     jo_scene_free(scene);
 }
 
+/* The chest points to +x at first, so the left end of the axis lies on +y. */
+static void columns_have_torsos(void **state) {
+    (void)state;
+    const JoWorldDef def = jo_default_world_def();
+    const JoAgentDef person = jo_default_agent_def();
+    world = jo_world_create(&def, &error);
+    const JoAgent agent = jo_world_add_agent(world, &person, &error);
+    assert_true(jo_agent_set_parameter(world, agent, "breadth", 0.45, &error));
+    assert_true(jo_agent_set_parameter(world, agent, "depth", 0.25, &error));
+    jo_world_step(world, 1);
+    static const struct {
+        const char *name;
+        float value;
+    } SEEN[] = {{"chest_x", 1.0f}, {"chest_y", 0.0f}, {"spin", 0.0f},
+                {"axis_x", 0.0f},  {"axis_y", 0.1f},  {"contact_radius", 0.125f}};
+    for (size_t k = 0; k < sizeof SEEN / sizeof *SEEN; k++) {
+        const JoColumn column = jo_world_column(world, SEEN[k].name);
+        assert_true(column.type == JO_F32 && column.count == 1);
+        assert_float_equal(*(const float *)column.data, SEEN[k].value, 1e-6);
+    }
+    jo_world_free(world);
+}
+
 static void events_list_what_happened_in_the_step(void **state) {
     (void)state;
     load_read_scene();
@@ -299,6 +322,7 @@ static void snapshot_continues_exactly(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_point_at_the_state),
+        cmocka_unit_test(columns_have_torsos),
         cmocka_unit_test(events_list_what_happened_in_the_step),
         cmocka_unit_test(touch_begins_once),
         cmocka_unit_test(kicks_are_listed),

@@ -140,6 +140,41 @@ static void agent_without_previous_position_is_removed(void **state) {
     jo_world_free(world);
 }
 
+static void set_torsos(JoWorld *world) {
+    JoxAgents *a = &world->state.agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        jox_param_set(a, JOX_PARAM_breadth, i, 0.5f);
+        jox_param_set(a, JOX_PARAM_depth, i, 0.4f);
+    }
+}
+
+static void wrong_torso_is_named_and_spoils_no_other(void **state) {
+    (void)state;
+    const float wrong[] = {NAN, INFINITY, -INFINITY};
+    for (int n = 0; n < 9; n++) {
+        JoWorld *world = make(JO_LOST_STOP, JO_LOST_END);
+        JoAgent row[10];
+        char who[40];
+        add_row(world, row);
+        set_torsos(world);
+        jo_world_step(world, 2);
+        JoxAgents *a = &world->state.agents;
+        float *const columns[] = {a->chest_x, a->chest_y, a->spin};
+        spoil(world, row[n], columns[n / 3], n < 6 ? NAN : wrong[n % 3]); /* chests are checked */
+        snprintf(who, sizeof who, "the chest of agent %d is not finite", n);
+        if (!strstr(news(world), who))
+            fail_msg("%s, not %s", news(world), who);
+        assert_int_equal(world->state.statistics.people_lost, 1);
+        for (uint32_t i = 0; i < a->count; i++)
+            assert_true(jox_is_unit(jox_v2(a->chest_x[i], a->chest_y[i])) && isfinite(a->spin[i]));
+        all_are_sound(world);
+        jo_world_step(world, 50);
+        assert_int_equal(world->state.statistics.people_lost, 1);
+        all_are_sound(world);
+        jo_world_free(world);
+    }
+}
+
 static void divided_step_recovers_too(void **state) {
     (void)state;
     JoWorldDef def = jo_default_world_def();
@@ -235,6 +270,7 @@ int main(void) {
         cmocka_unit_test(lost_agent_is_named_and_removed),
         cmocka_unit_test(lost_agent_is_put_back_at_rest),
         cmocka_unit_test(agent_without_previous_position_is_removed),
+        cmocka_unit_test(wrong_torso_is_named_and_spoils_no_other),
         cmocka_unit_test(divided_step_recovers_too),
         cmocka_unit_test(body_that_leaves_is_named),
         cmocka_unit_test(no_body_passes_a_wall),

@@ -30,6 +30,8 @@ static Meeting meet(bool forces, double speed) {
     JoAgentDef agent = jo_default_agent_def();
     agent.x = 2;
     m.person = jo_world_add_agent(m.world, &agent, &error);
+    jo_agent_set_parameter(m.world, m.person, "breadth", 2.0 * agent.radius, NULL); /* a disc */
+    jo_agent_set_parameter(m.world, m.person, "depth", 2.0 * agent.radius, NULL);
     JoBodyDef gate = jo_default_body_def();
     gate.size[0] = 0.5;
     gate.size[1] = 4;
@@ -175,7 +177,9 @@ static Squeeze squeeze(double limit, bool reopens) {
     assert_true(jo_world_add_solid(world, wall, 4, &error));
     JoAgentDef person = jo_default_agent_def();
     person.x = 0.5;
-    jo_world_add_agent(world, &person, &error);
+    const JoAgent one = jo_world_add_agent(world, &person, &error);
+    jo_agent_set_parameter(world, one, "breadth", 2.0 * person.radius, NULL); /* a disc */
+    jo_agent_set_parameter(world, one, "depth", 2.0 * person.radius, NULL);
     JoBodyDef leaf = jo_default_body_def();
     leaf.size[0] = 1;
     leaf.size[1] = 0.1;

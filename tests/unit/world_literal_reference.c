@@ -183,13 +183,13 @@ static uint32_t list_wall_planes(JoWorld *w, uint32_t id, Plane *planes) {
     const uint32_t i = find_row(w, id);
     JoxHalfPlane walls[JOX_MOST_WALLS];
     const float tau = jox_param(a, JOX_PARAM_wall_horizon, i);
-    const float radius = jox_param(a, JOX_PARAM_radius, i);
-    const float range = tau * jox_param(a, JOX_PARAM_max_speed, i) + radius;
+    const JoxWallShape disc = {.radius = jox_param(a, JOX_PARAM_radius, i)};
+    const float range = tau * jox_param(a, JOX_PARAM_max_speed, i) + disc.radius;
     if (!nav->grid.walls || !nav->grid.walls->count)
         return 0;
     jox_wall_grid_fit(&nav->grid, 10.0f);
     const uint32_t count =
-        jox_orca_walls(&nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]}, radius,
+        jox_orca_walls(&nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]}, &disc,
                        tau, range, walls, JOX_MOST_WALLS);
     for (uint32_t k = 0; k < count; k++)
         planes[k] = (Plane){{walls[k].normal.x, walls[k].normal.y}, walls[k].offset};
@@ -301,7 +301,8 @@ static void parameters_that_no_equation_has_change_no_bit(void **state) {
         JoxParameter parameter;
         double value;
     } unused[] = {{JOX_PARAM_brace, 400.0}, {JOX_PARAM_turn, 0.6},     {JOX_PARAM_damping, 5.0},
-                  {JOX_PARAM_yield, 1.0},   {JOX_PARAM_time_gap, 2.0}, {JOX_PARAM_haste, 1.0}};
+                  {JOX_PARAM_yield, 1.0},   {JOX_PARAM_time_gap, 2.0}, {JOX_PARAM_haste, 1.0},
+                  {JOX_PARAM_breadth, 0.7}, {JOX_PARAM_depth, 0.2}};
     for (uint32_t k = 0; k < 4 * sizeof unused / sizeof *unused; k++) {
         V without[MOST_PEOPLE], with[MOST_PEOPLE];
         const uint64_t begin = draws;

@@ -44,6 +44,8 @@ static inline JoAgent add_person(JoWorld *world, double x, double y, double push
     const JoAgent person = jo_world_add_agent(world, &def, &error);
     if (error.text[0])
         fail_msg("%s", error.text);
+    jo_agent_set_parameter(world, person, "breadth", 2.0 * def.radius, NULL); /* a disc */
+    jo_agent_set_parameter(world, person, "depth", 2.0 * def.radius, NULL);
     return person;
 }
 

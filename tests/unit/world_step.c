@@ -25,7 +25,10 @@ static JoAgent add(JoWorld *w, double x, double y, double push) {
     def.x = x;
     def.y = y;
     def.push = push;
-    return jo_world_add_agent(w, &def, NULL);
+    const JoAgent one = jo_world_add_agent(w, &def, NULL);
+    jo_agent_set_parameter(w, one, "breadth", 2.0 * def.radius, NULL); /* a disc */
+    jo_agent_set_parameter(w, one, "depth", 2.0 * def.radius, NULL);
+    return one;
 }
 
 static void run(JoWorld *w, double seconds) {
