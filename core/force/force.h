@@ -96,9 +96,10 @@ void jox_force_contact(JoxForces *forces);
    speed_limit. The limit is `max_speed`; only contact impulses raise it, to the speed that they
    give. Keeps the velocities for infer. Begin and sum alone make a step without forces. */
 void jox_force_sum(JoxForces *forces);
-/* Called once velocities are planned: writes borne_x, borne_y, by which contacts keep the plans of
-   agents from pressing their bodies into each other, and parted_x, parted_y, by which bodies that
-   overlap part; that moves them within the step, but is no velocity, which would add energy. */
+/* Called once velocities are planned: where people have torsos, writes borne_x, borne_y, by which
+   contacts keep the plans of agents from pressing their bodies into each other, and parted_x,
+   parted_y, by which bodies that overlap part; that moves them within the step, but is no velocity,
+   which would add energy. */
 void jox_force_bear(JoxForces *forces);
 /* Returns the half-planes of contacts, valid from sum to the next begin; none in literal mode. */
 const JoxContactPlanes *jox_force_contact_planes(const JoxForces *forces);

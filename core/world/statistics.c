@@ -17,9 +17,11 @@ static int find_bin(float share, int bins) {
 static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n) {
     for (uint32_t i = 0; i < a->count; i++) {
         float deepest = 0.0f;
+        const float reach = 2.0f * n->widest;
         for (uint32_t k = 0; k < n->count[i]; k++) {
             uint32_t j = n->index[jox_neighbour_at(n, i, k)]; /* agents moved since */
-            deepest = jox_maxf(deepest, -jox_torso_gap(a, i, j));
+            if (jox_length2(jox_offset(a, i, j)) < reach * reach)
+                deepest = jox_maxf(deepest, -jox_torso_gap(a, i, j));
         }
         JOX_ASSERT(deepest >= 0.0f && a->contact_radius[i] > 0.0f);
         const float depth = 2.0f * jox_agent_torso(a, i, false).radius;

@@ -27,7 +27,13 @@ uint32_t jox_find_contacts_alone(JoxForces *f, uint32_t i, bool walls, JoxFoundP
     const bool covered = !near->touch_count || near->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS;
     const uint32_t count =
         covered ? jox_touch_candidate_counts(near, f->widest)[i] : near->touch_count[i];
-    JoxFindPacket packet = {.f = f, .first = i, .lanes = 1, .walls = walls};
+    JoxFindPacket packet; /* only the entries in use are initialised */
+    packet.f = f;
+    packet.first = i;
+    packet.lanes = 1;
+    packet.walls = walls;
+    packet.walled = 0;
+    packet.count[0] = 0;
     JoxContactSelf self = jox_load_contact_self(f, i);
     self.least_id = INT32_MIN; /* the loop below compares the ids itself */
     for (uint32_t k = 0; k < count; k++) {

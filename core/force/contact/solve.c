@@ -240,7 +240,9 @@ void jox_force_bear(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     JoxPairs *pairs = &f->contacts->pairs;
     JoxWallContacts *walls = &f->contacts->walls;
-    if (!f->contacts->known || f->options.literal || !f->step.neighbours->has_torsos ||
+    if (!f->step.neighbours->has_torsos)
+        return;
+    if (!f->contacts->known || f->options.literal ||
         !(pairs->count || walls->count || f->contacts->touches.count)) {
         float *const columns[] = {a->borne_x, a->borne_y, a->parted_x, a->parted_y};
         for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)

@@ -36,7 +36,9 @@ static JoxMask find_slowing(const JoxForces *f, uint32_t i, JoxVector old) {
     const JoxFloats least = jf_set(f->options.least * (float)f->step.timing.dt);
     const JoxFloats cosine = jox_param_lanes(a, JOX_PARAM_brace_angle, i);
     const JoxVector before = jv_load(a->forced_x, a->forced_y, i);
-    const JoxVector after = jv_sub(jv_load(a->vx, a->vy, i), jv_load(a->borne_x, a->borne_y, i));
+    JoxVector after = jv_load(a->vx, a->vy, i);
+    if (f->step.neighbours->has_torsos)
+        after = jv_sub(after, jv_load(a->borne_x, a->borne_y, i));
     const JoxVector change = jv_sub(after, before), way = jv_add(after, before);
     const JoxFloats against = -jv_dot(change, way), change2 = jv_dot(change, change);
     const JoxFloats bound = cosine * cosine * change2 * jv_dot(way, way);

@@ -75,6 +75,15 @@ static void zero_columns(const JoxForces *f, uint32_t begin, uint32_t end) {
 #undef ZERO_SCRATCH
 }
 
+/* Returns whether breadth or depth are given for any agent, or differ from the radius by default.
+ */
+static bool has_measures(const JoxAgents *a) {
+    const JoxParameterColumn breadth = a->param[JOX_PARAM_breadth],
+                             depth = a->param[JOX_PARAM_depth];
+    return JOX_TORSO_BREADTH != 2.0f || JOX_TORSO_DEPTH != 2.0f || breadth.mask || depth.mask ||
+           breadth.cells[0] > 0.0f || depth.cells[0] > 0.0f;
+}
+
 /* Begins the step for the agents of a chunk: zeroes columns, computes breadths, and packs the
    builds. */
 static void begin_agents(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -87,11 +96,10 @@ static void begin_agents(void *context, uint32_t begin, uint32_t end, uint32_t w
         jox_interleave(&f->records[i], a->contact_radius + i, jox_params(a, JOX_PARAM_radius, i),
                        jox_params(a, JOX_PARAM_mass, i), a->id + i,
                        end - i < JOX_AGENTS_PADDING ? (end - i + 3) / 4 * 4 : JOX_AGENTS_PADDING);
-    /* From the shapes that discs had before they turned a shoulder. */
-    const bool torsos = f->step.neighbours->has_torsos;
-    for (uint32_t i = begin; i < end; i++)
-        f->records[i].outer = f->step.neighbours->shapes[i].radius +
-                              (torsos ? jox_length(jox_v2(a->axis_x[i], a->axis_y[i])) : 0.0f);
+    for (uint32_t i = begin; i < end && has_measures(a); i++) {
+        const JoxTorso torso = jox_agent_torso(a, i, f->options.literal);
+        f->records[i].outer = torso.radius + torso.half; /* a disc's before it turned a shoulder */
+    }
 }
 
 /* Returns the stage memory for so many agents, bytes: builds, padded to packets, and what

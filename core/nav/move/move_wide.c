@@ -25,21 +25,23 @@ void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end
     const JoxFloats on_the_way = jf_set((float)m->step.timing.on_the_way),
                     response = jf_set((float)m->step.timing.response);
     const JoxFloats dt = jf_set((float)m->step.timing.dt);
+    const bool has_torsos = m->step.neighbours->has_torsos;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector at = jv_load(a->x, a->y, i);
         const JoxVector forced = jv_load(a->forced_x, a->forced_y, i);
         const JoxVector rest = jv_sub(jv_load(a->next_x, a->next_y, i), forced);
-        const JoxVector borne = jv_load(a->borne_x, a->borne_y, i);
-        const JoxVector parted = jv_load(a->parted_x, a->parted_y, i);
-        const JoxVector mean =
-            jv_add(jv_add(jv_add(forced, jv_scale(rest, on_the_way)), borne), parted);
-        const JoxVector to = jv_add(at, jv_scale(mean, dt));
+        JoxVector mean = jv_add(forced, jv_scale(rest, on_the_way));
+        JoxVector ends = jv_add(forced, jv_scale(rest, response));
         float x[JOX_WIDTH], y[JOX_WIDTH];
         jv_store(a->prev_x, a->prev_y, i, at);
-        jv_store(a->vx, a->vy, i, jv_add(jv_add(forced, jv_scale(rest, response)), borne));
-        jv_store(x, y, 0, to);
-        if (m->step.neighbours->has_torsos)
+        if (has_torsos) {
+            const JoxVector borne = jv_load(a->borne_x, a->borne_y, i);
+            mean = jv_add(jv_add(mean, borne), jv_load(a->parted_x, a->parted_y, i));
+            ends = jv_add(ends, borne);
             turn_chests(m, i);
+        }
+        jv_store(a->vx, a->vy, i, ends);
+        jv_store(x, y, 0, jv_add(at, jv_scale(mean, dt)));
         for (uint32_t lane = 0; lane < JOX_WIDTH && i + lane < end; lane++)
             m->position[0][i + lane] = (JoxV2){x[lane], y[lane]};
     }

@@ -174,6 +174,19 @@ static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, cons
     return jm_bits(jm_and(is_near, jox_wall_grid_may_cross_lanes(d2, own, its)));
 }
 
+/* Reduces the radii of pairs that do not walk by the law to what their torsos leave. */
+static inline void jox_reduce_radii(const JoxPacket *p, uint32_t most, uint32_t walkers,
+                                    JoxNeighbour *pairs) {
+    const JoxStep *step = &p->s->step;
+    const uint32_t *others =
+        step->neighbours->index + jox_neighbour_at(step->neighbours, p->first, 0);
+    for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
+        JoxPair *q = &pairs[k].pair;
+        q->radii = jf_select(jm_of_bits(walkers), q->radii,
+                             jox_radii_of_torsos(step, p->first, others, q));
+    }
+}
+
 /* Loads the pairs with the `most` first neighbours of the lanes. A lane with fewer gets arbitrary
    ones. Returns the greatest sum of radii, m. */
 static inline __attribute__((always_inline)) JoxFloats
@@ -195,14 +208,13 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
             q.x = jf_wrap(q.x, a->period.x);
             q.y = jf_wrap(q.y, a->period.y);
         }
-        if (near->has_torsos)
-            q.radii = jf_select(jm_of_bits(walkers), q.radii,
-                                jox_radii_of_torsos(near, self, others, &q));
         out[k].pair = q;
         widest = jf_max(widest, q.radii);
         if (walkers)
             out[k].velocity = (JoxVector){motion[2], motion[3]};
     }
+    if (near->has_torsos)
+        jox_reduce_radii(p, most, walkers, out);
     return widest;
 }
 

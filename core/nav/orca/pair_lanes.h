@@ -86,8 +86,6 @@ jox_orca_end(const JoxPair *q, const JoxOrcaSelf *self, const JoxOrcaHalf *h) {
 /* Data of an agent that is the same for all of its neighbours. */
 typedef struct JoxSelf {
     JoxFloats x, y, radius; /* m */
-    JoxVector axis;         /* of the torso, m */
-    JoxFloats torso_radius; /* m */
     JoxFloats room; /* gap that a walker keeps to the agent it follows, as a share of the law's */
     JoxOrcaSelf orca;
 } JoxSelf;
@@ -117,8 +115,6 @@ static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t wa
         .x = jf_load(a->x + first),
         .y = jf_load(a->y + first),
         .radius = jox_param_lanes(a, JOX_PARAM_radius, first),
-        .axis = jv_load(a->axis_x, a->axis_y, first),
-        .torso_radius = jf_load(a->contact_radius + first),
         .room = room,
         .orca = jox_orca_self_of(s, first),
     };
@@ -126,15 +122,18 @@ static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t wa
 
 /* Returns how near two agents come by their own will, m: as near as their discs, or as they already
    are, but their torsos part. */
-static inline JoxFloats jox_radii_of_torsos(const JoxNeighbours *near, const JoxSelf *self,
+static inline JoxFloats jox_radii_of_torsos(const JoxStep *step, uint32_t first,
                                             const uint32_t *others, const JoxPair *q) {
+    const JoxNeighbours *near = step->neighbours;
+    const JoxVector own = jv_load(step->agents->axis_x, step->agents->axis_y, first);
     JoxFloats shape[4];
     jf_records_at(&near->shapes[0].axis_x, others, shape);
     const JoxVector offset = {q->x, q->y};
     const JoxFloats distance = jf_sqrt(jv_dot(offset, offset));
-    const JoxFloats axes = jf_abs(jv_dot(self->axis, offset)) +
-                           jf_abs(jv_dot((JoxVector){shape[0], shape[1]}, offset));
-    const JoxFloats torsos = self->torso_radius + shape[2] + axes / jf_max(distance, jf_set(1e-6f));
+    const JoxFloats axes =
+        jf_abs(jv_dot(own, offset)) + jf_abs(jv_dot((JoxVector){shape[0], shape[1]}, offset));
+    const JoxFloats radii = jf_load(step->agents->contact_radius + first) + shape[2];
+    const JoxFloats torsos = radii + axes / jf_max(distance, jf_set(1e-6f));
     return jf_min(q->radii, jf_max(torsos, distance));
 }
 
