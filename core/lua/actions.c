@@ -191,13 +191,33 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
     return what;
 }
 
-/* Reads `lift` of a kick, which may lack it. */
-static void read_lift(JoxBuild *b, int index, const char *path, JoxState *state) {
-    const JoxParameterInfo lift = jox_table_key_number("kick", "lift");
-    lua_State *L = b->script->vm.L;
+/* Returns whether the kick of a state, if it has one, has a key. */
+static bool kick_has_key(lua_State *L, int index, const char *key) {
     const int top = lua_gettop(L);
+    const bool has = jox_read_field(L, index, "kick") == LUA_TTABLE &&
+                     jox_read_field(L, top + 1, key) != LUA_TNIL;
+    lua_settop(L, top);
+    return has;
+}
+
+/* Reads a kick: with the speed of the body, or else the impulse, and the lift, which it may lack.
+ */
+static void read_kick(JoxBuild *b, int index, const char *path, JoxState *state) {
+    const JoxParameterInfo impulse = jox_table_key_number("kick", "impulse"),
+                           speed = jox_table_key_number("kick", "speed"),
+                           lift = jox_table_key_number("kick", "lift");
+    lua_State *L = b->script->vm.L;
     char kick[256], full[256];
     jox_read_join(kick, path, "kick");
+    const bool sets = kick_has_key(L, index, "speed");
+    state->kick =
+        read_body_action(b, index, path, "kick", sets ? &speed : &impulse, &state->kick_at,
+                         sets ? &state->kick_speed : &state->kick_impulse);
+    if (sets && kick_has_key(L, index, "impulse"))
+        jox_build_error(b, jox_read_at(b, kick), "bad-value",
+                        "Keep one of them; in a patch, set the other to none",
+                        "kick has both `impulse` and `speed`");
+    const int top = lua_gettop(L);
     jox_read_join(full, kick, "lift");
     if (jox_read_field(L, index, "kick") == LUA_TTABLE &&
         jox_read_field(L, top + 1, "lift") != LUA_TNIL)
@@ -243,12 +263,9 @@ static void read_grip(JoxBuild *b, int index, const char *path, JoxState *state)
 }
 
 void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *state) {
-    const JoxParameterInfo impulse = jox_table_key_number("kick", "impulse"),
-                           speed = jox_table_key_number("throw", "speed");
+    const JoxParameterInfo speed = jox_table_key_number("throw", "speed");
     char full[256];
-    state->kick =
-        read_body_action(b, index, path, "kick", &impulse, &state->kick_at, &state->kick_impulse);
-    read_lift(b, index, path, state);
+    read_kick(b, index, path, state);
     state->toss =
         read_body_action(b, index, path, "throw", &speed, &state->toss_at, &state->toss_speed);
     jox_read_join(full, path, "throw");

@@ -427,9 +427,9 @@ static void print_key_example(const JoxTableKey *key, JoxText *out) {
         print_example(out, "", part, ", when = after(1)");
     } else {
         bool kick = !strcmp(key->owner, "kick"), at = !strcmp(key->name, "at");
-        bool impulse = !strcmp(key->name, "impulse");
+        bool strength = !strcmp(key->name, "impulse") || !strcmp(key->name, "speed");
         snprintf(part, sizeof part, "%s = { nearest \"ball\", %s%s },", key->owner, key->example,
-                 kick ? (impulse ? "" : ", impulse = 3")
+                 kick ? (strength ? "" : ", impulse = 3")
                  : at ? ", speed = 5"
                       : ", at = \"post\"");
         print_example(out, "", part, ", when = after(1)");

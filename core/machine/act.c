@@ -133,8 +133,30 @@ static void end_passing(JoxMachineRun *run) {
             a->parting[i] = 0;
 }
 
+/* Returns the impulse of a kick on a body, N s: along `way`, a horizontal unit vector, raised by
+   the lift. A kick with a speed also takes the velocity that the body had. */
+static JoxV3 find_kick_impulse(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                               uint32_t i, const JoxObject *body, JoxV2 way) {
+    JOX_ASSERT(body->inverse_mass > 0.0f); /* a body that moves has a finite mass */
+    const bool sets = state->kick_speed.kind != JOX_VALUE_UNSET;
+    const double change =
+        sets ? jox_action_number(run, machine, JOX_ACTION_KICK_SPEED, &state->kick_speed, i)
+             : jox_action_number(run, machine, JOX_ACTION_KICK, &state->kick_impulse, i);
+    const float impulse = (float)change / body->inverse_mass;
+    const double lift =
+        jox_action_number(run, machine, JOX_ACTION_LIFT, &state->kick_lift, i) * JOX_DEGREE;
+    const float level = impulse * (float)jox_cos(lift), up = impulse * (float)jox_sin(lift);
+    JoxV3 kick = {way.x * level, way.y * level, up};
+    if (sets) {
+        kick.x -= body->velocity.x / body->inverse_mass;
+        kick.y -= body->velocity.y / body->inverse_mass;
+        kick.z -= body->velocity.z / body->inverse_mass;
+    }
+    return kick;
+}
+
 /* Kicks the target of the state if the agent touches it: an impulse through the body's centre,
-   towards kick_at or straight ahead, raised by the lift. */
+   towards kick_at; straight ahead without it, or if there is none in sight. */
 static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
     JoxAgents *a = run->agents;
@@ -148,23 +170,18 @@ static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     JoxV2 way = {ball.x - a->x[i], ball.y - a->y[i]};
     if (state->kick_at >= 0) {
         JoxSpot at = jox_target_find(run, i, state->kick_at);
-        if (!at.found)
-            return;
-        way = (JoxV2){at.x - ball.x, at.y - ball.y};
+        if (at.found)
+            way = (JoxV2){at.x - ball.x, at.y - ball.y};
     }
     way = jox_unit(way);
-    const double change = jox_action_number(run, machine, JOX_ACTION_KICK, &state->kick_impulse, i);
-    if (!(change > 0.0) || jox_length2(way) == 0.0f)
+    if (jox_length2(way) == 0.0f)
         return;
-    JOX_ASSERT(object->inverse_mass > 0.0f); /* a body that moves has a finite mass */
-    const float impulse = (float)change / object->inverse_mass;
-    const double lift =
-        jox_action_number(run, machine, JOX_ACTION_LIFT, &state->kick_lift, i) * JOX_DEGREE;
-    const float level = impulse * (float)jox_cos(lift), up = impulse * (float)jox_sin(lift);
+    const JoxV3 impulse = find_kick_impulse(run, machine, state, i, object, way);
+    if (impulse.x == 0.0f && impulse.y == 0.0f && impulse.z == 0.0f)
+        return;
     JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
-    run->kicks[run->kick_count++] = (JoxImpulse){.object = (uint32_t)ball.object,
-                                                 .impulse = {way.x * level, way.y * level, up},
-                                                 .point = object->position};
+    run->kicks[run->kick_count++] = (JoxImpulse){
+        .object = (uint32_t)ball.object, .impulse = impulse, .point = object->position};
     a->kicked[i] = a->parting[i] = jox_reference(ball.object);
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }

@@ -252,6 +252,7 @@ typedef struct JoxState {
     uint64_t ignore, push_only;
     int16_t kick, kick_at; /* targets; -1 none */
     JoxValue kick_impulse; /* N s per kg of the body: the velocity change, m/s */
+    JoxValue kick_speed;   /* speed after the kick, m/s; UNSET: kick_impulse holds */
     JoxValue kick_lift;    /* angle above the horizontal, degrees; UNSET: 0 */
     int16_t take;          /* target: body to pick up when within reach; -1 none */
     int16_t toss, toss_at; /* targets: body to throw, and where to; -1 none */

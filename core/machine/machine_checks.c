@@ -98,6 +98,7 @@ static void check_machine_state(const JoxMachine *m, const JoxState *state) {
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         check_value(m, &state->param[p]);
     check_value(m, &state->kick_impulse);
+    check_value(m, &state->kick_speed);
     check_value(m, &state->kick_lift);
     check_value(m, &state->toss_speed);
     check_value(m, &state->grip);

@@ -17,6 +17,7 @@ typedef struct JoxBatchRange {
    memory from JOX_ACTION_MEMORY. */
 typedef enum JoxActionNumber {
     JOX_ACTION_KICK = JOX_PARAM_COUNT,
+    JOX_ACTION_KICK_SPEED,
     JOX_ACTION_LIFT,
     JOX_ACTION_THROW,
     JOX_ACTION_GRIP,

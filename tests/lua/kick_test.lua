@@ -46,6 +46,35 @@ test("lift may be an expression", function()
   equal(top, expected)
 end)
 
+-- Returns the ball's velocity after a kick at a post that lies east of it; it came with this velocity.
+local function kicked(kick, vx, vy)
+  local s = scene {
+    places = { post = { point = { 20, 0 } } },
+    bodies = { { name = "ball", shape = { sphere = { radius = 0.11 } }, mass = 0.4, at = { 0, 0, 0.11 },
+      velocity = { vx, vy, 0 }, tags = { "ball" } } },
+    groups = { one = { behaviour = kicker(kick), at = { { -0.32, 0 } } } },
+    step = 0.01,
+  }
+  s:run(0.03)
+  return s:body "ball"
+end
+
+test("a kick with a speed replaces the ball's velocity, one with an impulse adds to it", function()
+  for _, came in ipairs { { 0, 0 }, { -2, 3 }, { 3, -2 } } do
+    local given, added = kicked("speed = 8", came[1], came[2]), kicked("impulse = 8", came[1], came[2])
+    near(given.vx, 8, 0.3)
+    near(given.vy, 0, 0.1)
+    near(added.vx, 8 + came[1], 0.3)
+    near(added.vy, came[2], 0.3)
+  end
+end)
+
+test("a kick with a speed of 0 stops the ball", function()
+  local ball = kicked("speed = 0", -1, 1)
+  near(ball.vx, 0, 0.05)
+  near(ball.vy, 0, 0.05)
+end)
+
 test("a kicked ball passes the kicker's own body, and goes where it is aimed at", function()
   for _, lift in ipairs { 0, 20 } do
     for _, impulse in ipairs { 1.5, 8 } do -- too slow to be swept, and swept

@@ -130,6 +130,9 @@ static void invalid_numbers_of_actions_are_reported(void **state) {
          "own.lua:3: t = 0.00 s: impulse of the kick of agent 0 (machine m, state A) came out as "
          "inf; 50 m/s is taken."},
         {"kick = { nearest \"ball\",\n impulse = " FAR " - " FAR " }", "nan; 0 m/s is taken."},
+        {"kick = { nearest \"ball\",\n speed = " FAR " }",
+         "own.lua:3: t = 0.00 s: speed of the kick of agent 0 (machine m, state A) came out as "
+         "inf; 50 m/s is taken."},
         {"grasp = nearest \"anyone\",\n grip = " FAR " - " FAR, "grip of agent 0 "},
         {"\nlasts = 0 * " FAR, "lasts of agent 0 (machine m, state A) came out as "},
         {"set = {\n far = " FAR " }",
