@@ -8,14 +8,22 @@ local flying = nearest("ball"):flying() -- of many balls, the one to dodge is se
 local flies_at_me = sees(flying:incoming(0.6))
 local REBOUND = 0.8 -- s after a kick, in which the ball may come back from a wall
 
--- The faster the run-up, the harder the kick; the farther the opponent, the higher.
-local kick = { ball, at = foe, impulse = 5 + own.run_up * now.speed, lift = clamp(2.5 * distance(foe), 8, 25) }
+-- The faster the run-up, the harder the kick. It is raised so far that the ball comes to the opponent at CHEST, if it
+-- is hard enough: the slope s of a kick of speed v that reaches height h at distance d is the smaller root of
+-- h = d s - fall (1 + s^2), where fall = g d^2 / (2 v^2). The lift is its arc tangent, in degrees, by an approximation
+-- within 1 %.
+local CHEST, HIGHEST = 0.8, 35 -- m; degrees: higher balls are dodged easily
+local hard, far = 5 + own.run_up * now.speed, clamp(distance(foe), 1, 30)
+local fall = 4.9 * far * far / (hard * hard)
+local slope = (far - sqrt(far * far - 4 * fall * (fall + CHEST))) / (2 * fall)
+local lift = clamp(57.3 * slope / (1 + 0.28 * slope * slope), 0, HIGHEST)
+local kick = { ball, at = foe, speed = hard, lift = lift }
 
 return machine {
-  name = "dodgeball", version = 4, start = "Defense",
+  name = "dodgeball", version = 5, start = "Defense",
   defaults = { speed = 2.5, max_speed = 4, perception = 30, horizon = 2, mass = 70 },
   -- Share of flying balls that are noticed; time until the player moves, s; speed of a kick per speed of the run-up.
-  own = { attention = 0.7, reaction = 0.3, run_up = 2 },
+  own = { attention = 0.85, reaction = 0.3, run_up = 2 },
 
   states = {
     -- A ball that the player has not noticed is not avoided.

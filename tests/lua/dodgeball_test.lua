@@ -45,6 +45,28 @@ test("the attacker runs to the ball, kicks it high into the other court and turn
   equal(s:agents("blue")[1].state, "Defense")
 end)
 
+test("a ball that comes rolling is kicked straight at the opponent, at its chest", function()
+  for _, velocity in ipairs { { 0, 0, 0 }, { -2, 2, 0 }, { 3, -3, 0 } } do
+    local game = court(LIES, { attention = 0 })
+    game.bodies[1].velocity = velocity
+    game.groups.a_red.set.speed = 0
+    local s = scene(game)
+    s:reaches("Hit", { agents = "a_red", within = 5 })
+    local ball, red = s:body("ball"), s:agents("a_red")[1]
+    near(ball.y, red.y, 0.35)
+    truthy(ball.z > 0.3 and ball.z < 1.3, "it hits at " .. ball.z .. " m")
+  end
+end)
+
+test("a ball is kicked also where a pillar hides the opponent", function()
+  local game = court({ 3, 2, 0.11 })
+  game.bodies[2] = { name = "pillar", shape = { box = { size = { 1, 1, 2 } } }, mass = 0, at = { 1.5, 1.5, 1 } }
+  local s = scene(game)
+  s:run(2)
+  local ball = s:body "ball"
+  truthy(math.abs(ball.x - 3) + math.abs(ball.y - 2) > 1, "the ball has left its place")
+end)
+
 test("a ball in the air is not attacked until it has come down", function()
   local s = scene(court { 5, 0, 3 })
   while s:body("ball").z > 0.5 do

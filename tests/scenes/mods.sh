@@ -18,7 +18,7 @@ says "why: the behaviour's own line" 0 ":87: shove" "$JOSTLE" mod why tawaf.ToSt
 says "why: the last mod's line" 0 "rough/patches/tawaf.lua:3:17: 60 * max(now.speed, own.speed)   (mod rough 1.0.0)" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: a value of a scene, set by a mod" 0 "doubles/patches/dodgeball.yaml" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
 says "why: a number of a kick, set by a mod" 0 "doubles/patches/dodgeball.lua:9:25: 15   (mod doubles 1.0.0)" "$JOSTLE" mod why dodgeball.Attack.kick.lift scenes/dodgeball.yaml --mod doubles
-says "why: the rest of that kick, of the behaviour" 0 "behaviours/dodgeball.lua:" "$JOSTLE" mod why dodgeball.Attack.kick.impulse scenes/dodgeball.yaml --mod doubles
+says "why: the rest of that kick, of the behaviour" 0 "behaviours/dodgeball.lua:" "$JOSTLE" mod why dodgeball.Attack.kick.speed scenes/dodgeball.yaml --mod doubles
 says "why: a value of a scene, set by its own file" 0 "scenes/dodgeball.yaml:24:9: [[" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
 says "why: a value of a body, by its name" 0 "scenes/dodgeball.yaml:17:11: 0.4" "$JOSTLE" mod why bodies.ball.mass scenes/dodgeball.yaml
 says "why: a value of a body, by its number" 0 "the default: 0.6" "$JOSTLE" mod why bodies.0.friction scenes/dodgeball.yaml
