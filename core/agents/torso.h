@@ -42,6 +42,16 @@ static inline float jox_torso_gyration2(JoxTorso t) {
     return 0.25f * (side * side + t.radius * t.radius);
 }
 
+/* Return, of agent i's shape as it is in this step, half the length of its axis, and its radius of
+   gyration, m; 0 of a disc, which does not turn. */
+static inline float jox_torso_half(const JoxAgents *a, uint32_t i) {
+    return jox_length((JoxV2){a->axis_x[i], a->axis_y[i]});
+}
+static inline float jox_torso_gyration(const JoxAgents *a, uint32_t i) {
+    const JoxTorso torso = {a->contact_radius[i], jox_torso_half(a, i)};
+    return torso.half > 0.0f ? sqrtf(jox_torso_gyration2(torso)) : 0.0f;
+}
+
 /* Returns how far the shape of agent i reaches from its centre along a unit vector, m. */
 static inline float jox_torso_reach(const JoxAgents *a, uint32_t i, JoxV2 direction) {
     return a->contact_radius[i] + fabsf(a->axis_x[i] * direction.x + a->axis_y[i] * direction.y);

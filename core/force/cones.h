@@ -1,19 +1,19 @@
-/* Who is in the cone of an agent, in which a force of it reaches others. Kernels of push/ find that
+/* Agents in the cone of an agent, in which a force of it reaches others. Kernels of push/ find them
    by cone_lanes.h, and literal.c by people_in_cone.c. */
 #ifndef JOX_FORCE_CONES_H
 #define JOX_FORCE_CONES_H
 
 #include "force/forces.h"
 
-/* What the cones of all agents have in common. */
+/* Angle and reach of the cones of a search. */
 typedef struct JoxConeReach {
     JoxParameter angle; /* parameter that is the half-angle */
     float gap;          /* reach beyond the edges of both agents, m */
     bool moved;         /* agents have moved since their neighbours were listed */
 } JoxConeReach;
 
-/* Who is in the cone of each agent of a chunk. Bit k of `found` is set if entry k of the agent's
-   neighbours is in the cone; of `doubtful`, if moreover a wall may stand between. */
+/* The agents in the cone of each agent of a chunk. Bit k of `found` is set if entry k of the
+   agent's neighbours is in the cone; of `doubtful`, if moreover a wall may stand between. */
 typedef struct JoxFound {
     uint32_t found[JOX_FORCE_GRAIN], doubtful[JOX_FORCE_GRAIN];
 } JoxFound;

@@ -12,7 +12,7 @@ enum {
     JOX_FRAME_FORCES = 2,
     JOX_FRAME_STATES = 4,
     JOX_FRAME_TORSOS = 8,
-    JOX_FRAME_MEASURED = 7, /* what probes read */
+    JOX_FRAME_MEASURED = 7, /* the columns of probes */
     JOX_FRAME_WHOLE = 15
 };
 

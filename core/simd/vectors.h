@@ -28,6 +28,9 @@ static inline JoxVector jv_scale(JoxVector a, JoxFloats by) {
 static inline JoxFloats jv_dot(JoxVector a, JoxVector b) {
     return a.x * b.x + a.y * b.y;
 }
+static inline JoxFloats jv_det(JoxVector a, JoxVector b) {
+    return a.x * b.y - a.y * b.x;
+}
 static inline JoxVector jv_select(JoxMask m, JoxVector a, JoxVector b) {
     return (JoxVector){jf_select(m, a.x, b.x), jf_select(m, a.y, b.y)};
 }

@@ -71,7 +71,7 @@ typedef struct JoxReproduction {
     const JoReproduceDef *def;
     JoxOutcome *outcomes;
     uint32_t outcome_count;
-    JoxFigureCount count; /* of all claims */
+    JoxFigureCount count; /* figures in band, over all claims */
     JoxJob *jobs;         /* jobs of all claims */
     uint32_t job_count;
     size_t job_capacity;

@@ -8,8 +8,6 @@
 #include "base/sort.h"
 #include "force/contact/contacts.h"
 
-static const float SECOND_APART = 0.02f; /* m: least distance of two contacts along the axis */
-
 /* Finds the contact of a point of agent i's axis, `own` m from its centre, with body `row`. Returns
    false if the gap cannot close within the step, or a wall stands between them. */
 static bool find_touch_at(const JoxForces *f, uint32_t i, JoxV2 own, uint32_t row,
@@ -19,7 +17,7 @@ static bool find_touch_at(const JoxForces *f, uint32_t i, JoxV2 own, uint32_t ro
     const JoxV2 centre = {a->x[i], a->y[i]};
     JoxFootprintPoint at = jox_footprint_nearest(body, jox_add(centre, own));
     JoxV2 towards = jox_sub(jox_v2(a->vx[i], a->vy[i]), jox_object_velocity_at(body, at.point));
-    const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
+    const float half = jox_torso_half(a, i);
     float closing = (jox_length(towards) + (half > 0.0f ? fabsf(a->spin[i]) * half : 0.0f)) *
                     (float)f->step.timing.dt;
     float gap = at.gap - a->contact_radius[i];
@@ -32,8 +30,7 @@ static bool find_touch_at(const JoxForces *f, uint32_t i, JoxV2 own, uint32_t ro
     JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
     *touch = (JoxTouch){.agent = i, .object = row, .normal = at.normal, .point = point, .gap = gap};
     if (half > 0.0f)
-        touch->lever = jox_det(own, at.normal) /
-                       sqrtf(jox_torso_gyration2((JoxTorso){a->contact_radius[i], half}));
+        touch->lever = jox_det(own, at.normal) / jox_torso_gyration(a, i);
     return true;
 }
 
@@ -64,7 +61,7 @@ static uint32_t find_touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTo
     const JoxV2 right = find_near_point(f, i, axis, -1.0f, row);
     const JoxV2 left = find_near_point(f, i, axis, 1.0f, row);
     uint32_t count = find_touch_at(f, i, right, row, &out[0]);
-    if (jox_length2(jox_sub(left, right)) < SECOND_APART * SECOND_APART)
+    if (jox_length2(jox_sub(left, right)) < JOX_SECOND_APART * JOX_SECOND_APART)
         return count;
     count += find_touch_at(f, i, left, row, &out[count]);
     if (count == 2 && out[1].gap < out[0].gap) {
@@ -92,8 +89,8 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     jox_chunk_clear(&touches->found, chunk);
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 at = {a->x[i], a->y[i]};
-        const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
-        float reach = a->contact_radius[i] + half + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+        float reach =
+            a->contact_radius[i] + jox_torso_half(a, i) + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
         JoxNearest nearest;
         jox_nearest_begin(&nearest, JOX_MOST_BODIES_TOUCHED);
         JoxObjectWalk walk = jox_objects_near(f->step.objects, at, reach);

@@ -148,7 +148,6 @@ typedef struct JoxPointLanes {
 
 #define JOX_SECOND_GAP 0.05f   /* m: greatest gap of a second point */
 #define JOX_SECOND_COSINE 0.7f /* least cosine between the normals of both points */
-#define JOX_SECOND_APART 0.02f /* m: least distance of both points along the surface */
 
 /* Finds the points at which the agents of `lanes` (bits) touch their neighbours: the nearest of the
    axes' ends to the other axis, and, where it is that near, the one farthest from it along the
@@ -171,10 +170,8 @@ static inline uint32_t jox_find_points(const JoxContactSelf *self, const JoxCont
     /* Axes that cross are parted along the line of the centres. */
     const JoxVector left = jv_add(m->offset, self->axis), right = jv_sub(m->offset, self->axis);
     const JoxVector up = jv_sub(m->axis, m->offset), down = jv_add(m->axis, m->offset);
-    const JoxFloats own =
-        (m->axis.x * left.y - m->axis.y * left.x) * (m->axis.x * right.y - m->axis.y * right.x);
-    const JoxFloats theirs = (self->axis.x * up.y - self->axis.y * up.x) *
-                             (self->axis.x * down.y - self->axis.y * down.x);
+    const JoxFloats own = jv_det(m->axis, left) * jv_det(m->axis, right);
+    const JoxFloats theirs = jv_det(self->axis, up) * jv_det(self->axis, down);
     const JoxMask crosses = jm_and(jf_lt(own, zero), jf_lt(zero, theirs));
     const JoxNearPoint centre = {zero, zero, jv_scale(m->offset, jf_set(1e-3f)), zero};
     best = jox_select_point(crosses, centre, best);
@@ -202,10 +199,6 @@ static inline uint32_t jox_find_points(const JoxContactSelf *self, const JoxCont
     }
     *second = lanes & jm_bits(jm_without(has, crosses));
     return lanes;
-}
-
-static inline JoxFloats jv_det(JoxVector a, JoxVector b) {
-    return a.x * b.y - a.y * b.x;
 }
 
 /* Returns the inverse radius of gyration of a torso, 1/m; 0 of a disc. */

@@ -13,6 +13,7 @@ enum {
         2 * JOX_MOST_NEIGHBOURS /* most contacts that one agent finds with others */
 };
 
+#define JOX_SECOND_APART 0.02f /* m: least distance of two points at which the same two touch */
 /* N/m: stiffness of turned shoulders, until the bodies themselves meet */
 #define JOX_SQUEEZE 2000.0f
 

@@ -170,11 +170,11 @@ static void sort_by_edge(JoxFoundWall *found, uint32_t count) {
 static void find_wall_levers(const JoxAgents *a, const JoxFoundWall *found, JoxWallContact *out) {
     const uint32_t i = out->agent;
     const float mass = jox_param(a, JOX_PARAM_mass, i);
-    const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
+    const float gyration = jox_torso_gyration(a, i);
     out->mass = mass;
-    if (!(half > 0.0f))
+    if (!(gyration > 0.0f))
         return;
-    const float turns = 1.0f / sqrtf(jox_torso_gyration2((JoxTorso){a->contact_radius[i], half}));
+    const float turns = 1.0f / gyration;
     out->lever = turns * jox_det(found->own, found->normal);
     out->slip_lever = turns * (jox_dot(found->own, found->normal) - a->contact_radius[i]);
     out->mass = mass / (1.0f + out->lever * out->lever);

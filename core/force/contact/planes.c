@@ -39,11 +39,8 @@ static float find_turning(const JoxAgents *a, const JoxPair *p) {
     float speed = 0.0f;
     const uint32_t of[2] = {p->first, p->second};
     for (int k = 0; k < 2; k++) {
-        const float half = jox_length(jox_v2(a->axis_x[of[k]], a->axis_y[of[k]]));
-        const JoxTorso torso = {a->contact_radius[of[k]], half};
-        if (half > 0.0f)
-            speed += (k ? -1.0f : 1.0f) * a->spin[of[k]] * p->at.levers[k] *
-                     sqrtf(jox_torso_gyration2(torso));
+        speed +=
+            (k ? -1.0f : 1.0f) * a->spin[of[k]] * p->at.levers[k] * jox_torso_gyration(a, of[k]);
     }
     return speed;
 }

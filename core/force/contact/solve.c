@@ -14,15 +14,11 @@ enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
 /* One pass over a part of the contacts. */
 typedef struct Pass {
     JoxForces *forces;
-    bool bears;       /* of plans, which rub on nobody */
+    bool bears;       /* the contacts bear plans, which cause no friction */
     uint32_t first;   /* first contact of the colour */
     float *residuals; /* per chunk: greatest change of an impulse, N s */
     uint32_t chunk;   /* index in `residuals` of the first chunk of the pass's part */
 } Pass;
-
-static inline JoxV2 get_tangent(JoxV2 normal) {
-    return (JoxV2){-normal.y, normal.x};
-}
 
 /* Applies the impulses that the contacts of a colour start with. */
 static void apply_colour_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -64,7 +60,7 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
         jox_add_impulse(other, at->normal, at->levers[1], -change);
         if (!(at->slip_mass > 0.0f) || pass->bears)
             continue;
-        const JoxV2 tangent = get_tangent(at->normal);
+        const JoxV2 tangent = jox_left(at->normal);
         const float slips = jox_speed_along(one, tangent, at->slips[0]) -
                             jox_speed_along(other, tangent, at->slips[1]);
         const float bound = f->options.friction * after, last = p->slip;
@@ -103,7 +99,7 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
         jox_add_impulse(motion, w->normal, w->lever, change);
         if (!(w->slip_mass > 0.0f) || pass->bears)
             continue;
-        const JoxV2 tangent = get_tangent(w->normal);
+        const JoxV2 tangent = jox_left(w->normal);
         const float bound = f->options.friction * w->impulse, last = w->slip;
         w->slip = jox_clampf(last - jox_speed_along(motion, tangent, w->slip_lever) * w->slip_mass,
                              -bound, bound);

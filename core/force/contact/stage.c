@@ -51,17 +51,15 @@ static void write_contact_forces(void *context, uint32_t begin, uint32_t end, ui
     }
 }
 
-/* Writes the spins that contacts give. */
-static void write_spins(JoxForces *f) {
+/* Writes the spins that contacts give to agents [begin, end). */
+static void write_spins(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
     JoxAgents *a = f->step.agents;
-    const JoxContacts *c = f->contacts;
-    if (f->options.literal || !(c->pairs.count || c->walls.count || c->touches.count))
-        return;
-    for (uint32_t i = 0; i < a->count; i++) {
-        const float half = jox_length(jox_v2(a->axis_x[i], a->axis_y[i]));
-        if (half > 0.0f && isfinite(a->spin[i])) /* else the world reports it */
-            a->spin[i] = c->solve.motions[i].spin /
-                         sqrtf(jox_torso_gyration2((JoxTorso){a->contact_radius[i], half}));
+    for (uint32_t i = begin; i < end; i++) {
+        const float gyration = jox_torso_gyration(a, i);
+        if (gyration > 0.0f && isfinite(a->spin[i])) /* else the world reports it */
+            a->spin[i] = f->contacts->solve.motions[i].spin / gyration;
     }
 }
 
@@ -78,6 +76,13 @@ static void add_wall_forces(JoxForces *f) {
     }
 }
 
+/* Solves all contacts in physical mode, and writes the spins that they give. */
+static void solve_contacts(JoxForces *f) {
+    jox_contacts_solve(f);
+    if (f->step.neighbours->has_torsos)
+        jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, write_spins, f);
+}
+
 void jox_force_contact(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     const JoxContacts *found = f->contacts;
@@ -89,10 +94,8 @@ void jox_force_contact(JoxForces *f) {
     if (f->options.literal)
         jox_literal_contacts(f);
     else if (found->pairs.count || found->walls.count || found->touches.count)
-        jox_contacts_solve(f);
+        solve_contacts(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, write_contact_forces, f);
-    if (f->step.neighbours->has_torsos && f->contacts->pairs.end_starts)
-        write_spins(f);
     add_wall_forces(f); /* in literal mode walls do not press */
     JOX_CHECK(jox_contacts_check(f));
     jox_contacts_keep_impulses(f);

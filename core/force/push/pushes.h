@@ -20,8 +20,8 @@ typedef struct JoxPushTotals {
     int64_t ground_x, ground_y;
 } JoxPushTotals;
 
-/* Who pushes whom, for the agents of a chunk: the direction of each agent's push, a unit vector;
-   (0, 0): it does not push, and `people` has no meaning. */
+/* Pushes of the agents of a chunk, and the agents in their way: the direction of each agent's push,
+   a unit vector; (0, 0): it does not push, and `people` has no meaning. */
 typedef struct JoxPushing {
     float aim_x[JOX_FORCE_GRAIN], aim_y[JOX_FORCE_GRAIN];
     JoxFound people;

@@ -96,7 +96,8 @@ static void begin_agents(void *context, uint32_t begin, uint32_t end, uint32_t w
         jox_interleave(&f->records[i], a->contact_radius + i, jox_params(a, JOX_PARAM_radius, i),
                        jox_params(a, JOX_PARAM_mass, i), a->id + i,
                        end - i < JOX_AGENTS_PADDING ? (end - i + 3) / 4 * 4 : JOX_AGENTS_PADDING);
-    for (uint32_t i = begin; i < end && has_measures(a); i++) {
+    const bool measured = has_measures(a);
+    for (uint32_t i = begin; i < end && measured; i++) {
         const JoxTorso torso = jox_agent_torso(a, i, f->options.literal);
         f->records[i].outer = torso.radius + torso.half; /* a disc's before it turned a shoulder */
     }

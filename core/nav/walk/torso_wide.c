@@ -16,7 +16,7 @@
 #define DAMPING 10.0f        /* 1/s */
 #define MOST_TORQUE 20.0f    /* N m */
 
-/* What a packet of agents sees as it turns. */
+/* A packet of agents that turn, and the room that they see. */
 typedef struct Packet {
     const JoxWalk *w;
     uint32_t first;
@@ -24,10 +24,6 @@ typedef struct Packet {
     JoxFloats radius;      /* of the torso, m */
     JoxFloats left, right; /* free room on both sides of the way, m */
 } Packet;
-
-static inline JoxFloats det(JoxVector a, JoxVector b) {
-    return a.x * b.y - a.y * b.x;
-}
 
 /* Narrows the room of a packet by one neighbour of each of `lanes`. */
 static inline void mind_neighbour(Packet *p, const uint32_t *others, JoxMask lanes) {
@@ -41,7 +37,7 @@ static inline void mind_neighbour(Packet *p, const uint32_t *others, JoxMask lan
         offset.x = jf_wrap(offset.x, a->period.x);
         offset.y = jf_wrap(offset.y, a->period.y);
     }
-    const JoxFloats along = jv_dot(offset, p->way), across = det(p->way, offset);
+    const JoxFloats along = jv_dot(offset, p->way), across = jv_det(p->way, offset);
     const JoxFloats aside = jf_abs(across);
     JoxMask counts = jm_and(jf_lt(jf_set(-LOOK_BESIDE), along), jf_lt(along, jf_set(LOOK_AHEAD)));
     counts = jm_and(jm_and(counts, lanes), jf_lt(p->radius, aside));
@@ -52,7 +48,7 @@ static inline void mind_neighbour(Packet *p, const uint32_t *others, JoxMask lan
     const JoxFloats same = jv_dot(p->way, (JoxVector){heading[0], heading[1]});
     counts = jm_and(counts, jf_lt(same, jf_set(SAME_WAY)));
     jf_records_at(&near->shapes[0].axis_x, others, shape);
-    const JoxFloats reach = shape[2] + jf_abs(det(p->way, (JoxVector){shape[0], shape[1]}));
+    const JoxFloats reach = shape[2] + jf_abs(jv_det(p->way, (JoxVector){shape[0], shape[1]}));
     const JoxFloats room = aside - reach;
     const JoxMask is_left = jf_lt(zero, across);
     const JoxMask on_right = jm_without(counts, is_left), on_left = jm_and(counts, is_left);
@@ -143,7 +139,7 @@ void JOX_WIDE(jox_torso_packets)(const JoxWalk *w, uint32_t begin, uint32_t end)
         cosine = jf_select(stands, one, cosine);
         const JoxFloats sine = jf_sqrt(one - cosine * cosine);
         const JoxVector chest = jv_load(a->chest_x, a->chest_y, i);
-        const JoxFloats s = det(packet.way, chest), c = jv_dot(packet.way, chest);
+        const JoxFloats s = jv_det(packet.way, chest), c = jv_dot(packet.way, chest);
         const JoxFloats wanted_sine = jf_select(jf_lt(s, zero), -sine, sine);
         const JoxFloats turn = wanted_sine * c - cosine * s; /* sine of the angle that is left */
         const JoxMask behind = jf_lt(cosine * c + wanted_sine * s, zero);
