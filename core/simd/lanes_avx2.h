@@ -87,6 +87,18 @@ static inline void jf_transpose_rows_(const float *const row[8], JoxFloats out[4
     out[3] = _mm256_shuffle_ps(zw01, zw23, 0xee);
 }
 
+static inline void jf_put_rows(float *const row[8], const JoxFloats in[4]) {
+    const __m256 xy01 = _mm256_unpacklo_ps(in[0], in[1]), zw01 = _mm256_unpacklo_ps(in[2], in[3]);
+    const __m256 xy23 = _mm256_unpackhi_ps(in[0], in[1]), zw23 = _mm256_unpackhi_ps(in[2], in[3]);
+    const __m256 r[4] = {_mm256_shuffle_ps(xy01, zw01, 0x44), _mm256_shuffle_ps(xy01, zw01, 0xee),
+                         _mm256_shuffle_ps(xy23, zw23, 0x44), _mm256_shuffle_ps(xy23, zw23, 0xee)};
+    JOX_UNROLL
+    for (int l = 0; l < 4; l++) {
+        _mm_storeu_ps(row[l], _mm256_castps256_ps128(r[l]));
+        _mm_storeu_ps(row[l + 4], _mm256_extractf128_ps(r[l], 1));
+    }
+}
+
 static inline uint32_t jm_bits(JoxMask m) {
     return (uint32_t)_mm256_movemask_ps((__m256)m);
 }

@@ -107,6 +107,20 @@ static inline void jf_transpose_rows_(const float *const row[16], JoxFloats out[
     out[3] = _mm512_shuffle_ps(zw01, zw23, 0xee);
 }
 
+static inline void jf_put_rows(float *const row[16], const JoxFloats in[4]) {
+    const __m512 xy01 = _mm512_unpacklo_ps(in[0], in[1]), zw01 = _mm512_unpacklo_ps(in[2], in[3]);
+    const __m512 xy23 = _mm512_unpackhi_ps(in[0], in[1]), zw23 = _mm512_unpackhi_ps(in[2], in[3]);
+    const __m512 r[4] = {_mm512_shuffle_ps(xy01, zw01, 0x44), _mm512_shuffle_ps(xy01, zw01, 0xee),
+                         _mm512_shuffle_ps(xy23, zw23, 0x44), _mm512_shuffle_ps(xy23, zw23, 0xee)};
+    JOX_UNROLL
+    for (int l = 0; l < 4; l++) {
+        _mm_storeu_ps(row[l], _mm512_castps512_ps128(r[l]));
+        _mm_storeu_ps(row[l + 4], _mm512_extractf32x4_ps(r[l], 1));
+        _mm_storeu_ps(row[l + 8], _mm512_extractf32x4_ps(r[l], 2));
+        _mm_storeu_ps(row[l + 12], _mm512_extractf32x4_ps(r[l], 3));
+    }
+}
+
 static inline uint32_t jm_bits(JoxMask m) {
     return m;
 }

@@ -68,6 +68,16 @@ static inline void jf_transpose_rows_(const float *const row[4], JoxFloats out[4
     out[3] = second.val[1];
 }
 
+static inline void jf_put_rows(float *const row[4], const JoxFloats in[4]) {
+    const float32x4x2_t xz = vzipq_f32(in[0], in[2]), yw = vzipq_f32(in[1], in[3]);
+    const float32x4x2_t low = vzipq_f32(xz.val[0], yw.val[0]);
+    const float32x4x2_t high = vzipq_f32(xz.val[1], yw.val[1]);
+    jf_store(row[0], low.val[0]);
+    jf_store(row[1], low.val[1]);
+    jf_store(row[2], high.val[0]);
+    jf_store(row[3], high.val[1]);
+}
+
 static inline uint32_t jm_bits(JoxMask m) {
     return vaddvq_u32(vandq_u32(m, (JoxMask){1, 2, 4, 8}));
 }

@@ -162,6 +162,13 @@ static inline void jf_records_at(const float *records, const uint32_t *at, JoxFl
     for (size_t c = 0; c < 4; c++)
         out[c] = records[(size_t)4 * *at + c];
 }
+/* Loads four floats for each lane: out[c][l] is row[l][c]; and stores them. */
+static inline void jf_rows(const float *const row[1], JoxFloats out[4]) {
+    memcpy(out, row[0], 4 * sizeof *out);
+}
+static inline void jf_put_rows(float *const row[1], const JoxFloats in[4]) {
+    memcpy(row[0], in, 4 * sizeof *in);
+}
 /* Loads four floats for each lane, from addresses `stride` floats apart: out[c][l] is number c. */
 static inline void jf_fours(const float *from, size_t stride, JoxFloats out[4]) {
     (void)stride;

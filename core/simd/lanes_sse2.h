@@ -65,6 +65,14 @@ static inline void jf_transpose_rows_(const float *const row[4], JoxFloats out[4
     _MM_TRANSPOSE4_PS(out[0], out[1], out[2], out[3]);
 }
 
+static inline void jf_put_rows(float *const row[4], const JoxFloats in[4]) {
+    JoxFloats r[4] = {in[0], in[1], in[2], in[3]};
+    _MM_TRANSPOSE4_PS(r[0], r[1], r[2], r[3]);
+    JOX_UNROLL
+    for (int lane = 0; lane < 4; lane++)
+        _mm_storeu_ps(row[lane], r[lane]);
+}
+
 static inline uint32_t jm_bits(JoxMask m) {
     return (uint32_t)_mm_movemask_ps((__m128)m);
 }

@@ -43,12 +43,16 @@ static inline JoxInts ji_lane(void) {
 }
 
 /* Defined by every instruction set: jf_select, and the transposition of one row of four floats for
-   each lane into four vectors. */
+   each lane into four vectors, and back. */
 static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b);
 static inline void jf_transpose_rows_(const float *const row[JOX_WIDTH], JoxFloats out[4]);
+static inline void jf_put_rows(float *const row[JOX_WIDTH], const JoxFloats in[4]);
 
 static inline JoxInts ji_select(JoxMask m, JoxInts a, JoxInts b) {
     return (JoxInts)jf_select(m, (JoxFloats)a, (JoxFloats)b);
+}
+static inline void jf_rows(const float *const row[JOX_WIDTH], JoxFloats out[4]) {
+    jf_transpose_rows_(row, out);
 }
 static inline void jf_records_at(const float *records, const uint32_t *at, JoxFloats out[4]) {
     const float *row[JOX_WIDTH];

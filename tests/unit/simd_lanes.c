@@ -196,6 +196,21 @@ static void loads_and_picks_keep_lane_order(void **state) {
             expected[l] = lists[2 + 7 * l + c];
         assert_floats(out[c], expected);
     }
+    const float *from[JOX_WIDTH];
+    float *to[JOX_WIDTH], written[JOX_WIDTH][4];
+    for (int l = 0; l < JOX_WIDTH; l++) {
+        from[l] = records + 4 * at[l] + 1;
+        to[l] = written[JOX_WIDTH - 1 - l];
+    }
+    jf_rows(from, out);
+    jf_put_rows(to, out);
+    for (int c = 0; c < 4; c++) {
+        for (int l = 0; l < JOX_WIDTH; l++)
+            expected[l] = from[l][c];
+        assert_floats(out[c], expected);
+        for (int l = 0; l < JOX_WIDTH; l++)
+            assert_true(to[l][c] == from[l][c]);
+    }
     for (int l = 0; l < JOX_WIDTH; l++) {
         expected[l] = records[at[l]];
         lane[l] = table[at[l]];

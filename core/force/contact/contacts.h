@@ -39,6 +39,14 @@ struct JoxContacts {
                                 starts */
 };
 
+/* solve_wide.c: solves contacts once whose agents are all different; their motions are below
+   `motions`. `friction`: 0 leaves slips alone. Returns the greatest change of an impulse, N s. One
+   function for each instruction set. */
+typedef float JoxSolvePairsKernel(JoxPair *pairs, uint32_t count, JoxContactMotion *motions,
+                                  float friction);
+#define X(name, isa) JoxSolvePairsKernel jox_solve_pairs_##name;
+JOX_ISAS(X)
+#undef X
 /* solve.c: solves all impulses. */
 void jox_contacts_solve(JoxForces *forces);
 /* literal_contacts.c: equations 6 and 7 as printed: solves all pairs and touches, each by itself.

@@ -19,13 +19,15 @@ enum {
 
 /* A point at which two agents touch. The normal points to the first, the tangent to the left of it.
    A lever is that of an impulse on the agent about its centre, in its radii of gyration; 0 of a
-   disc, which does not turn. */
+   disc, which does not turn. solve_wide.c reads the numbers in rows of four. */
 typedef struct JoxContactPoint {
     JoxV2 normal;
-    float gap, target;     /* m; least normal velocity of the first relative to the second, m/s */
+    float levers[2];       /* of both agents, along the normal */
+    float target;          /* least normal velocity of the first relative to the second, m/s */
     float mass, slip_mass; /* kg: what the point opposes to impulses along normal and tangent */
-    float levers[2], slips[2]; /* of both agents, along normal and tangent */
-    bool again; /* the two touch at another point, too, which comes before this one */
+    float gap;             /* m */
+    float slips[2];        /* levers along the tangent */
+    bool again;            /* the two touch at another point, too, which comes before this one */
 } JoxContactPoint;
 
 /* A contact that an agent was found to have; the normal points to the agent. One of the two agents

@@ -140,13 +140,12 @@ static void place_pairs(void *context, uint32_t begin, uint32_t end, uint32_t wo
             if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
             const uint32_t at = next[slots[k].colour]++, j = found[k].other;
-            pairs->items[at] =
-                (JoxPair){i,
-                          j,
-                          found[k].at,
-                          found[k].squeeze,
-                          jox_find_kept_impulse(last, &kept, a->id[i], found[k].other_id),
-                          0.0f};
+            pairs->items[at] = (JoxPair){
+                .first = i,
+                .second = j,
+                .impulse = jox_find_kept_impulse(last, &kept, a->id[i], found[k].other_id),
+                .at = found[k].at,
+                .squeeze = found[k].squeeze};
             pairs->ends[pairs->end_starts[i] + slots[k].first_end] = (JoxPairEnd){at, j};
             pairs->ends[pairs->end_starts[j] + slots[k].second_end] = (JoxPairEnd){at, i};
         }

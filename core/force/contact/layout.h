@@ -13,11 +13,11 @@ enum {
    touch at two points. */
 typedef struct JoxPair {
     uint32_t first, second;
+    float impulse; /* along the normal: accumulated, not negative, N s */
+    float slip;    /* along the tangent, by friction, N s */
     JoxContactPoint at;
     float squeeze; /* N: force of turned shoulders, which overlap within the radii; added to the
                       impulse */
-    float impulse; /* along the normal: accumulated, not negative, N s */
-    float slip;    /* along the tangent, by friction, N s */
 } JoxPair;
 
 /* Returns the impulse of a contact on its first agent, N s. */

@@ -8,6 +8,10 @@
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 
+#define X(name, isa) [isa] = jox_solve_pairs_##name,
+static JoxSolvePairsKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
 static const float BEARS = 4.0f; /* tolerance of plans, in tolerances of forces */
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
 
@@ -36,40 +40,13 @@ static void apply_colour_impulses(void *context, uint32_t begin, uint32_t end, u
     }
 }
 
-/* Solves the contacts [begin, end) of a colour once: each impulse becomes what its target asks for
-   at the present velocities, but never pulls; friction stops the tangential motion as far as the
-   impulse allows. */
 static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const Pass *pass = context;
-    JoxForces *f = pass->forces;
-    JoxContactSolve *solve = &f->contacts->solve;
-    float most = 0.0f;
-    for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
-        JoxPair *p = &f->contacts->pairs.items[k];
-        const JoxContactPoint *at = &p->at;
-        JoxContactMotion *one = &solve->motions[p->first], *other = &solve->motions[p->second];
-        float speed = jox_speed_along(one, at->normal, at->levers[0]) -
-                      jox_speed_along(other, at->normal, at->levers[1]);
-        float before = p->impulse;
-        float after = jox_maxf(0.0f, before + (at->target - speed) * at->mass);
-        float change = after - before;
-        p->impulse = after;
-        most = jox_maxf(most, fabsf(change));
-        jox_add_impulse(one, at->normal, at->levers[0], change);
-        jox_add_impulse(other, at->normal, at->levers[1], -change);
-        if (!(at->slip_mass > 0.0f) || pass->bears)
-            continue;
-        const JoxV2 tangent = jox_left(at->normal);
-        const float slips = jox_speed_along(one, tangent, at->slips[0]) -
-                            jox_speed_along(other, tangent, at->slips[1]);
-        const float bound = f->options.friction * after, last = p->slip;
-        p->slip = jox_clampf(last - slips * at->slip_mass, -bound, bound);
-        most = jox_maxf(most, fabsf(p->slip - last));
-        jox_add_impulse(one, tangent, at->slips[0], p->slip - last);
-        jox_add_impulse(other, tangent, at->slips[1], last - p->slip);
-    }
-    pass->residuals[pass->chunk + begin / PAIR_GRAIN] = most;
+    const JoxForces *f = pass->forces;
+    pass->residuals[pass->chunk + begin / PAIR_GRAIN] =
+        KERNELS[f->isa](f->contacts->pairs.items + pass->first + begin, end - begin,
+                        f->contacts->solve.motions, pass->bears ? 0.0f : f->options.friction);
 }
 
 static void apply_wall_impulses(JoxForces *f) {
