@@ -211,11 +211,17 @@ static void compare_agent_neighbours(const JoxAgents *a, const JoxNeighbours *n)
 static void compare_alone(const JoxAgents *a, const JoxNeighbours *n) {
     JoxNeighbours alone = {0};
     for (uint32_t i = 0; i < a->count; i += 7) {
-        jox_perceive_alone(a, i, &alone);
+        jox_perceive_alone(a, i, false, &alone);
         assert_int_equal(alone.count[i], n->count[i]);
-        for (uint32_t k = 0; k < n->count[i]; k++)
-            assert_int_equal(alone.index[jox_neighbour_at(&alone, i, k)],
-                             n->index[jox_neighbour_at(n, i, k)]);
+        assert_true(alone.has_torsos == n->has_torsos);
+        for (uint32_t k = 0; k < n->count[i]; k++) {
+            const uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+            assert_int_equal(alone.index[jox_neighbour_at(&alone, i, k)], j);
+            if (n->has_torsos)
+                assert_memory_equal(&alone.shapes[j], &n->shapes[j], sizeof *n->shapes);
+        }
+        if (n->has_torsos)
+            assert_memory_equal(&alone.shapes[i], &n->shapes[i], sizeof *n->shapes);
     }
     jox_neighbours_free(&alone);
 }

@@ -169,11 +169,25 @@ float jox_nav_sight(const JoxAgents *a) {
     return a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
 }
 
-void jox_perceive_alone(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
+/* Returns the torso of agent i as shape_wide.c computes it. */
+static JoxTorsoShape find_shape(const JoxAgents *a, uint32_t i, bool discs) {
+    const JoxTorso torso = jox_agent_torso(a, i, discs);
+    const bool is_long = torso.half > 0.0f;
+    return (JoxTorsoShape){-a->chest_y[i] * torso.half, a->chest_x[i] * torso.half, torso.radius,
+                           is_long ? 1.0f / (torso.half * torso.half) : 0.0f};
+}
+
+void jox_perceive_alone(const JoxAgents *a, uint32_t i, bool discs, JoxNeighbours *out) {
     Nearest found = {.most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i)};
-    jox_neighbours_reserve(out, i + 1, found.most > 0 ? found.most : 1);
-    out->widest = jox_agents_widest(a, false);
+    jox_neighbours_reserve(out, a->count, found.most > 0 ? found.most : 1);
+    out->widest = jox_agents_widest(a, discs);
+    out->has_torsos = !discs && jox_agents_have_torsos(a);
     search_nearest(NULL, a, i, jox_minf(jox_param(a, JOX_PARAM_perception, i), jox_nav_sight(a)),
                    &found);
     list_nearest(a, i, &found, out);
+    out->shapes[i] = find_shape(a, i, discs);
+    for (uint32_t n = 0; n < found.count; n++) {
+        const uint32_t j = out->index[jox_neighbour_at(out, i, n)];
+        out->shapes[j] = find_shape(a, j, discs);
+    }
 }

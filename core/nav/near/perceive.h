@@ -33,9 +33,9 @@ JOX_ISAS(X)
 /* Finds the neighbours of one agent, with any number of candidates; searches within `radius` (m)
  * first. */
 void jox_perceive_one(const JoxPerceive *perceive, uint32_t agent, float radius);
-/* Finds the neighbours of one agent exactly as the kernel does, at any time and by no grid; writes
-   no column. */
-void jox_perceive_alone(const JoxAgents *agents, uint32_t agent, JoxNeighbours *out);
+/* Finds the neighbours of one agent and their torsos exactly as the kernels do, at any time and by
+   no grid; writes no column. `discs`: all are discs, as in literal mode. */
+void jox_perceive_alone(const JoxAgents *agents, uint32_t agent, bool discs, JoxNeighbours *out);
 /* Lists the agents within `range` (m) of one agent in touch_index. */
 void jox_perceive_touching(const JoxPerceive *perceive, uint32_t agent, float range);
 

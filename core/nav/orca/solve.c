@@ -155,9 +155,17 @@ static JoxV2 find_wanted_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlane
     return jox_v2(wanted.x, wanted.y);
 }
 
-/* Solves for one agent and restores its columns. */
+static void put_shape(JoxAgents *a, uint32_t i, JoxTorsoShape shape) {
+    a->axis_x[i] = shape.axis_x;
+    a->axis_y[i] = shape.axis_y;
+    a->contact_radius[i] = shape.radius;
+}
+
+/* Solves for one agent, with its torso as it is now, and restores its columns. */
 static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     JoxAgents *a = s->step.agents;
+    const JoxTorsoShape last = {a->axis_x[i], a->axis_y[i], a->contact_radius[i], 0.0f};
+    put_shape(a, i, s->step.neighbours->shapes[i]);
     const float x = a->next_x[i], y = a->next_y[i];
     const uint8_t failed = a->failed[i], notes = a->plan_notes[i];
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
@@ -171,6 +179,7 @@ static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     a->next_y[i] = y;
     a->failed[i] = failed;
     a->plan_notes[i] = notes;
+    put_shape(a, i, last);
 }
 
 void jox_nav_plan(const JoxNav *nav, const JoxStep *step, uint32_t agent, JoxPlan *out) {
@@ -181,7 +190,7 @@ void jox_nav_plan(const JoxNav *nav, const JoxStep *step, uint32_t agent, JoxPla
                       .moment = pick_aside_moment(step->timing.time)};
     Touched *own = solve.step.touched ? jox_alloc(1, sizeof *own) : NULL;
     JOX_ASSERT(agent < step->agents->count);
-    jox_perceive_alone(step->agents, agent, &neighbours);
+    jox_perceive_alone(step->agents, agent, nav->literal, &neighbours);
     solve.step.neighbours = &neighbours;
     if (own) {
         find_touched(step->agents, agent, &neighbours, step->touched, own);
