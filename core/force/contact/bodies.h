@@ -52,9 +52,9 @@ static inline uint32_t jox_touch_number_of(const JoxTouches *touches, uint32_t a
 void jox_touches_start_solve(JoxForces *forces);
 /* Solves all touches once; returns the greatest change of an impulse, N s. */
 float jox_touches_solve_once(JoxForces *forces);
-/* The same for plans (jox_force_bear): bodies keep the motion that forces gave them. */
+/* Starts the solve of plans (jox_force_bear), in which bodies keep the motion that forces gave
+   them. */
 void jox_touches_start_bearing(JoxForces *forces);
-float jox_touches_bear_once(JoxForces *forces);
 /* Raises the targets of touches that overlap to their parting speeds; returns whether any does. */
 bool jox_touches_start_parting(JoxForces *forces);
 /* Gives the bodies the opposite of the impulses that agents got, and keeps these. */

@@ -84,21 +84,6 @@ bool jox_touches_start_parting(JoxForces *f) {
     return parts;
 }
 
-float jox_touches_bear_once(JoxForces *f) {
-    JoxContactMotion *motions = f->contacts->solve.motions;
-    JoxTouches *touches = &f->contacts->touches;
-    float most = 0.0f;
-    for (uint32_t k = 0; k < touches->count; k++) {
-        JoxTouch *t = &touches->items[k];
-        const float speed = jox_speed_along(&motions[t->agent], t->normal, t->lever);
-        const float last = t->before;
-        t->before = jox_maxf(0.0f, last + (t->target - speed) * t->mass);
-        jox_add_impulse(&motions[t->agent], t->normal, t->lever, t->before - last);
-        most = jox_maxf(most, fabsf(t->before - last));
-    }
-    return most;
-}
-
 void jox_touches_give_impulses(JoxForces *f) {
     JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_TOUCHES];
     JoxTouches *touches = &f->contacts->touches;

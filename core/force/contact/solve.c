@@ -13,7 +13,7 @@ static JoxSolvePairsKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 static const float BEARS = 4.0f; /* tolerance of plans, in tolerances of forces */
-enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };
+enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256, TOUCH_GRAIN = 256 };
 
 /* One pass over a part of the contacts. */
 typedef struct Pass {
@@ -86,6 +86,31 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
     pass->residuals[pass->chunk + begin / WALL_GRAIN] = most;
 }
 
+/* Solves for plans the touches of agents whose first touch is in [begin, end): bodies keep the
+   motion that forces gave them. */
+static void bear_touches(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const Pass *pass = context;
+    JoxForces *f = pass->forces;
+    JoxContactMotion *motions = f->contacts->solve.motions;
+    const JoxTouches *touches = &f->contacts->touches;
+    float most = 0.0f;
+    for (uint32_t k = begin; k < touches->count; k++) {
+        JoxTouch *t = &touches->items[k];
+        const uint32_t first = touches->first[t->agent];
+        if (first >= end)
+            break;
+        if (first < begin)
+            continue;
+        const float speed = jox_speed_along(&motions[t->agent], t->normal, t->lever);
+        const float last = t->before;
+        t->before = jox_maxf(0.0f, last + (t->target - speed) * t->mass);
+        jox_add_impulse(&motions[t->agent], t->normal, t->lever, t->before - last);
+        most = jox_maxf(most, fabsf(t->before - last));
+    }
+    pass->residuals[pass->chunk + begin / TOUCH_GRAIN] = most;
+}
+
 static uint32_t count_chunks(uint32_t count, uint32_t grain) {
     return (count + grain - 1) / grain;
 }
@@ -105,7 +130,12 @@ static float solve_once(JoxForces *f, bool bears) {
     }
     jox_parallel_for(f->step.pool, walls->group_count, WALL_GRAIN, solve_walls, &pass);
     pass.chunk += count_chunks(walls->group_count, WALL_GRAIN);
-    float most = bears ? jox_touches_bear_once(f) : jox_touches_solve_once(f);
+    float most = bears ? 0.0f : jox_touches_solve_once(f);
+    if (bears) {
+        jox_parallel_for(f->step.pool, f->contacts->touches.count, TOUCH_GRAIN, bear_touches,
+                         &pass);
+        pass.chunk += count_chunks(f->contacts->touches.count, TOUCH_GRAIN);
+    }
     for (uint32_t k = 0; k < pass.chunk; k++)
         most = jox_maxf(most, solve->residuals[k]);
     return most;
@@ -115,7 +145,8 @@ static float solve_once(JoxForces *f, bool bears) {
 static void apply_first_impulses(JoxForces *f) {
     JoxContactSolve *solve = &f->contacts->solve;
     const JoxPairs *p = &f->contacts->pairs;
-    uint32_t chunks = count_chunks(f->contacts->walls.group_count, WALL_GRAIN);
+    uint32_t chunks = count_chunks(f->contacts->walls.group_count, WALL_GRAIN) +
+                      count_chunks(f->contacts->touches.count, TOUCH_GRAIN);
     for (uint32_t c = 0; c < p->colours; c++)
         chunks += count_chunks(p->starts[c + 1] - p->starts[c], PAIR_GRAIN);
     JOX_RESERVE(solve->residuals, solve->residual_capacity, chunks);
@@ -154,6 +185,14 @@ static void start_bearing(void *context, uint32_t begin, uint32_t end, uint32_t 
     }
 }
 
+static void clear_pair_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxForces *f = context;
+    JoxPair *items = f->contacts->pairs.items;
+    for (uint32_t k = begin; k < end; k++)
+        items[k].impulse = items[k].slip = 0.0f;
+}
+
 /* Writes what contacts have changed of the velocities of agents [begin, end) so far. */
 static void end_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
@@ -179,26 +218,37 @@ static void end_parting(void *context, uint32_t begin, uint32_t end, uint32_t wo
     }
 }
 
+/* Raises targets to the parting speed of an overlap; returns whether it is higher. */
+static inline bool raise_target(const JoxForces *f, float gap, float *target) {
+    const float speed = jox_parting_speed(f, gap);
+    if (!(speed > *target))
+        return false;
+    *target = speed;
+    return true;
+}
+
+/* Raises the targets of the pairs [begin, end) that overlap. */
+static void raise_pair_targets(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxForces *f = context;
+    bool parts = false;
+    for (uint32_t k = begin; k < end; k++) {
+        JoxContactPoint *at = &f->contacts->pairs.items[k].at;
+        parts |= raise_target(f, at->gap, &at->target);
+    }
+    f->contacts->solve.residuals[begin / PAIR_GRAIN] = parts ? 1.0f : 0.0f;
+}
+
 /* Raises the targets of contacts that overlap to their parting speeds; returns whether any does. */
 static bool start_parting(JoxForces *f) {
     JoxWallContacts *walls = &f->contacts->walls;
-    JoxPairs *pairs = &f->contacts->pairs;
+    const JoxPairs *pairs = &f->contacts->pairs;
     bool parts = jox_touches_start_parting(f);
-    for (uint32_t k = 0; k < pairs->count; k++) {
-        JoxContactPoint *at = &pairs->items[k].at;
-        const float speed = jox_parting_speed(f, at->gap);
-        if (!(speed > at->target))
-            continue;
-        at->target = speed;
-        parts = true;
-    }
-    for (uint32_t k = 0; k < walls->count; k++) {
-        const float speed = jox_parting_speed(f, walls->items[k].gap);
-        if (!(speed > walls->items[k].target))
-            continue;
-        walls->items[k].target = speed;
-        parts = true;
-    }
+    jox_parallel_for(f->step.pool, pairs->count, PAIR_GRAIN, raise_pair_targets, f);
+    for (uint32_t k = 0; k < count_chunks(pairs->count, PAIR_GRAIN); k++)
+        parts |= f->contacts->solve.residuals[k] > 0.0f;
+    for (uint32_t k = 0; k < walls->count; k++)
+        parts |= raise_target(f, walls->items[k].gap, &walls->items[k].target);
     return parts;
 }
 
@@ -222,8 +272,7 @@ void jox_force_bear(JoxForces *f) {
             jox_mem_fill(columns[k], 0, a->count * sizeof *columns[k]);
         return;
     }
-    for (uint32_t k = 0; k < pairs->count; k++)
-        pairs->items[k].impulse = pairs->items[k].slip = 0.0f;
+    jox_parallel_for(f->step.pool, pairs->count, PAIR_GRAIN, clear_pair_impulses, f);
     for (uint32_t k = 0; k < walls->count; k++)
         walls->items[k].impulse = walls->items[k].slip = 0.0f;
     jox_touches_start_bearing(f);
