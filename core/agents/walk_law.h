@@ -24,7 +24,7 @@
     X(cross_time, "s", 0.05, 10, 0.35, "time gap kept to people who cross")                        \
     X(contact_time, "s", 0.05, 20, 2.6, "time to a contact below which a way is worth less")       \
     X(wall_time, "s", 0.05, 10, 0.35, "time kept to walls when going aside")                       \
-    X(wall_radius, "", 0, 3, 0.6, "distance kept to walls when going aside, in radii")             \
+    X(wall_reach, "", 0, 3, 0.75, "distance kept to walls when going aside, in reaches")           \
     X(turn_cost, "", 0, 5, 0.48, "cost of turning from the course, in wanted speeds")              \
     X(right, "", -1, 1, 0.058, "value of going aside to the right, in wanted speeds")              \
     X(course_time, "s", 0.01, 10, 0.2, "time in which the course follows the way chosen")          \

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "agents/torso.h"
 #include "base/number/elementary.h"
 #include "base/number/random.h"
 #include "geom/polygon.h"
@@ -171,8 +172,9 @@ static double measure_distance(const Packet *p, uint32_t edge, double x, double 
 /* Limits a way by a wall: how far the walker gets before it is `keep` from it. */
 static void limit_by_plain_wall(Packet *p, Way *w, uint32_t edge, double speed) {
     const double stride = 0.0005;
-    double keep = p->law.wall_radius * (double)jox_param(&p->agents, JOX_PARAM_radius, p->me),
-           path = 0.0;
+    const JoxAgents *a = &p->agents;
+    const JoxV2 aside = jox_left((JoxV2){a->aim_x[p->me], a->aim_y[p->me]});
+    double keep = p->law.wall_reach * (double)jox_torso_reach(a, p->me, aside), path = 0.0;
     if (measure_distance(p, edge, 0.0, 0.0) < keep) { /* too near: not towards it */
         JoxV2 off = jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], (JoxV2){0, 0});
         path = (double)off.x * w->x + (double)off.y * w->y > 0.0 ? 0.0 : INFINITY;

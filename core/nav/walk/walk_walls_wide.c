@@ -1,7 +1,10 @@
-/* The walking law: how far away walls count, and the speeds that they allow one agent. Plain loops
-   over the directions, which compilers vectorise with the same bits on each instruction set. */
+/* The walking law: how far away walls count, and the speeds that they allow one agent. Walls are
+   kept at a share of how far the torso reaches across the way: people pass them with a shoulder
+   turned. Plain loops over the directions, which compilers vectorise with the same bits on each
+   instruction set. */
 #include <math.h>
 
+#include "agents/torso_lanes.h"
 #include "geom/polygon.h"
 #include "nav/walk/walk.h"
 #include "nav/walk/walk_lanes.h"
@@ -85,7 +88,7 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
     const JoxWallGrid *grid = &w->nav->grid;
     const JoxV2 aim = {a->aim_x[i], a->aim_y[i]};
     Seeker p = {.at = {a->x[i], a->y[i]},
-                .keep = (float)w->law->wall_radius * jox_param(a, JOX_PARAM_radius, i),
+                .keep = (float)w->law->wall_reach * jox_torso_reach(a, i, jox_left(aim)),
                 .speed = jox_length((JoxV2){a->pref_x[i], a->pref_y[i]}),
                 .per_time = 1.0f / (float)w->law->wall_time};
     for (int k = 0; k < EDGE_LANES; k++) {
@@ -107,7 +110,6 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
 
 /* Computes the aims of agents and returns how far away walls count for walkers, m; -1 without
    walkers. */
-
 float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
     JoxAgents *a = w->step.agents;
     const JoxFloats zero = jf_set(0.0f), none = jf_set(-1.0f);
@@ -120,7 +122,7 @@ float JOX_WIDE(jox_walk_aim)(const JoxWalk *w, uint32_t begin, uint32_t end) {
         const JoxVector aim = jv_select(jf_lt(zero, speed), unit, (JoxVector){zero, zero});
         const JoxMask walks =
             jm_and(jf_lt(zero, jox_param_lanes(a, JOX_PARAM_time_gap, i)), jm_of_bits(lanes));
-        const JoxFloats keep = (float)w->law->wall_radius * jox_param_lanes(a, JOX_PARAM_radius, i);
+        const JoxFloats keep = (float)w->law->wall_reach * jox_outer_lanes(a, i);
         const JoxFloats far = keep + speed * (float)w->law->wall_time;
         reach = jf_max(reach, jf_select(walks, far, none));
         float x[JOX_WIDTH], y[JOX_WIDTH];

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "agents/param_lanes.h"
+#include "agents/torso_lanes.h"
 #include "geom/wall_grid_lanes.h"
 #include "nav/walk/walk.h"
 #include "nav/walk/walk_lanes.h"
@@ -473,8 +474,7 @@ static void begin_walk_packet(Packet *p, uint32_t first, uint32_t end) {
     p->speed = jf_select(wants, speed, one);
     p->unhidden2 = jf_load(p->w->nav->unhidden2 + first);
     p->near_walls = p->lanes & jm_bits(jf_lt(p->unhidden2, jf_set(INFINITY)));
-    const JoxFloats keep =
-        (float)p->w->law->wall_radius * jox_param_lanes(a, JOX_PARAM_radius, first);
+    const JoxFloats keep = (float)law->wall_reach * jox_outer_lanes(a, first);
     const JoxFloats reach = keep + p->speed * (float)p->w->law->wall_time;
     p->at_walls =
         p->near_walls & ~jm_bits(jox_wall_grid_clear_lanes(p->w->nav->unhidden2, first, reach));
