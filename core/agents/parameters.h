@@ -34,7 +34,7 @@
     X(haste, "", 0, 1, 0.5, "motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness")            \
     X(turn, "", 0, 0.6, 0.4,                                                                       \
       "share of the radius that an agent under way saves in contacts by turning a shoulder")       \
-    X(step_back, "m/s", 0, 2, 0.13,                                                                \
+    X(step_back, "m/s", 0, 2, 0.11,                                                                \
       "speed at which an agent that stands steps back to where it stood before it was moved")
 
 typedef enum JoxParameter {

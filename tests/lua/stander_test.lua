@@ -33,7 +33,7 @@ test("a push moves those in the way, not those aside, and then they stand again"
   local s = scene(block(25, true))
   local before = s:agents("standing")
   s:reaches("Arrived", { agents = "runner", within = 12 })
-  s:run(3)
+  s:run(5)
   local moved, most = 0, 0
   for n, a in ipairs(s:agents("standing")) do
     local way = math.sqrt((a.x - before[n].x) ^ 2 + (a.y - before[n].y) ^ 2)

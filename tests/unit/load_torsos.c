@@ -8,7 +8,7 @@
 
 enum { PRESSES = 60 };
 /* m: overlap allowed, of which most comes from turning by up to 0.3 rad in a step. */
-static const double SUNK = 0.015;
+static const double SUNK = 0.018;
 
 /* Adds a person with a torso whose chest points along `angle`. */
 static JoAgent add_torso(JoWorld *w, double x, double y, double angle, double breadth,

@@ -140,7 +140,7 @@ static void compare_faces(const Kernels *k, JoxSteer *s) {
     for (uint32_t n = 0; n < s->count; n++) {
         const uint32_t i = s->index[n];
         const JoxV2 v = {a->vx[i], a->vy[i]};
-        const bool moves = jox_length2(v) > 0.0025f;
+        const bool moves = jox_length2(v) > 0.0025f && !jox_stands(a, i);
         assert_same_vector((JoxV2){a->face_x[i], a->face_y[i]},
                            moves ? jox_unit(v) : jox_v2(1.0f, 0.0f));
         turned += moves;

@@ -58,9 +58,10 @@ static const float PROGRAM_EPSILON = 1e-5f;
 enum { MOST_HALF_PLANES = 128 };
 
 /* Objective of a program: the velocity nearest to `wanted`; or, where directed, the one farthest
-   along `direction`, ties by the distance to `wanted`. */
+   along `direction`, ties, which lead there by less than `least`, by the distance to `wanted`. */
 typedef struct Objective {
     JoxV2 wanted, direction;
+    float least;
     bool directed;
 } Objective;
 
@@ -98,7 +99,7 @@ static inline bool plain_best_on_border(const JoxHalfPlane *half_planes, uint32_
         wanted = jox_sub(wanted, jox_scale(jox_left(wanted), JOX_ASIDE_RIGHT_FIRST));
     float t = jox_clampf(jox_dot(direction, jox_sub(wanted, foot)), low, high);
     float gain = objective->directed ? jox_dot(objective->direction, direction) : 0.0f;
-    if (gain > PROGRAM_EPSILON || gain < -PROGRAM_EPSILON)
+    if (fabsf(gain) > objective->least)
         t = gain > 0.0f ? high : low;
     *result = jox_add(foot, jox_scale(direction, t));
     return true;
@@ -130,7 +131,8 @@ static inline uint32_t plain_solve_2d(const JoxHalfPlane *half_planes, uint32_t 
 /* Minimises the greatest violation of half_planes[hard..count) while the hard ones hold, starting
    from the first that failed. */
 static inline void plain_solve_3d(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
-                                  uint32_t begin, float speed_limit, JoxV2 wanted, JoxV2 *result) {
+                                  uint32_t begin, float speed_limit, JoxV2 wanted, float least,
+                                  JoxV2 *result) {
     JOX_ASSERT(hard <= begin && begin < count);
     JoxHalfPlane projected[MOST_HALF_PLANES];
     float violation = 0.0f;
@@ -153,7 +155,7 @@ static inline void plain_solve_3d(const JoxHalfPlane *half_planes, uint32_t coun
             JOX_ASSERT(jox_is_unit(projected[n - 1].normal));
         }
         JoxV2 before = *result;
-        Objective objective = {wanted, worst.normal, true};
+        Objective objective = {wanted, worst.normal, least, true};
         if (plain_solve_2d(projected, n, speed_limit, &objective, result) < n)
             *result = before; /* fails only by rounding: the present result already lies there */
         violation = worst.offset - jox_dot(worst.normal, *result);
@@ -161,7 +163,8 @@ static inline void plain_solve_3d(const JoxHalfPlane *half_planes, uint32_t coun
 }
 
 static inline bool plain_program(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
-                                 float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed) {
+                                 float speed_limit, JoxV2 wanted, bool stands, JoxV2 *velocity,
+                                 bool *relaxed) {
     JOX_ASSERT(hard <= count && count <= MOST_HALF_PLANES);
     JOX_ASSERT(!(speed_limit < 0.0f));
     *relaxed = false;
@@ -173,10 +176,11 @@ static inline bool plain_program(const JoxHalfPlane *half_planes, uint32_t count
     }
     if (met < hard) { /* the walls alone contradict each other: find the least violation */
         *relaxed = true;
-        plain_solve_3d(half_planes, hard, 0, met, speed_limit, wanted, velocity);
+        plain_solve_3d(half_planes, hard, 0, met, speed_limit, wanted, PROGRAM_EPSILON, velocity);
         return false;
     }
-    plain_solve_3d(half_planes, count, hard, met, speed_limit, wanted, velocity);
+    plain_solve_3d(half_planes, count, hard, met, speed_limit, wanted,
+                   stands ? 0.1f : PROGRAM_EPSILON, velocity);
     return false;
 }
 
@@ -299,6 +303,11 @@ static inline bool plain_is_imposed(uint32_t k, const JoxHalfPlaneCounts *made) 
     return k < hard || k >= hard + made->agents + made->objects;
 }
 
+/* Returns whether the program of an agent is that of one that wants to stand. */
+static inline bool plain_stands(const JoxSolve *s, uint32_t i) {
+    return !s->nav->literal && jox_stands(s->step.agents, i);
+}
+
 /* Returns how far, m/s, walls alone take an agent from the velocity that it wants. */
 static inline float plain_wall_deviation(const JoxSolve *s, uint32_t i, const JoxHalfPlane *walls,
                                          uint32_t count, JoxV2 wanted) {
@@ -306,7 +315,8 @@ static inline float plain_wall_deviation(const JoxSolve *s, uint32_t i, const Jo
     bool relaxed;
     if (count == 0)
         return 0.0f;
-    plain_program(walls, count, count, s->step.agents->speed_limit[i], wanted, &nearest, &relaxed);
+    plain_program(walls, count, count, s->step.agents->speed_limit[i], wanted, false, &nearest,
+                  &relaxed);
     return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* covers rounding */
 }
 
@@ -340,7 +350,8 @@ static inline bool plain_keep_within_reach(const JoxSolve *s, uint32_t i,
         }
     JoxV2 change;
     bool relaxed;
-    plain_program(imposed, n, hard, sqrtf(reach2), (JoxV2){0.0f, 0.0f}, &change, &relaxed);
+    plain_program(imposed, n, hard, sqrtf(reach2), (JoxV2){0.0f, 0.0f}, plain_stands(s, i), &change,
+                  &relaxed);
     JoxV2 best = jox_add(wanted, change);
     bool lowered = false;
     for (uint32_t k = made->walls; k < all; k++) {
@@ -376,18 +387,20 @@ static inline bool plain_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfP
     const uint32_t count = hard + made->agents + made->objects + made->force;
     JoxV2 velocity;
     bool relaxed;
-    bool met =
-        plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &relaxed);
+    bool met = plain_program(half_planes, count, hard, a->speed_limit[i], wanted,
+                             plain_stands(s, i), &velocity, &relaxed);
     if (relaxed && made->contacts) {
         plain_relax_walls(s, i, half_planes, made->walls);
-        plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &relaxed);
+        plain_program(half_planes, count, hard, a->speed_limit[i], wanted, plain_stands(s, i),
+                      &velocity, &relaxed);
         relaxed = relaxed && !plain_meets(half_planes, made->walls, velocity);
     }
     bool still; /* ignored: whether a wall gives way was settled above */
     if (!s->nav->literal && (made->contacts || made->force) &&
         plain_keep_within_reach(s, i, made, half_planes, wanted, velocity)) {
         a->plan_notes[i] |= JOX_NOTE_BOUNDED;
-        plain_program(half_planes, count, hard, a->speed_limit[i], wanted, &velocity, &still);
+        plain_program(half_planes, count, hard, a->speed_limit[i], wanted, plain_stands(s, i),
+                      &velocity, &still);
     }
     if (made->contacts && plain_is_as_forced(a, i, velocity))
         velocity = jox_v2(a->forced_x[i], a->forced_y[i]);

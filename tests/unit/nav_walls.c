@@ -255,7 +255,8 @@ static void the_program_finds_the_nearest_velocity(void **state) {
             }
         JoxV2 v;
         bool relaxed;
-        bool found = jox_linear_program_solve(half_planes, count, 0, disc, wanted, &v, &relaxed);
+        bool found =
+            jox_linear_program_solve(half_planes, count, 0, disc, wanted, false, &v, &relaxed);
         double worst = 0;
         for (uint32_t k = 0; k < count; k++)
             worst = fmax(worst, half_planes[k].offset - jox_dot(half_planes[k].normal, v));

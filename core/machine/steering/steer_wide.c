@@ -122,7 +122,10 @@ void JOX_WIDE(jox_steer_face)(JoxSteer *s) {
     for (uint32_t n = 0; n < s->count; n += JOX_WIDTH) {
         const JoxInts at = ji_load(s->index + n);
         const JoxVector velocity = pick_vectors(a->vx, a->vy, at);
-        const uint32_t moves = jm_bits(jf_lt(jf_set(MOVES), square_lengths(velocity)));
+        const JoxFloats wanted = square_lengths(pick_vectors(a->pref_x, a->pref_y, at));
+        const JoxMask stands = jf_lt(wanted, jf_set((float)(JOX_STANDS * JOX_STANDS)));
+        const JoxMask is_fast = jf_lt(jf_set(MOVES), square_lengths(velocity));
+        const uint32_t moves = jm_bits(jm_without(is_fast, stands));
         jv_store(s->way_x, s->way_y, n, normalise_lanes(velocity));
         for (uint32_t lane = 0; lane < JOX_WIDTH && n + lane < s->count; lane++) {
             if (!(moves >> lane & 1))

@@ -5,7 +5,8 @@
 #include "nav/orca/solve.h"
 
 bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
-                              float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed) {
+                              float speed_limit, JoxV2 wanted, bool stands, JoxV2 *velocity,
+                              bool *relaxed) {
     const JoxVector wish = {wanted.x, wanted.y};
     JoxRow rows[JOX_MOST_CONSTRAINTS];
     JoxVector best;
@@ -21,9 +22,11 @@ bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, u
     *relaxed = failed && failed_at < (int32_t)hard;
     if (*relaxed) /* the hard half-planes alone contradict each other: minimise their greatest
                      violation */
-        jox_least_violation_lanes(rows, hard, 0, true, failed_at, speed_limit, wish, &best);
+        jox_least_violation_lanes(rows, hard, 0, true, failed_at, speed_limit, wish,
+                                  JOX_TOWARDS_ROUNDING, &best);
     else if (failed)
-        jox_least_violation_lanes(rows, count, hard, true, failed_at, speed_limit, wish, &best);
+        jox_least_violation_lanes(rows, count, hard, true, failed_at, speed_limit, wish,
+                                  jox_least_towards(stands), &best);
     *velocity = (JoxV2){best.x, best.y};
     if (!failed)
         JOX_CHECK(jox_linear_program_check(half_planes, count, speed_limit, *velocity));

@@ -60,20 +60,37 @@ static inline JoxMask jox_border_lanes(const JoxRow *rows, uint32_t row, JoxFloa
     return jm_or(none, jf_lt(high, low));
 }
 
+/* A direction in which the program of the least violation looks for the best velocity. Along a
+   border that leads there by less than `least`, per unit of length, it keeps to the wanted one. */
+typedef struct JoxTowards {
+    JoxVector direction;
+    JoxFloats least;
+} JoxTowards;
+
+/* Values of `least`: rounding, and what it takes for agents that want to stand to go aside. Two
+   nearly opposite half-planes, of a push from behind and of the agent ahead, leave a valley; along
+   it feet would throw an agent aside to lessen their conflict by next to nothing. */
+#define JOX_TOWARDS_ROUNDING 1e-5f
+#define JOX_TOWARDS_STANDING 0.1f
+
+static inline JoxFloats jox_least_towards(JoxMask stands) {
+    return jf_select(stands, jf_set(JOX_TOWARDS_STANDING), jf_set(JOX_TOWARDS_ROUNDING));
+}
+
 /* Returns the best velocities on borders: nearest to `wanted`, or, where `towards` is given,
    farthest along it. */
 static inline JoxVector jox_along_border_lanes(const JoxBorder *b, JoxVector wanted,
-                                               const JoxVector *towards) {
-    const JoxFloats epsilon = jf_set(1e-5f), share = jf_set(JOX_ASIDE_RIGHT_FIRST);
+                                               const JoxTowards *towards) {
+    const JoxFloats share = jf_set(JOX_ASIDE_RIGHT_FIRST);
     if (towards)
         wanted = (JoxVector){wanted.x - (-wanted.y * share), wanted.y - wanted.x * share};
     JoxVector away = {wanted.x - b->foot.x, wanted.y - b->foot.y};
     JoxFloats t = jv_dot(b->direction, away);
     t = jf_select(jf_lt(t, b->low), b->low, jf_select(jf_lt(b->high, t), b->high, t));
     if (towards) {
-        JoxFloats gain = jv_dot(*towards, b->direction);
-        t = jf_select(jf_lt(epsilon, gain), b->high, t);
-        t = jf_select(jf_lt(gain, -epsilon), b->low, t);
+        JoxFloats gain = jv_dot(towards->direction, b->direction);
+        t = jf_select(jf_lt(towards->least, gain), b->high, t);
+        t = jf_select(jf_lt(gain, -towards->least), b->low, t);
     }
     return (JoxVector){b->foot.x + b->direction.x * t, b->foot.y + b->direction.y * t};
 }
@@ -82,11 +99,12 @@ static inline JoxVector jox_along_border_lanes(const JoxBorder *b, JoxVector wan
    the lanes in which not all rows can be met: there *failed_at is the first row that cannot, and
    *result meets the rows before it. `towards`, or NULL: see jox_along_border_lanes. */
 static inline JoxMask jox_program_lanes(const JoxRow *rows, uint32_t count, JoxMask all,
-                                        JoxFloats limit, JoxVector wanted, const JoxVector *towards,
-                                        JoxVector *result, JoxInts *failed_at) {
+                                        JoxFloats limit, JoxVector wanted,
+                                        const JoxTowards *towards, JoxVector *result,
+                                        JoxInts *failed_at) {
     JoxVector v = wanted;
     if (towards) {
-        v = (JoxVector){towards->x * limit, towards->y * limit};
+        v = jv_scale(towards->direction, limit);
     } else {
         JoxFloats length2 = jv_dot(wanted, wanted);
         JoxFloats by = limit / jf_sqrt(length2);
@@ -133,10 +151,11 @@ static inline void jox_project_lanes(const JoxRow *rows, uint32_t hard, uint32_t
 }
 
 /* Solves the three-dimensional program for the lanes of `failed`, from the row that failed:
-   minimises the greatest violation of the soft rows (from `hard` on) while the hard ones hold. */
+   minimises the greatest violation of the soft rows (from `hard` on) while the hard ones hold.
+   `least`: see JoxTowards. */
 static inline void jox_least_violation_lanes(const JoxRow *rows, uint32_t count, uint32_t hard,
                                              JoxMask failed, JoxInts failed_at, JoxFloats limit,
-                                             JoxVector wanted, JoxVector *result) {
+                                             JoxVector wanted, JoxFloats least, JoxVector *result) {
     JoxRow projected[JOX_MOST_CONSTRAINTS];
     JoxFloats violation = jf_set(0.0f);
     memcpy(projected, rows, hard * sizeof *rows);
@@ -152,8 +171,9 @@ static inline void jox_least_violation_lanes(const JoxRow *rows, uint32_t count,
         jox_project_lanes(rows, hard, row, projected);
         JoxVector best;
         JoxInts unmet_at; /* fails only by rounding: the present result already lies there */
+        const JoxTowards towards = {normal, least};
         JoxMask unmet =
-            jox_program_lanes(projected, row, worse, limit, wanted, &normal, &best, &unmet_at);
+            jox_program_lanes(projected, row, worse, limit, wanted, &towards, &best, &unmet_at);
         *result = jv_select(jm_without(worse, unmet), best, *result);
         over = offset - jv_dot(normal, *result);
         violation = jf_select(worse, over, violation);

@@ -11,11 +11,12 @@
 #include "nav/orca/solve.h"
 
 /* The wanted and the forced velocity of agents, m/s, their half-plane of force, the lanes that
-   touch something, and the lanes that touch something or feel a force. */
+   touch something, those that touch something or feel a force, and those that want to stand. In
+   literal mode the last two are none. */
 typedef struct JoxPressed {
     JoxVector wanted, forced;
     JoxPlaneLanes force;
-    JoxMask touching, pressed;
+    JoxMask touching, pressed, stands;
 } JoxPressed;
 
 /* Waiting agents, one per lane, with the rows of half-planes that they had in their packets. Hard
@@ -138,7 +139,7 @@ typedef struct JoxRestLanes {
 /* Loads the gathered agents into lanes. */
 static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l) {
     const JoxAgents *a = s->step.agents;
-    uint32_t touching = 0, pressed = 0;
+    uint32_t touching = 0, pressed = 0, stands = 0;
     uint32_t contacts[JOX_WIDTH] = {0}, failed_at[JOX_WIDTH] = {0};
     const uint32_t first = JOX_REST_HARD - r->hard;
     for (uint32_t k = r->count; k < JOX_WIDTH; k++)
@@ -151,6 +152,7 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
         failed_at[k] = r->failed_at[k] - first;
         touching |= (r->made[k].contacts > 0) << k;
         pressed |= (!s->nav->literal && (r->made[k].contacts > 0 || r->made[k].force)) << k;
+        stands |= (uint32_t)(!s->nav->literal && jox_stands(a, r->agent[k])) << k;
     }
     l->contacts = ji_load(contacts);
     l->failed_at = ji_load(failed_at);
@@ -163,7 +165,8 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
                               {jf_pick(a->half_plane_x, at), jf_pick(a->half_plane_y, at),
                                jf_pick(a->half_plane_offset, at)},
                               jm_of_bits(touching),
-                              jm_of_bits(pressed)};
+                              jm_of_bits(pressed),
+                              jm_of_bits(stands)};
 }
 
 /* Plans one agent that can only move if hard half-planes are relaxed, with its half-planes as they
@@ -190,13 +193,14 @@ static inline bool jox_rest_solve_one(const JoxSolve *s, const JoxRest *r, const
    whose result is invalid. */
 static inline JoxMask jox_best_lanes(const JoxRow *rows, uint32_t count, uint32_t hard,
                                      JoxMask lanes, JoxFloats limit, JoxVector wanted,
-                                     JoxVector *result) {
+                                     JoxMask stands, JoxVector *result) {
     JoxInts at;
     JoxMask failed = jox_program_lanes(rows, count, lanes, limit, wanted, NULL, result, &at);
     JoxMask unmet = jm_and(failed, ji_less(at, ji_set((int32_t)hard)));
     JoxMask soft = jm_without(failed, unmet);
     if (jm_bits(soft))
-        jox_least_violation_lanes(rows, count, hard, soft, at, limit, wanted, result);
+        jox_least_violation_lanes(rows, count, hard, soft, at, limit, wanted,
+                                  jox_least_towards(stands), result);
     return unmet;
 }
 
@@ -218,8 +222,9 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
         jf_store(imposed[row].offset, offset - jv_dot(n, wanted));
     }
     JoxVector change;
-    *unmet = jox_best_lanes(imposed, l->hard + 1, l->hard, l->all,
-                            jf_sqrt(jox_reach2_lanes(&l->pressed)), none, &change);
+    *unmet =
+        jox_best_lanes(imposed, l->hard + 1, l->hard, l->all,
+                       jf_sqrt(jox_reach2_lanes(&l->pressed)), none, l->pressed.stands, &change);
     const JoxVector best = {wanted.x + change.x, wanted.y + change.y};
     JoxMask lowered = jm_of_bits(0);
     for (uint32_t row = 0; row < l->hard; row++) {
@@ -260,7 +265,7 @@ static inline uint32_t jox_rest_solve_far(const JoxSolve *s, JoxRest *r) {
     lowered = jm_without(lowered, unmet);
     if (jm_bits(lowered)) {
         unmet = jm_or(unmet, jox_best_lanes(l.rows, l.count, l.hard, lowered, l.limit,
-                                            l.pressed.wanted, &lowest));
+                                            l.pressed.wanted, l.pressed.stands, &lowest));
         l.velocity = jv_select(lowered, lowest, l.velocity);
     }
     l.velocity = jox_snap_to_forced_lanes(&l.pressed, l.velocity);
@@ -309,7 +314,7 @@ static inline uint32_t jox_rest_solve_unmet(const JoxSolve *s, JoxRest *r, JoxRe
         return 0;
     jox_rest_load(s, r, &l);
     jox_least_violation_lanes(l.rows, l.count, l.hard, l.all, l.failed_at, l.limit,
-                              l.pressed.wanted, &l.velocity);
+                              l.pressed.wanted, jox_least_towards(l.pressed.stands), &l.velocity);
     uint32_t out =
         jm_bits(jox_out_of_reach_lanes(&l.pressed, l.velocity)) & jox_first_lanes(r->count);
     const JoxVector planned = jox_snap_to_forced_lanes(&l.pressed, l.velocity);

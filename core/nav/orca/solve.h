@@ -97,8 +97,10 @@ uint32_t jox_orca_objects(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *o
 /* Finds the velocity of at most `speed_limit` that is nearest to `wanted` and meets all
    half-planes, of which the first `hard` are hard. Returns true if there is one. Otherwise
    *velocity minimises the greatest violation of the soft half-planes while the hard ones hold, and
-   *relaxed tells whether even hard ones had to be violated. */
+   *relaxed tells whether even hard ones had to be violated. `stands`: of an agent that wants to
+   stand. */
 bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
-                              float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
+                              float speed_limit, JoxV2 wanted, bool stands, JoxV2 *velocity,
+                              bool *relaxed);
 
 #endif

@@ -30,8 +30,8 @@ static float find_wall_deviation(const JoxSolve *s, uint32_t i, const JoxHalfPla
     bool relaxed;
     if (count == 0)
         return 0.0f;
-    jox_linear_program_solve(walls, count, count, s->step.agents->speed_limit[i], wanted, &nearest,
-                             &relaxed);
+    jox_linear_program_solve(walls, count, count, s->step.agents->speed_limit[i], wanted, false,
+                             &nearest, &relaxed);
     return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* covers rounding */
 }
 
@@ -58,8 +58,8 @@ static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneC
         }
     JoxV2 change;
     bool relaxed;
-    jox_linear_program_solve(imposed, n, hard, sqrtf(reach2), (JoxV2){0.0f, 0.0f}, &change,
-                             &relaxed);
+    jox_linear_program_solve(imposed, n, hard, sqrtf(reach2), (JoxV2){0.0f, 0.0f}, pressed->stands,
+                             &change, &relaxed);
     JoxV2 best = jox_add(wanted, change);
     bool lowered = false;
     for (uint32_t k = made->walls; k < all; k++) {
@@ -89,7 +89,8 @@ static JoxPressed find_pressed(const JoxSolve *s, uint32_t i, const JoxHalfPlane
                         {a->forced_x[i], a->forced_y[i]},
                         {a->half_plane_x[i], a->half_plane_y[i], a->half_plane_offset[i]},
                         touching,
-                        !s->nav->literal && (touching || made->force)};
+                        !s->nav->literal && (touching || made->force),
+                        !s->nav->literal && jox_stands(a, i)};
 }
 
 bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
@@ -99,20 +100,20 @@ bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made
     const uint32_t count = hard + made->agents + made->objects + made->force;
     JoxV2 velocity;
     bool relaxed;
+    const JoxPressed pressed = find_pressed(s, i, made, wanted);
     bool met = jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
-                                        &velocity, &relaxed);
+                                        pressed.stands, &velocity, &relaxed);
     if (relaxed && made->contacts) {
         relax_walls(s, i, half_planes, made->walls);
-        jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
-                                 &relaxed);
+        jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
+                                 pressed.stands, &velocity, &relaxed);
         relaxed = relaxed && !meets_walls(half_planes, made->walls, velocity);
     }
-    const JoxPressed pressed = find_pressed(s, i, made, wanted);
     bool still; /* ignored: whether a wall gives way was settled above */
     if (keep_within_reach(s, i, made, half_planes, &pressed, velocity)) {
         a->plan_notes[i] |= JOX_NOTE_BOUNDED;
-        jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
-                                 &still);
+        jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
+                                 pressed.stands, &velocity, &still);
     }
     const JoxVector planned =
         jox_snap_to_forced_lanes(&pressed, (JoxVector){velocity.x, velocity.y});

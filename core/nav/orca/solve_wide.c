@@ -153,6 +153,7 @@ static uint32_t solve_packet(JoxPacket *p) {
          jf_load(a->half_plane_offset + i)},
         jm_of_bits(p->touching),
         jm_of_bits(p->pressed),
+        p->s->nav->literal ? jm_of_bits(0) : jox_stands_lanes(a, i),
     };
     const JoxFloats limit = jf_load(a->speed_limit + i);
     JoxInts failed_at;
