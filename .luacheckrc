@@ -2,6 +2,7 @@
 std = {
   read_globals = {
     "inside",
+    "arrived",
     "crosses",
     "near",
     "touches",

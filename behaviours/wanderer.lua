@@ -10,7 +10,7 @@ return machine {
       { to = "Walk" } },
 
     Walk = { steer = field(one_of(own.places)),
-      { to = "Stay",  when = near(goal, 1) | after(90) } },
+      { to = "Stay",  when = near(goal, 1) | arrived(goal) | after(90) } },
 
     Stay = { steer = hold, face = goal, lasts = uniform(3, 15),
       { to = "Walk",  when = lasted } },

@@ -120,6 +120,8 @@ typedef enum JoxForceRole {
     X(STATE, float, settled)       /* time since it was last moved away from there, s */           \
     X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
+    X(RARE, uint32_t, arrived_at)  /* reference to the place where it arrived in a crowd */        \
+    X(RARE, float, kept_off)       /* time for which a crowd has kept it off a place, s */         \
     X(STATE, uint32_t, turn)       /* order among agents that gather in a place; 0: none */        \
     X(STATE, uint32_t, kicked)     /* reference to the body kicked last step */                    \
     X(STATE, uint32_t, struck)     /* reference to the fast body that hit it last step */          \

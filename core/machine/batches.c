@@ -60,6 +60,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->rank);
     jox_free(s->heading);
     jox_free(s->queue);
+    jox_free(s->arrivals);
     jox_free(s->row);
     jox_free(s->entries);
     jox_gatherings_free(s);

@@ -126,6 +126,10 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
     case JOX_OP_PLACE_COUNT:
         place = jox_target_place(run, i, in->place);
         return place < 0 ? 0.0 : find_counted_people(run, place);
+    case JOX_OP_ARRIVED:
+        place = jox_target_place(run, i, in->place);
+        return place >= 0 &&
+               (run->agents->arrived_at[i] == jox_reference(place) || is_inside(run, i, -1, place));
     case JOX_OP_NEAR:
         return is_target_near(run, i, in->target, a);
     case JOX_OP_FIRST_IN:

@@ -66,7 +66,8 @@ typedef enum JoxNow {
 /* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. Target -1 is the
    agent itself. x / 0 is 0. CLAMP: a within [b, c]. DISTANCE: metres from the agent's centre to the
    target, infinite when absent. PLACE_DENSITY, PLACE_COUNT: people in place (a polygon, else a disc
-   of 2 m about it). INSIDE: target is in place. NEAR: target is nearer than a metres. CROSSES: the
+   of 2 m about it). INSIDE: target is in place. ARRIVED: the agent is in place, or
+   agents who have arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the
    last move crossed line `place` from its right to its left. FIRST_IN: the agent heads its queue.
    AFTER: time in state is at least a. LASTED: the drawn duration of the state is over. STUCK: the
    agent has not moved 0.25 m for a seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED:
@@ -86,7 +87,7 @@ typedef enum JoxNow {
     X(ADD) X(SUB) X(MUL) X(DIV) X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP)    \
     X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                           \
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
-    X(INSIDE) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
+    X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
     X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
     X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(SHUT)                             \
     X(QUEUED) X(OPEN)
@@ -378,6 +379,7 @@ typedef struct JoxMachine {
     bool views;    /* hooks read other agents, as they were before the step */
     bool headings; /* it reads the last step's preferred velocities of others; assigned when it is
                       added to a set */
+    bool arrivals; /* it asks for arrival in crowds; assigned like `headings` */
     int32_t vm;    /* index of the Lua state that holds the hooks; -1 none */
 } JoxMachine;
 

@@ -37,6 +37,11 @@ typedef struct JoxOdd {
     double value;
 } JoxOdd;
 
+/* A change of arrived_at. */
+typedef struct JoxArrival {
+    uint32_t agent, place; /* index of the agent; reference to the place */
+} JoxArrival;
+
 typedef double JoxRegisters[JOX_MOST_REGISTERS][JOX_BATCH];
 
 typedef struct JoxMachineScratch {
@@ -76,6 +81,8 @@ typedef struct JoxMachineScratch {
     uint32_t *everywhere; /* names announced to everybody in the last step */
     uint32_t everywhere_count;
     size_t heard_capacity, everywhere_capacity;
+    JoxArrival *arrivals; /* changes of this step */
+    size_t arrival_capacity;
     JoxHands hands;  /* obstacles between an agent and a body it picks up */
     uint64_t *marks; /* a bit per rank of an agent, for sorting a long list by id */
     uint32_t mark_capacity;
@@ -251,6 +258,8 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool);
 /* Returns the target whose queue agents of this state stand in, or -1. */
 int16_t jox_queue_target(const JoxState *state);
 void jox_machines_count_places(JoxMachineRun *run);
+/* Notes which agents have arrived at places, for machines that ask for it (`arrived`). */
+void jox_arrivals_note(JoxMachineRun *run);
 void jox_machines_scratch_free(JoxMachineRun *run);
 /* Evaluates the duration of a state for an agent, s; INFINITY if the expression yields NaN, which
    is reported. */

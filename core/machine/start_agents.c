@@ -39,11 +39,20 @@ static bool reads_headings(const JoxMachine *machine) {
     return asks;
 }
 
+static bool asks_for_arrival(const JoxMachine *machine) {
+    for (uint32_t e = 0; e < machine->expression_count; e++)
+        for (uint32_t k = 0; k < machine->expressions[e].count; k++)
+            if (machine->expressions[e].code[k].op == JOX_OP_ARRIVED)
+                return true;
+    return false;
+}
+
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
     JOX_ASSERT(index <= run->set->count && index < JOX_MOST_MACHINES);
     JOX_CHECK(jox_machine_check(machine));
     assign_numbers(run, machine);
     machine->headings = reads_headings(machine);
+    machine->arrivals = asks_for_arrival(machine);
     jox_agents_widen(run->agents, machine->own_count, machine->memory_count);
     run->set->items[index] = run->set->built[index] = machine;
     jox_counts_begin(&run->state->counts[index], machine, run->tick);

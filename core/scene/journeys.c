@@ -177,15 +177,6 @@ static void write_transitions(Journey *j, uint32_t step, Part part, const char *
     jox_text_printf(&j->text, "\n      { to = \"Stay\", when = %s },", when);
 }
 
-/* Prints the condition of having come to a place: inside it, or within 0.5 m of a queue or a line.
-   A line to leave by must be crossed, since a closed gate may stand on it. */
-static void print_arrival(const Journey *j, int32_t place, bool leaves, char out[256]) {
-    const JoxPlace *at = get_place(j, place);
-    const bool thin = (jox_place_is_line(at) && !leaves) || jox_place_is_queue(at);
-    snprintf(out, 256, thin ? "near(\"%.100s\", 0.5)" : "inside \"%.100s\"",
-             get_place_name(j, place));
-}
-
 static void open_state(Journey *j, uint32_t step, Part part, uint32_t queue) {
     char name[256];
     print_state_name(j, step, part, queue, name);
@@ -315,11 +306,8 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
     switch (part) {
     case WALK:
         write_walk(j, s->to);
-        print_arrival(j, s->to, false, when);
-        snprintf(when + strlen(when), sizeof when - strlen(when),
-                 " | near(\"%.80s\", 2.5) & stuck(3)",
-                 get_place_name(j, s->to)); /* stopped by agents who are there */
-        if (fills_area(j, s))               /* full: do not press into it */
+        snprintf(when, sizeof when, "arrived \"%.100s\"", get_place_name(j, s->to));
+        if (fills_area(j, s)) /* full: do not press into it */
             snprintf(when + strlen(when), sizeof when - strlen(when),
                      " | near(\"%.80s\", 2.5) & density(\"%.80s\"):above(3.8)",
                      get_place_name(j, s->to), get_place_name(j, s->to));
@@ -351,7 +339,7 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
         break;
     default:
         write_walk(j, s->exit);
-        print_arrival(j, s->exit, true, when);
+        snprintf(when, sizeof when, "inside \"%.100s\"", get_place_name(j, s->exit));
         jox_text_printf(&j->text, "\n      { to = \"Gone\", when = %s },", when);
         close_state(j);
         return;

@@ -38,6 +38,7 @@ static const char *find_agents_fault(const JoWorld *w) {
         JOX_MUST(a->group[i] == 0 || a->group[i] < w->model.group_count);
         JOX_MUST(is_index(a->goal[i], w->model.place_count));
         JOX_MUST(a->bound[i] <= w->model.place_count && a->queue_at[i] <= w->model.place_count);
+        JOX_MUST(a->arrived_at[i] <= w->model.place_count && a->kept_off[i] >= 0.0f);
         JOX_MUST(a->kicked[i] <= bodies && a->struck[i] <= bodies && a->approach[i] <= bodies);
         JOX_MUST(a->parting[i] <= bodies);
         JOX_MUST(jox_param(a, JOX_PARAM_radius, i) > 0.0f &&

@@ -176,6 +176,11 @@ function Target:incoming(metres) end
 ---@return jostle.Condition
 function inside(a1, a2) end
 
+--- `arrived(place)`: the agent is in the place; or agents within 0.3 m ahead of it, who have arrived there or stand there, have kept it from getting nearer for a second. So the last of a crowd arrive, too, where a place is full. It holds until the agent wants to move away
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function arrived(a1) end
+
 --- `crosses(line)`: the agent crossed the line in the last step, from the line's right to its left
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition

@@ -381,6 +381,7 @@ static void invalid_state_is_refused(void **state) {
     REFUSED(a->goal[3], 9999);
     REFUSED(a->bound[3], UINT32_MAX);
     REFUSED(a->queue_at[3], INT32_MAX);
+    REFUSED(a->arrived_at[3], INT32_MAX);
     REFUSED(a->kicked[3], 5);
     REFUSED(a->x[3], 1e30f);
     REFUSED(a->y[3], NAN);

@@ -16,6 +16,10 @@ const JoxWord jox_words[] = {
     {"inside", "t?p", CONDITION, JOX_OP_INSIDE, 0, "inside(place) or inside(target, place)", "",
      "the agent, or the target, is in the place; at a point, line or queue no wall or closed gate "
      "may lie between, except a solid that contains the point", "inside \"yard\""},
+    {"arrived", "p", CONDITION, JOX_OP_ARRIVED, 0, "arrived(place)", "",
+     "the agent is in the place; or agents within 0.3 m ahead of it, who have arrived there or stand there, have kept "
+     "it from getting nearer for a second. So the last of a crowd arrive, too, where a place is full. It holds until "
+     "the agent wants to move away", "arrived \"post\""},
     {"crosses", "p", CONDITION, JOX_OP_CROSSES, 0, "crosses(line)", "",
      "the agent crossed the line in the last step, from the line's right to its left", "crosses \"mid\""},
     {"near", "tn", CONDITION, JOX_OP_NEAR, 0, "near(target, metres)", "",

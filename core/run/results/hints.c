@@ -88,6 +88,7 @@ static bool is_place(const JoxMachine *m, int16_t target) {
 static bool is_expected(const JoxMachine *m, const JoxInstruction *in, bool *tests) {
     switch ((JoxOp)in->op) {
     case JOX_OP_INSIDE:
+    case JOX_OP_ARRIVED:
     case JOX_OP_NEAR:
         *tests = true;
         return is_place(m, in->op == JOX_OP_NEAR ? in->target : in->place) &&
@@ -124,8 +125,8 @@ static int16_t find_goal(const JoxMachine *m, const JoxState *state, const JoxTr
         const JoxInstruction *in = &e->code[k];
         const int16_t at = in->op == JOX_OP_NEAR ? in->target : in->place;
         for (uint32_t s = 0; s < state->steer_count; s++)
-            if ((in->op == JOX_OP_NEAR || in->op == JOX_OP_INSIDE) && at >= 0 &&
-                state->steer[s].target == at)
+            if ((in->op == JOX_OP_NEAR || in->op == JOX_OP_INSIDE || in->op == JOX_OP_ARRIVED) &&
+                at >= 0 && state->steer[s].target == at)
                 return at;
     }
     return -1;
