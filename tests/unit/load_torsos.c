@@ -1,7 +1,7 @@
 /* Torsos that are pressed against walls, corners and bodies do not sink in, and symmetric presses
    turn nobody; rows between two forces; heaps give the same hash on every instruction set, number
    of threads, and after a restore. */
-#include "unit/load_energy.h"
+#include "unit/load_torso.h"
 
 #include "agents/torso.h"
 #include "body/footprint.h"
@@ -9,35 +9,6 @@
 enum { PRESSES = 60 };
 /* m: overlap allowed, of which most comes from turning by up to 0.3 rad in a step. */
 static const double SUNK = 0.018;
-
-/* Adds a person with a torso whose chest points along `angle`. */
-static JoAgent add_torso(JoWorld *w, double x, double y, double angle, double breadth,
-                         double depth) {
-    JoAgentDef def = jo_default_agent_def();
-    JoError error;
-    def.x = x;
-    def.y = y;
-    def.radius = 0.1;
-    const JoAgent one = jo_world_add_agent(w, &def, &error);
-    if (!one.generation)
-        fail_msg("%s", error.text);
-    JoxAgents *a = &w->state.agents;
-    const uint32_t i = jox_world_find_agent(w, one);
-    a->x[i] = a->prev_x[i] = (float)x;
-    a->y[i] = a->prev_y[i] = (float)y;
-    a->chest_x[i] = a->face_x[i] = (float)cos(angle);
-    a->chest_y[i] = a->face_y[i] = (float)sin(angle);
-    jo_agent_set_parameter(w, one, "breadth", breadth, NULL);
-    jo_agent_set_parameter(w, one, "depth", depth, NULL);
-    jox_nav_invalidate_order(w->scratch.nav);
-    return one;
-}
-
-static JoWorld *open_world(double dt) {
-    JoWorldDef def = jo_default_world_def();
-    def.dt = dt;
-    return jo_world_create(&def, NULL);
-}
 
 /* Returns the distance of a point from the segment between two others. */
 static double find_distance(double x, double y, const double *a, const double *b) {

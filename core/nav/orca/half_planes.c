@@ -102,7 +102,7 @@ uint32_t jox_solve_neighbours(const JoxSolve *s, uint32_t i, JoxHalfPlane *out) 
         const JoxV2 p = jox_offset(a, i, j);
         JoxPair q = {p.x, p.y, a->vx[i] - a->vx[j], a->vy[i] - a->vy[j],
                      jox_at(radius, i) + jox_at(radius, j)};
-        if (s->step.neighbours->has_torsos && !walks)
+        if (jox_may_be_pressed(&s->step) && !walks)
             q.radii = jox_radii_of_torsos(&s->step, i, &j, &q);
         if (!walks)
             out[made++] = find_orca_plane(s, i, j, &self, &q);

@@ -213,7 +213,7 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
         if (walkers)
             out[k].velocity = (JoxVector){motion[2], motion[3]};
     }
-    if (near->has_torsos)
+    if (jox_may_be_pressed(&p->s->step))
         jox_reduce_radii(p, most, walkers, out);
     return widest;
 }

@@ -120,6 +120,12 @@ static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t wa
     };
 }
 
+/* Returns whether contacts may press agents nearer to each other than they keep by their own will.
+   Without forces none does, and torsos are never nearer than discs. */
+static inline bool jox_may_be_pressed(const JoxStep *step) {
+    return step->neighbours->has_torsos && step->touched;
+}
+
 /* Returns how near two agents come by their own will, m: as near as their discs, or as they already
    are, but their torsos part. */
 static inline JoxFloats jox_radii_of_torsos(const JoxStep *step, uint32_t first,
