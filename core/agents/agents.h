@@ -94,6 +94,7 @@ typedef enum JoxForceRole {
     X(SCRATCH, float, borne_y)                                                                     \
     X(SCRATCH, float, parted_x) /* m/s within the step alone, by contacts that overlap */          \
     X(SCRATCH, float, parted_y)                                                                    \
+    X(SCRATCH, float, parted_spin) /* rad/s, likewise */                                           \
     X(SCRATCH, float, axis_x) /* from the centre of the torso to its left end, m; 0: a disc */     \
     X(SCRATCH, float, axis_y)                                                                      \
     X(SCRATCH, float, contact_radius) /* distance of the surface from the axis, m */               \

@@ -97,9 +97,9 @@ void jox_force_contact(JoxForces *forces);
    give. Keeps the velocities for infer. Begin and sum alone make a step without forces. */
 void jox_force_sum(JoxForces *forces);
 /* Called once velocities are planned: where people have torsos, writes borne_x, borne_y, by which
-   contacts keep the plans of agents from pressing their bodies into each other, and parted_x,
-   parted_y, by which bodies that overlap part; that moves them within the step, but is no velocity,
-   which would add energy. */
+   contacts keep the plans of agents from pressing their bodies into each other, likewise changes
+   their spin, and writes parted_x, parted_y and parted_spin, by which bodies that overlap part;
+   that moves them within the step, but is no velocity, which would add energy. */
 void jox_force_bear(JoxForces *forces);
 /* Returns the half-planes of contacts, valid from sum to the next begin; none in literal mode. */
 const JoxContactPlanes *jox_force_contact_planes(const JoxForces *forces);

@@ -5,6 +5,7 @@
    in memory change a bit. */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 
@@ -193,7 +194,13 @@ static void clear_pair_impulses(void *context, uint32_t begin, uint32_t end, uin
         items[k].impulse = items[k].slip = 0.0f;
 }
 
-/* Writes what contacts have changed of the velocities of agents [begin, end) so far. */
+/* Returns the spin of a torso in a solve, rad/s; 0 of a disc. */
+static inline float find_spin(const JoxAgents *a, uint32_t i, const JoxContactMotion *motion) {
+    const float gyration = jox_torso_gyration(a, i);
+    return gyration > 0.0f ? motion->spin / gyration : 0.0f;
+}
+
+/* Writes what contacts have changed of the velocities and spins of agents [begin, end) so far. */
 static void end_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
@@ -202,6 +209,10 @@ static void end_bearing(void *context, uint32_t begin, uint32_t end, uint32_t wo
     for (uint32_t i = begin; i < end; i++) {
         a->borne_x[i] += motions[i].x;
         a->borne_y[i] += motions[i].y;
+        const float spin = find_spin(a, i, &motions[i]);
+        if (isfinite(a->spin[i])) /* else the world reports it */
+            a->spin[i] = spin;
+        a->parted_spin[i] = -spin;
         a->parted_x[i] = -motions[i].x;
         a->parted_y[i] = -motions[i].y;
     }
@@ -215,6 +226,7 @@ static void end_parting(void *context, uint32_t begin, uint32_t end, uint32_t wo
     for (uint32_t i = begin; i < end; i++) {
         a->parted_x[i] += motions[i].x;
         a->parted_y[i] += motions[i].y;
+        a->parted_spin[i] += find_spin(a, i, &motions[i]);
     }
 }
 
@@ -267,7 +279,7 @@ void jox_force_bear(JoxForces *f) {
         return;
     if (!f->contacts->known || f->options.literal ||
         !(pairs->count || walls->count || f->contacts->touches.count)) {
-        float *const columns[] = {a->borne_x, a->borne_y, a->parted_x, a->parted_y};
+        float *const columns[] = {a->borne_x, a->borne_y, a->parted_x, a->parted_y, a->parted_spin};
         for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
             jox_mem_fill(columns[k], 0, a->count * sizeof *columns[k]);
         return;

@@ -12,7 +12,8 @@
 static inline void turn_chests(const JoxMove *m, uint32_t i) {
     JoxAgents *a = m->step.agents;
     const JoxVector chest = jv_load(a->chest_x, a->chest_y, i);
-    const JoxFloats half = jf_load(a->spin + i) * (0.5f * (float)m->step.timing.dt);
+    const JoxFloats half =
+        (jf_load(a->spin + i) + jf_load(a->parted_spin + i)) * (0.5f * (float)m->step.timing.dt);
     const JoxFloats one = jf_set(1.0f), by = one / (one + half * half);
     const JoxFloats c = (one - half * half) * by, s = (half + half) * by;
     const JoxVector to = {c * chest.x - s * chest.y, s * chest.x + c * chest.y};
