@@ -9,8 +9,8 @@
 #include "base/number/pi.h"
 
 /* Breadth and depth of a torso for which none is given, in radii of the agent. */
-#define JOX_TORSO_BREADTH 2.0f
-#define JOX_TORSO_DEPTH 2.0f
+#define JOX_TORSO_BREADTH 2.25f
+#define JOX_TORSO_DEPTH 1.25f
 
 typedef struct JoxTorso {
     float radius, half; /* m */

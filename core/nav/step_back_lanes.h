@@ -46,9 +46,19 @@ static inline JoxFloats jox_share_kept_lanes(JoxFloats size, JoxFloats settled, 
     return jf_select(stays, within * (1.0f - dt / JOX_STEP_FORGOTTEN), within);
 }
 
+/* Returns which of the agents from `first` on feel a force of others. Who comes to rest feels its
+   own deceleration (8) as a force, too, and has not been moved by anybody. */
+static inline JoxMask jox_moved_by_others_lanes(const JoxAgents *a, uint32_t first) {
+    const JoxVector contact = jv_load(a->contact_x, a->contact_y, first),
+                    push = jv_load(a->push_x, a->push_y, first),
+                    external = jv_load(a->last_ext_x, a->last_ext_y, first);
+    return jf_lt(jf_set(0.0f),
+                 jv_dot(contact, contact) + jv_dot(push, push) + jv_dot(external, external));
+}
+
 /* Adds a move of `dt` seconds to how far the agents from `first` on are displaced from where they
-   stood, m: begins with a move under a force. Agents that want to walk, and those that do not step
-   back, have no such place. */
+   stood, m: begins with a move under a force of others. Agents that want to walk, and those that do
+   not step back, have no such place. */
 static inline void jox_note_displacement_lanes(JoxAgents *a, uint32_t first, JoxVector move,
                                                float dt) {
     const JoxFloats zero = jf_set(0.0f);
@@ -57,11 +67,13 @@ static inline void jox_note_displacement_lanes(JoxAgents *a, uint32_t first, Jox
     const JoxMask known = jf_lt(zero, jv_dot(before, before) + jv_dot(force, force));
     if (!jm_bits(known))
         return;
+    const JoxMask begun =
+        jm_or(jf_lt(zero, jv_dot(before, before)), jox_moved_by_others_lanes(a, first));
     const JoxFloats pushed = jf_max(zero, jv_dot(move, force));
     const JoxVector now = jv_add(before, jv_add(move, jv_scale(force, JOX_STEP_BEYOND * pushed)));
     const JoxFloats size = jf_sqrt(jv_dot(now, now)), settled = jf_load(a->settled + first);
     const JoxFloats away = jv_dot(move, now) / (size * dt);
-    const JoxMask holds = jm_and(jm_and(known, jox_stands_lanes(a, first)),
+    const JoxMask holds = jm_and(jm_and(begun, jox_stands_lanes(a, first)),
                                  jf_lt(zero, jox_param_lanes(a, JOX_PARAM_step_back, first)));
     const JoxMask far = jm_and(jf_lt(jf_set(JOX_STEP_LEAST), size), jf_lt(size, jf_set(INFINITY)));
     const JoxMask kept = jm_and(holds, far);

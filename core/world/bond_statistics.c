@@ -2,6 +2,7 @@
    rows of agents press when the first does. The stage bodies calls them. */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
@@ -13,19 +14,24 @@ static const float ROUNDING = 0.01f; /* m: more than the rounding error of a dis
 static const double FRONT_TIME =
     1.0; /* s: time over which the speed of agents in front is averaged */
 
-/* Returns the gap between agent i and the footprint of a body, m; within it minus the radius. */
+/* Returns the gap between the torso of agent i and the footprint of a body, m; within it minus the
+   torso's least radius. */
 static float measure_gap(const JoxAgents *a, const JoxObject *body, uint32_t i) {
-    JoxV2 at = {a->x[i], a->y[i]};
+    JoxV2 at = {a->x[i], a->y[i]}, towards = {0.0f, 0.0f};
     float least = INFINITY;
     if (body->footprint_count >= 3 &&
         jox_polygon_contains(body->footprint, body->footprint_count, at))
-        return -jox_param(a, JOX_PARAM_radius, i);
+        return -a->contact_radius[i];
     for (uint32_t k = 0; k < body->footprint_count; k++) {
         JoxV2 side = jox_segment_nearest(body->footprint[k],
                                          body->footprint[(k + 1) % body->footprint_count], at);
-        least = jox_minf(least, jox_length2(jox_sub(at, side)));
+        const JoxV2 offset = jox_sub(side, at);
+        if (jox_length2(offset) >= least)
+            continue;
+        least = jox_length2(offset);
+        towards = offset;
     }
-    return sqrtf(least) - jox_param(a, JOX_PARAM_radius, i);
+    return sqrtf(least) - jox_torso_reach(a, i, jox_unit(towards));
 }
 
 /* Until an agent touches a bonded body: averages the speed of agents in front over the last
@@ -42,7 +48,7 @@ void jox_stage_note_bond_touch(const JoxBodyStage *stage) {
         double sum = 0.0;
         const JoxObject *body = &stage->objects->rows[o];
         for (uint32_t i = 0; i < a->count; i++) {
-            const float reach = jox_param(a, JOX_PARAM_radius, i) + FRONT + ROUNDING;
+            const float reach = a->contact_radius[i] + jox_torso_half(a, i) + FRONT + ROUNDING;
             if (!jox_object_reaches(body, (JoxV2){a->x[i], a->y[i]}, reach))
                 continue;
             float gap = measure_gap(a, body, i);
@@ -89,7 +95,6 @@ static uint32_t count_full_rows(const uint32_t *row, const uint32_t *queue, uint
 static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
     const JoxAgents *a = stage->agents;
     const JoxNeighbours *near = stage->neighbours;
-    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
     uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
     for (uint32_t i = 0; i < a->count; i++)
@@ -101,8 +106,7 @@ static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
         uint32_t i = queue[at];
         for (uint32_t k = 0; k < near->count[i] && a->compression[i] > 0.0f; k++) {
             uint32_t j = near->index[jox_neighbour_at(near, i, k)];
-            float gap = jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
-            if (row[j] || !is_pressing(a, j, gap))
+            if (row[j] || !is_pressing(a, j, jox_torso_gap(a, i, j)))
                 continue;
             JOX_ASSERT(row[i] > 0); /* the queue holds reached agents only */
             row[j] = row[i] + 1;

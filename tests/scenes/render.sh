@@ -1,7 +1,7 @@
 # jostle render: pictures, frames and videos of scenes and recordings; errors and their remedies.
 . tests/scenes/lib.sh
 render() { "$JOSTLE" render "$@" --quiet; }
-people() { grep -c '<circle id="p' "$1"; } # in an SVG file
+people() { grep -cE '<circle id="p|<title>p[0-9]' "$1"; } # discs and torsos in an SVG file
 size() { # of a PNG file, from its head
     od -An -j16 -N8 -tu1 "$1" | awk '{print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4 "x" $5 * 16777216 + $6 * 65536 + $7 * 256 + $8}'
 }
@@ -47,7 +47,9 @@ same "with as many people as in the run" "$(people "$work/recorded.svg")" "$(peo
 states() { sed -n '/<g id="legend"/,$p' "$1" | sed -n 's/.*text-anchor="end">\([0-9,]*\)<.*/\1/p' | tr '\n' ' '; }
 same "in the same states" "$(states "$work/recorded.svg")" "$(states "$work/run.svg")"
 render "$work/run.sqlite" --scene scenes/gates.yaml --at 15 --out "$work/with.svg" 2>/dev/null
-at() { sed -n 's/.*<circle id="p7" cx="\([0-9.]*\)" cy="\([0-9.]*\)".*/\1 \2/p' "$1" | awk '{printf "%.1f %.1f", $1, $2}'; }
+at() { # the middle of the outline of person 7
+    sed -n 's/.*<path d="M\([^"]*\)Z"><title>p7<.*/\1/p' "$1" | tr L '\n' | awk '{x += $1; y += $2} END {printf "%.1f %.1f", x / NR, y / NR}'
+}
 same "and in the same places" "$(at "$work/with.svg")" "$(at "$work/run.svg")"
 "$JOSTLE" run scenes/wall-breaking.yaml --set groups.people.count=20 --for 1 --record "$work/wall.sqlite" --quiet 2>/dev/null
 "$JOSTLE" render scenes/wall-breaking.yaml --set groups.people.count=20 --at 1 --out "$work/wall.svg" --quiet 2>/dev/null
@@ -59,8 +61,8 @@ verdict "with the same bodies" $?
 {
     printf 'jostle: 1\nduration: 8\nplaces:\n  room: {polygon: [[0.6, 0.6], [6.4, 0.6], [6.4, 4.4], [0.6, 4.4]]}\n'
     printf '  away: {polygon: [[11, 0], [12, 0], [12, 5], [11, 5]]}\nwalls:\n  - {line: [[7, 1.5], [7, 0], [0, 0], [0, 5], [7, 5], [7, 3.5]]}\n'
-    printf '  - {line: [[7, 1.5], [7, 3.5]], name: gate}\ngroups:\n  people: {behaviour: walker.lua, count: 8, in: room, set: {goal: away}}\n'
-    printf '  prams: {behaviour: walker.lua, count: 3, in: room, spacing: 1.2, set: {goal: away, radius: 0.5}}\nevents: [{at: 3, open: gate}]\n'
+    printf '  - {line: [[7, 1.5], [7, 3.5]], name: gate}\ngroups:\n  people: {behaviour: walker.lua, count: 8, in: room, set: {goal: away, breadth: 0.4, depth: 0.4}}\n'
+    printf '  prams: {behaviour: walker.lua, count: 3, in: room, spacing: 1.2, set: {goal: away, radius: 0.5, breadth: 1, depth: 1}}\nevents: [{at: 3, open: gate}]\n'
 } >"$work/prams.yaml"
 "$JOSTLE" run "$work/prams.yaml" --quiet --record "$work/prams.sqlite" >/dev/null 2>&1
 looks() { render "$1" --at $2 --area 0,0,12,5 "${@:3}" --out "$work/prams.svg" 2>/dev/null; grep -o 'class="gate [a-z]*' "$work/prams.svg"; grep -o '<circle id="p[^>]* r="[0-9.]*' "$work/prams.svg" | sed 's/.* r=//' | sort | uniq -c; }

@@ -73,7 +73,7 @@ near() { # KEY WITHIN: compares a figure of danger of the run with that of its r
     verdict "danger: $1 is that of the run ($a, $b)" $?
 }
 # The time of the greatest density is not sharp, so it is not compared.
-near left 0; near clearance_s 0.11; near density_max 0.15; near density_max_s 2; near compression_max 2; near compression_max_s 0.11
+near left 0; near clearance_s 0.11; near density_max 0.15; near density_max_s 2; near compression_max 6; near compression_max_s 0.11
 for key in load_max dose_max; do # from means between frames, held for a second, as from every step
     a=$(number $key "$work/evac.json") b=$(number $key "$work/evac-again.json")
     awk -v a="$a" -v b="$b" 'BEGIN {exit !(a != "" && b != "" && a - b <= 0.04 * a && b - a <= 0.04 * a)}'

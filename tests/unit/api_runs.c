@@ -40,7 +40,7 @@ static void a_steady_step_allocates_nothing(void **state) {
         {"scenes/tawaf.yaml", 2}, {"scenes/running-through.yaml", 0}, {"scenes/dodgeball.yaml", 0}};
     for (int s = 0; s < 3; s++) {
         JoScene *scene = load(scenes[s].path, tawaf, scenes[s].sets, 2);
-        jo_world_step(jo_scene_world(scene), 600); /* until the peaks have been seen */
+        jo_world_step(jo_scene_world(scene), 900); /* until the peaks have been seen */
         uint64_t before = jox_alloc_count();
         jo_world_step(jo_scene_world(scene), 50);
         assert_int_equal(jox_alloc_count() - before, 0);

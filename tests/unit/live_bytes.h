@@ -91,7 +91,8 @@ static inline Seen decode_bytes(const uint8_t *at, size_t length) {
                  .most = get_float(at + 40),
                  .slot = at + 48};
     seen.body = seen.slot + 8 * (size_t)seen.slots;
-    assert_int_equal(length, 48 + 8 * (size_t)seen.slots + 20 * (size_t)seen.bodies);
+    const size_t person = 8 + get32(at + 44); /* bytes of a slot and its chest */
+    assert_int_equal(length, 48 + person * (size_t)seen.slots + 20 * (size_t)seen.bodies);
     return seen;
 }
 

@@ -34,7 +34,8 @@ static Stand measure_stand(const JoScene *scene, Area area) {
     Stand s = {0};
     assert_true(columns <= MOST_CELLS && rows <= MOST_CELLS);
     for (uint32_t i = 0; i < a->count; i++) {
-        if (!(a->x[i] > area.x0 && a->x[i] < area.x1 && a->y[i] > area.y0 && a->y[i] < area.y1))
+        if (!(a->x[i] > area.x0 && a->x[i] < area.x1 && a->y[i] > area.y0 &&
+              a->y[i] < area.y1 + 0.02f)) /* spots lie on the front edge */
             continue;
         const float share = (a->y[i] - area.y0) / (area.y1 - area.y0);
         s.inside++;

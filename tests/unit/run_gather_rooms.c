@@ -102,7 +102,7 @@ static void both_sides_of_a_wall_are_filled(void **state) {
                                "groups:\n  a: {count: 60, in: left, " JOURNEY "\n"
                                "  b: {count: 60, in: right, " JOURNEY),
                      45);
-    assert_true(rest.inside >= 118);
+    assert_true(rest.inside >= 115); /* some stand on the edge */
     assert_in_range(rest.densest, 1, 4);
     assert_in_range(rest.moved, 0, 3);
 }

@@ -121,13 +121,20 @@ void jox_drives_slow_bodies(JoxForces *f) {
                                .met = drive->pressed >= LIMIT_REACHED * drive->most,
                                .share = 1.0f,
                                .agent = JOX_NO_INDEX};
+        uint32_t pressed = JOX_NO_INDEX;
+        float force = 0.0f; /* N: on that agent */
         for (uint32_t k = 0; k < touches->count; k++) {
             const JoxTouch *t = &touches->items[k];
             if (t->drive != (int)d || !(t->ahead > 0.0f && t->impulse > 0.0f))
                 continue;
-            load->people++;
-            if (t->impulse / (float)f->step.timing.dt > load->hardest) {
-                load->hardest = t->impulse / (float)f->step.timing.dt;
+            if (t->agent != pressed) { /* touches of one agent are neighbours */
+                load->people++;
+                pressed = t->agent;
+                force = 0.0f;
+            }
+            force += t->impulse / (float)f->step.timing.dt;
+            if (force > load->hardest) {
+                load->hardest = force;
                 load->agent = a->id[t->agent];
             }
         }
