@@ -6,13 +6,13 @@ return machine {
   defaults = { speed = 1, mass = 95, perception = 5, push = 400, brace = 800, yield = 0.1 },
 
   states = {
-    Post = { steer = formation(own.first, 0.55), face = own.last, ignore = "infected", push_only = "infected",
+    Post = { steer = formation(own.first, 0.5), face = own.last, ignore = "infected", push_only = "infected",
       { to = "Second", when = heard "advance" } },
 
-    Second = { steer = formation(own.second, 0.55), face = own.last, ignore = "infected", push_only = "infected",
+    Second = { steer = formation(own.second, 0.5), face = own.last, ignore = "infected", push_only = "infected",
       { to = "Last",   when = heard "advance" & after(1) } },
 
-    Last = { steer = formation(own.last, 0.55), face = own.last, ignore = "infected", push_only = "infected",
+    Last = { steer = formation(own.last, 0.5), face = own.last, ignore = "infected", push_only = "infected",
       { to = "Guard",  when = stuck(20) } },
 
     Guard = { steer = hold, face = own.last, push_only = "infected" },

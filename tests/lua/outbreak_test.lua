@@ -44,7 +44,7 @@ end)
 
 test("a line of police pushes the infected before it", function()
   local at = {}
-  for n = 1, 18 do at[n] = { 3.9, 0.55 * n - 0.22 } end
+  for n = 1, 20 do at[n] = { 3.9, 0.5 * n - 0.25 } end
   local s = scene(room {
     events = { { at = 0, close = "door" }, { at = 2, signal = "advance" }, { at = 14, signal = "advance" } },
     groups = { people = healthy { { 1, 12 } }, infected = ill { { 6, 3 }, { 7, 6 }, { 8, 8 } }, police = police(at) } })
@@ -52,5 +52,5 @@ test("a line of police pushes the infected before it", function()
   local pushed = 0
   for _, a in ipairs(s:agents("infected")) do pushed = pushed + (a.x > 14 and 1 or 0) end
   truthy(pushed >= 2, pushed .. " of 3 were pushed back")
-  equal(s:count("Last") + s:count("Guard"), 18)
+  equal(s:count("Last") + s:count("Guard"), 20)
 end)
