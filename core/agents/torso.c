@@ -71,6 +71,11 @@ static float find_radius(const JoxAgents *a, uint32_t i) {
     return jox_maxf(a->contact_radius[i], jox_agent_torso(a, i, false).radius);
 }
 
+float jox_torso_distance(const JoxAgents *a, uint32_t i, JoxV2 point) {
+    const JoxV2 offset = jox_wrap(a, jox_sub(point, (JoxV2){a->x[i], a->y[i]}));
+    return sqrtf(find_distance2(offset, (JoxV2){a->axis_x[i], a->axis_y[i]})) - find_radius(a, i);
+}
+
 float jox_torso_gap(const JoxAgents *a, uint32_t i, uint32_t j) {
     return find_axis_distance(jox_offset(a, i, j), (JoxV2){a->axis_x[i], a->axis_y[i]},
                               (JoxV2){a->axis_x[j], a->axis_y[j]}) -

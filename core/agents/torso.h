@@ -69,6 +69,8 @@ typedef struct JoxTorsos {
 bool jox_torsos_list(JoxTorsos *torsos, const JoxAgents *agents, bool literal);
 void jox_torsos_free(JoxTorsos *torsos);
 
+/* Returns the distance of a point from the shape of an agent, m; negative within. */
+float jox_torso_distance(const JoxAgents *agents, uint32_t i, JoxV2 point);
 /* Returns the gap between the shapes of two agents, m; negative where they overlap. */
 float jox_torso_gap(const JoxAgents *agents, uint32_t i, uint32_t j);
 /* The same by listed torsos. */

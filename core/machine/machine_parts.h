@@ -128,7 +128,7 @@ int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index
    none. */
 void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int32_t index,
                        const uint32_t *agents, uint32_t count, int32_t *places);
-/* Returns the gap between the agent's disc and a spot, m. */
+/* Returns the gap between the agent and a spot, m: of their torsos, or of their discs if less. */
 float jox_spot_gap(const JoxMachineRun *run, uint32_t agent, const JoxSpot *spot);
 /* Returns whether body `row` is the target or has its tag; false for row -1. */
 bool jox_target_means(const JoxMachineRun *run, uint32_t agent, int32_t index, int32_t row);

@@ -2,6 +2,7 @@
    present. */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "machine/machine_parts.h"
 
@@ -192,8 +193,13 @@ float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     if (!spot->found)
         return INFINITY;
     const JoxAgents *a = run->agents;
-    float distance = jox_length((JoxV2){spot->x - a->x[i], spot->y - a->y[i]});
-    return distance - spot->radius - jox_param(a, JOX_PARAM_radius, i);
+    const JoxV2 at = {spot->x, spot->y};
+    const float discs = jox_length(jox_sub(at, (JoxV2){a->x[i], a->y[i]})) - spot->radius -
+                        jox_param(a, JOX_PARAM_radius, i);
+    const float torsos = spot->agent != JOX_NO_INDEX
+                             ? jox_torso_gap(a, i, spot->agent)
+                             : jox_torso_distance(a, i, at) - spot->radius;
+    return jox_minf(discs, torsos); /* hands and feet reach to the edge of the disc */
 }
 
 JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t i) {

@@ -192,7 +192,7 @@ function crosses(a1) end
 ---@return jostle.Condition
 function near(a1, a2) end
 
---- `touches(target)`: the gap between the agent and the target is below 5 cm
+--- `touches(target)`: the gap between the agent and the target, of torsos or discs, is below 5 cm
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function touches(a1) end

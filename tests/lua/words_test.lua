@@ -40,6 +40,22 @@ test("nobody is touched, heard or counted through a wall", function()
   truthy(not felt { { line = WALL } })
 end)
 
+test("people touch by shoulders that are broader than their discs, and by hands as far as those", function()
+  local FEEL = [[return machine { name = "feel", start = "Wait", defaults = { depth = 0.25 },
+    states = {
+      Wait = { steer = hold, { to = "Felt", when = touches(nearest "anyone") } }, Felt = { steer = hold } } }]]
+  local function felt(distance, facing, breadth)
+    local s = scene(yard { two = { behaviour = FEEL, at = { { 5, 10 }, { 5 + distance, 10 } }, facing = facing,
+      set = { breadth = breadth } } })
+    s:run(0.2)
+    return s:count("Felt")
+  end
+  equal(felt(0.48, 90, 0.45), 2) -- side by side, 3 cm apart
+  equal(felt(0.48, 90, 0.4), 0)
+  equal(felt(0.48, 0, 0.45), 0)
+  equal(felt(0.44, 0, 0.45), 2) -- one behind the other, the discs 4 cm apart
+end)
+
 test("home is where one came in, and is gone back to", function()
   local s = scene(yard { walkers = { at = { { 3, 3 }, { 4, 17 } }, behaviour = [[
     return machine { name = "there_and_back", start = "Out", states = {

@@ -26,7 +26,7 @@ const JoxWord jox_words[] = {
      "the target is nearer than this distance, m; if it is a place, no wall or closed gate may "
      "lie between, except walls that its nearest point lies on or in", "near(\"post\", 2)"},
     {"touches", "t", CONDITION, JOX_OP_TOUCHES, 0, "touches(target)", "",
-     "the gap between the agent and the target is below 5 cm", "touches(nearest \"ball\")"},
+     "the gap between the agent and the target, of torsos or discs, is below 5 cm", "touches(nearest \"ball\")"},
     {"first_in", "p", CONDITION, JOX_OP_FIRST_IN, 0, "first_in(queue)", "",
      "the agent is at the head of the queue that it steers in", "first_in \"row\""},
     {"after", "n", CONDITION, JOX_OP_AFTER, 0, "after(seconds)", "",
