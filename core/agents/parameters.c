@@ -20,6 +20,10 @@ int jox_parameter_find(const char *name) {
     return -1;
 }
 
+const char *jox_parameter_successor(const char *name) {
+    return strcmp(name, "turn") == 0 ? "People have torsos that turn: see breadth and depth" : NULL;
+}
+
 /* Words for values of haste. */
 static const struct {
     const char *word;
@@ -47,7 +51,6 @@ bool jox_parameter_acts_in_literal(JoxParameter parameter) {
     case JOX_PARAM_brace:
     case JOX_PARAM_time_gap:
     case JOX_PARAM_haste:
-    case JOX_PARAM_turn:
     case JOX_PARAM_step_back:
     case JOX_PARAM_breadth:
     case JOX_PARAM_depth:

@@ -32,8 +32,6 @@
     X(time_gap, "s", 0, 10, 0,                                                                     \
       "time gap kept to people ahead, by the walking law; 0: velocities are chosen by ORCA")       \
     X(haste, "", 0, 1, 0.5, "motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness")            \
-    X(turn, "", 0, 0.6, 0.4,                                                                       \
-      "share of the radius that an agent under way saves in contacts by turning a shoulder")       \
     X(step_back, "m/s", 0, 2, 0.11,                                                                \
       "speed at which an agent that stands steps back to where it stood before it was moved")
 
@@ -53,6 +51,8 @@ extern const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT];
 
 /* Returns the index of a parameter by name, or -1. */
 int jox_parameter_find(const char *name);
+/* Returns what to use in place of a parameter that there is no more; NULL for any other name. */
+const char *jox_parameter_successor(const char *name);
 /* Finds the value of a word: haste is calm (0), normal (0.5) or keen (1). Returns false if the
    parameter has no such word. */
 bool jox_parameter_level(JoxParameter parameter, const char *word, double *value);

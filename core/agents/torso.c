@@ -66,20 +66,16 @@ static float find_axis_distance(JoxV2 offset, JoxV2 own, JoxV2 other) {
     return sqrtf(jox_minf(first, second));
 }
 
-/* Returns the radius of an agent's shape, m, also of a disc that has turned a shoulder. */
-static float find_radius(const JoxAgents *a, uint32_t i) {
-    return jox_maxf(a->contact_radius[i], jox_agent_torso(a, i, false).radius);
-}
-
 float jox_torso_distance(const JoxAgents *a, uint32_t i, JoxV2 point) {
     const JoxV2 offset = jox_wrap(a, jox_sub(point, (JoxV2){a->x[i], a->y[i]}));
-    return sqrtf(find_distance2(offset, (JoxV2){a->axis_x[i], a->axis_y[i]})) - find_radius(a, i);
+    return sqrtf(find_distance2(offset, (JoxV2){a->axis_x[i], a->axis_y[i]})) -
+           a->contact_radius[i];
 }
 
 float jox_torso_gap(const JoxAgents *a, uint32_t i, uint32_t j) {
     return find_axis_distance(jox_offset(a, i, j), (JoxV2){a->axis_x[i], a->axis_y[i]},
                               (JoxV2){a->axis_x[j], a->axis_y[j]}) -
-           find_radius(a, i) - find_radius(a, j);
+           a->contact_radius[i] - a->contact_radius[j];
 }
 
 float jox_torsos_gap(const JoxTorsos *t, const JoxAgents *a, uint32_t i, uint32_t j) {

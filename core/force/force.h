@@ -36,8 +36,7 @@ typedef struct JoxForceInputs {
     const JoxWallGrid *walls; /* grid that jox_nav_touching_walls returns; NULL: no walls */
     const float *unhidden2;   /* m2, before agents move: no wall hides neighbours nearer than this;
                                  NULL: unknown */
-    bool turning; /* agents turn their shoulders among others, where contacts are solved */
-    const uint8_t *push_on;      /* per agent, 0: does not push now; NULL: all may push */
+    const uint8_t *push_on;   /* per agent, 0: does not push now; NULL: all may push */
     const uint8_t *push_nearest; /* per agent, 1: pushes the nearest target only; NULL: all */
     /* Direction of the push per agent, of any length; (0, 0) or NULL: the preferred velocity. */
     const float *push_toward_x, *push_toward_y;

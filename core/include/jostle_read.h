@@ -29,8 +29,9 @@ typedef struct JoColumn {
    "chest_x", "chest_y": unit vector to which its chest points; "spin": how fast that turns
    anticlockwise, rad/s
    "axis_x", "axis_y", "contact_radius": its torso in the last step: all within contact_radius of
-   the segment between its centre plus and minus the axis, m; (0, 0) of a disc, whose contact_radius
-   a turned shoulder makes less than its radius. 0 before its first step "pref_x", "pref_y":
+   the segment between its centre plus and minus the axis, m; (0, 0) of a disc. 0 before its first
+   step
+   "pref_x", "pref_y":
    velocity that it wants, m/s; "eager": eagerness of the walking law, 0 to 1 "force_x", "force_y",
    N, "compression", N/m, "load", N: as in JoAgentState "density": people per m2 about it;
    "contacts": number of agents and bodies that it touches "group", "machine" (its behaviour),

@@ -25,8 +25,10 @@ static void report_unknown_key(JoxBuild *b, const char *path, const char *key,
                         "a state has no key '%s'", key);
         return;
     }
+    const char *successor = jox_parameter_successor(key);
     jox_build_error(b, jox_read_at(b, full), "unknown-key",
-                    jox_did_you_mean(key, known, count, hint), "unknown key '%s'", key);
+                    successor ? successor : jox_did_you_mean(key, known, count, hint),
+                    "unknown key '%s'", key);
 }
 
 /* Reports string keys of the table at `index` that are not known, in ascending order. */

@@ -58,11 +58,12 @@ static void report_unknown(const JoxMachine *machine, const JoxGroupValue *value
         names[k] = memory ? machine->memory[k].name : machine->own[k].name;
     const char *now =
         jox_machine_renamed(machine, memory ? JOX_PART_MEMORY : JOX_PART_OWN, value->name);
+    const char *successor = memory ? NULL : jox_parameter_successor(value->name);
     if (now)
         jox_diag_renamed(diagnostics, value->position, value->name, now);
     else
         jox_diag_error(diagnostics, value->position, "unknown-value",
-                       jox_did_you_mean(value->name, names, known, hint),
+                       successor ? successor : jox_did_you_mean(value->name, names, known, hint),
                        "behaviour %s has no '%.60s'%s", machine->name, value->name,
                        memory ? " in memory" : "");
 }

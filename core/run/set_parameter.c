@@ -69,7 +69,11 @@ bool jox_run_choose_parameter(const JoScene *scene, const char *machine, const c
         return false;
     out->parameter = jox_parameter_find(parameter);
     if (out->parameter < 0) {
-        const char *names[JOX_PARAM_COUNT];
+        const char *names[JOX_PARAM_COUNT], *successor = jox_parameter_successor(parameter);
+        if (successor) {
+            jox_error(error, JO_INPUT, "there is no parameter '%s'. %s", parameter, successor);
+            return false;
+        }
         for (int p = 0; p < JOX_PARAM_COUNT; p++)
             names[p] = jox_parameters[p].name;
         return refuse_unknown("parameter", parameter, names, JOX_PARAM_COUNT, error);

@@ -62,7 +62,6 @@ void jox_stage_push(const JoxPushStage *s) {
     const JoxForceInputs inputs = {
         .walls = jox_nav_touching_walls(s->nav, step, jox_force_passing_reach(s->forces_of)),
         .unhidden2 = jox_nav_unhidden2(s->nav),
-        .turning = s->forces && !s->literal,
         .push_on = s->machines->push_on,
         .push_nearest = s->machines->push_nearest,
         .push_toward_x = s->machines->push_toward_x,

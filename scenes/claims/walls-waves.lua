@@ -54,8 +54,8 @@ return claim {
   tried = {
     "What bounds it: from a minute on the crowd behind the wall is packed to 13 per m2, and two thirds of the people "
       .. "2 m behind it stand. No room is left that could travel: the density sways by 1 %. People too soft for the "
-      .. "density that they reach are a known limit, but not the only reason: with turn = 0 and brace = 0, on seed "
-      .. "101, they stand at 7 per m2 and the density sways by less than 0.05 %.",
+      .. "density that they reach are a known limit, but not the only reason: discs with brace = 0, on seed 101, "
+      .. "stand at 7 per m2 and the density sways by less than 0.05 %.",
     "The equations as printed do give waves that run back, at 1 to 2 m/s: of a fifth of the density while the crowd "
       .. "piles up, of 3 % from 50 s on, where they are measured.",
     "Without forces people stay at 6.5 per m2, and waves run back, at 1.6 to 2 m/s, but none to the wall. So the waves "

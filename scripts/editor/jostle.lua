@@ -138,7 +138,6 @@ function Target:incoming(metres) end
 ---@field brace? number|jostle.Number|jostle.Drawn force of others that the feet of an agent under way withstand, N; 0 to 5000, default 200
 ---@field time_gap? number|jostle.Number|jostle.Drawn time gap kept to people ahead, by the walking law; 0: velocities are chosen by ORCA, s; 0 to 10, default 0
 ---@field haste? number|jostle.Number|jostle.Drawn motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness; 0 to 1, default 0.5
----@field turn? number|jostle.Number|jostle.Drawn share of the radius that an agent under way saves in contacts by turning a shoulder; 0 to 0.6, default 0.4
 ---@field step_back? number|jostle.Number|jostle.Drawn speed at which an agent that stands steps back to where it stood before it was moved, m/s; 0 to 2, default 0.11
 
 ---@class jostle.Transition

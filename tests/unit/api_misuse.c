@@ -238,6 +238,9 @@ static void parameters_are_checked(void **state) {
     JoAgent agent = jo_world_add_agent(world, &def, NULL);
     assert_true(jo_agent_set_parameter(world, agent, "push", 100, NULL));
     assert_false(jo_agent_set_parameter(world, agent, "pushh", 100, NULL));
+    JoError gone = {0};
+    assert_false(jo_agent_set_parameter(world, agent, "turn", 0.4, &gone));
+    assert_non_null(strstr(gone.text, "see breadth and depth"));
     assert_false(jo_agent_set_parameter(world, agent, "push", -5, NULL));
     assert_false(jo_agent_set_parameter(world, agent, "mass", NAN, NULL));
     jo_agent_set_preferred(world, agent, NAN, 0);

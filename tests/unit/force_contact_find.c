@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/number/random.h"
 #include "force/contact/contacts.h"
@@ -120,9 +121,10 @@ static void open_find_crowd(Crowd *c, JoIsa isa, uint32_t number) {
                     .neighbours = &c->neighbours};
     step.timing.seed = 3;
     step.timing.time = 7.3;
-    const JoxForceInputs inputs = {.walls = jox_nav_touching_walls(c->nav, &step, 0.8f),
-                                   .unhidden2 = number % 4 ? jox_nav_unhidden2(c->nav) : NULL,
-                                   .turning = number % 3 != 0};
+    const JoxForceInputs inputs = {
+        .walls = jox_nav_touching_walls(c->nav, &step, 0.8f),
+        .unhidden2 = number % 4 ? jox_nav_unhidden2(c->nav) : NULL,
+    };
     c->forces = jox_forces_create(NULL);
     jox_forces_set_isa(c->forces, isa);
     jox_force_begin(c->forces, &step, &inputs);
@@ -142,7 +144,7 @@ static void close_find_crowd(Crowd *c) {
 /* Returns the contact of agents i and j over a gap (m); a normal of (0, 0): both at the same
    point. */
 static JoxFoundPair make_plain_pair(const JoxForces *f, uint32_t i, uint32_t j, JoxV2 normal,
-                                    float gap, float squeeze) {
+                                    float gap) {
     const JoxAgents *a = f->step.agents;
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     const JoxParameterColumn e = a->param[JOX_PARAM_restitution];
@@ -153,7 +155,6 @@ static JoxFoundPair make_plain_pair(const JoxForces *f, uint32_t i, uint32_t j, 
     return (JoxFoundPair){
         .other = j,
         .other_id = a->id[j],
-        .squeeze = squeeze,
         .at = {.normal = normal,
                .gap = gap,
                .target = jox_contact_target(gap, speed, jox_minf(jox_at(e, i), jox_at(e, j)),
@@ -181,15 +182,12 @@ static bool find_plain_touch(JoxForces *f, uint32_t i, uint32_t other, bool wall
     const JoxAgents *a = f->step.agents;
     JoxV2 offset = jox_offset(a, other, i);
     float distance2 = jox_length2(offset);
-    const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     float sum = a->contact_radius[i] + a->contact_radius[other];
-    float whole = jox_at(radius, i) + jox_at(radius, other);
-    float most = whole + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+    float most = sum + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     if (!(distance2 < most * most))
         return false;
-    float distance = sqrtf(distance2), gap = distance - sum;
-    float squeeze = JOX_SQUEEZE * jox_clampf(whole - distance, 0.0f, whole - sum);
-    if (gap > JOX_TOUCH_LEAST && !(squeeze > 0.0f)) {
+    float gap = sqrtf(distance2) - sum;
+    if (gap > JOX_TOUCH_LEAST) {
         JoxV2 towards = {a->vx[other] - a->vx[i], a->vy[other] - a->vy[i]};
         float closing = jox_length(towards) * (float)f->step.timing.dt;
         if (gap > JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing))
@@ -199,7 +197,7 @@ static bool find_plain_touch(JoxForces *f, uint32_t i, uint32_t other, bool wall
     if (walls && jox_wall_grid_has_wall_between(f->in.walls, at, jox_sub(at, offset)))
         return false;
     f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += gap < 0.0f;
-    *out = make_plain_pair(f, i, other, jox_unit(offset), gap, squeeze);
+    *out = make_plain_pair(f, i, other, jox_unit(offset), gap);
     return true;
 }
 
@@ -225,11 +223,11 @@ static uint32_t plain_contacts(JoxForces *f, uint32_t i, bool walls, JoxFoundPai
 
 static bool same_pair(const JoxFoundPair *a, const JoxFoundPair *b) {
     const JoxContactPoint *p = &a->at, *q = &b->at;
-    return a->other == b->other && a->other_id == b->other_id && a->squeeze == b->squeeze &&
-           p->normal.x == q->normal.x && p->normal.y == q->normal.y && p->gap == q->gap &&
-           p->target == q->target && p->mass == q->mass && p->slip_mass == q->slip_mass &&
-           p->levers[0] == q->levers[0] && p->levers[1] == q->levers[1] &&
-           p->slips[0] == q->slips[0] && p->slips[1] == q->slips[1] && p->again == q->again;
+    return a->other == b->other && a->other_id == b->other_id && p->normal.x == q->normal.x &&
+           p->normal.y == q->normal.y && p->gap == q->gap && p->target == q->target &&
+           p->mass == q->mass && p->slip_mass == q->slip_mass && p->levers[0] == q->levers[0] &&
+           p->levers[1] == q->levers[1] && p->slips[0] == q->slips[0] &&
+           p->slips[1] == q->slips[1] && p->again == q->again;
 }
 
 static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
@@ -237,7 +235,11 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
     const JoxAgents *a = &c->agents;
     JoxFoundPair pairs[JOX_CONTACT_MOST_FOUND];
     JoxFoundWall walls[JOX_CONTACT_MOST_WALLS];
+    const JoxAgentRecord *record = &f->records[i];
     uint32_t edges = 0, count = 0;
+    assert_true(record->radius == a->contact_radius[i] && record->id == a->id[i] &&
+                record->outer == a->contact_radius[i] + jox_torso_half(a, i) &&
+                record->mass == jox_param(a, JOX_PARAM_mass, i));
     if (f->in.walls)
         jox_wall_grid_at(f->in.walls, jox_v2(a->x[i], a->y[i]), &edges);
     const JoxFoundPair *found =

@@ -110,12 +110,10 @@ static uint32_t copy_neighbour_planes(const JoxInspected *seen, JoxConstraint *o
     return count;
 }
 
-/* Half-planes must be equal to the bit. At walls the offset may differ by 2 cm: shoulders turned in
-   the step change the agent's width. */
+/* Half-planes must be equal to the bit. */
 static void check_same_plane(const JoxConstraint *now, const JoxConstraint *in_step) {
-    const float wide = now->kind == JOX_CONSTRAINT_WALL ? 0.02f : 0.0f;
     assert_true(now->kind == in_step->kind && now->normal.x == in_step->normal.x &&
-                now->normal.y == in_step->normal.y && fabsf(now->offset - in_step->offset) <= wide);
+                now->normal.y == in_step->normal.y && now->offset == in_step->offset);
 }
 
 /* An agent that is first inspected between two steps, as in a pause, is shown with the half-planes

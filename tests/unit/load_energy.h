@@ -172,8 +172,6 @@ static inline JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double
     if (e->coasting) {
         jo_agent_set_parameter(e->world, one, "damping", 0.0, NULL);
         jo_agent_set_parameter(e->world, one, "absorb", 0.0, NULL);
-        /* Without turned shoulders, by which agents that want to go on give way. */
-        jo_agent_set_parameter(e->world, one, "turn", 0.0, NULL);
     }
     e->people[e->count++] = one;
     return one;

@@ -88,6 +88,7 @@ static const Mistake MISTAKES[] = {
      "unknown-key", "'lift'"},
     {HEAD "A = { throw = { nearest \"ball\", at = \"x\", speed = 3, lift = 30 } } } }", ERROR, 2,
      54, 58, "unknown-key", "unknown key 'lift'"},
+    {HEAD "A = { turn = 0.4 } } }", ERROR, 2, 7, 11, "unknown-key", "see breadth and depth"},
     {HEAD "A = { become = 3 } } }", ERROR, 2, 7, 13, "bad-value", "name of a behaviour"},
     {HEAD "A = { steer = seek(goal) * seek(goal) } } }", ERROR, 2, 26, 27, "bad-operand",
      "steering"},

@@ -1,4 +1,4 @@
-/* The kernels of move and of contact radii against plain loops, on every instruction set that the
+/* The kernels of move against plain loops, on every instruction set that the
    machine runs: agents with random velocities and plans, in the open, around walls, over periodic
    edges, and with NaN. */
 #include <math.h>
@@ -11,7 +11,6 @@
 #include <cmocka.h>
 
 #include "base/number/random.h"
-#include "force/stages/kernels.h"
 #include "geom/wall_way.h"
 #include "nav/move/move.h"
 #include "nav/near/perceive.h"
@@ -176,61 +175,7 @@ static void test_move(void **state) {
     assert_true(over > 0 && moved > 0);
 }
 
-/* Returns the contact radius of a disc by its definition: a share of `turn` that runs linearly in
-   time between two random values. A torso has that of its shape. */
-static float compute_plain_radius(const JoxForces *f, uint32_t i) {
-    const JoxAgents *a = f->step.agents;
-    const uint64_t seed = f->step.timing.seed;
-    const float radius = jox_param(a, JOX_PARAM_radius, i), turn = jox_param(a, JOX_PARAM_turn, i);
-    if (!f->in.turning || jox_stands(a, i) || a->axis_x[i] != 0.0f)
-        return radius;
-    const double own = (double)a->id[i] * 0.6180339887498949;
-    const double phase = f->step.timing.time + (own - floor(own));
-    const uint64_t knot = (uint64_t)phase;
-    const uint64_t from = jox_random_bits(seed, a->id[i], knot, JOX_DRAW_TURN, 0);
-    const uint64_t to = jox_random_bits(seed, a->id[i], knot + 1, JOX_DRAW_TURN, 0);
-    const float first = (float)(from >> 40) * 0x1p-24f, second = (float)(to >> 40) * 0x1p-24f;
-    return radius * (1.0f - turn * (first + (second - first) * (float)(phase - (double)knot)));
-}
-
-static void test_contact_radius(void **state) {
-#define X(name, isa) [isa] = jox_breadth_packets_##name,
-    static JoxBreadthKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
-#undef X
-    (void)state;
-    for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++)
-        for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++) {
-            Crowd c;
-            uint32_t drawn = 0, turned = 0;
-            open_move_crowd(&c, 0);
-            JoxAgents *a = &c.agents;
-            for (uint32_t i = 0; i < PEOPLE; i++) {
-                jox_param_set(a, JOX_PARAM_radius, i, draw_move(number, &drawn, 0.1, 0.4));
-                jox_param_set(a, JOX_PARAM_turn, i, draw_move(number, &drawn, 0.0, 0.5));
-                a->contact_radius[i] = jox_param(a, JOX_PARAM_radius, i);
-                a->axis_x[i] = i % 4 ? 0.0f : 0.1f;
-                a->pref_x[i] = draw_move(number, &drawn, -0.1, 0.3);
-                a->id[i] = number % 2 ? UINT32_MAX - i : i * 7;
-            }
-            JoxForces *f = jox_forces_create(NULL);
-            f->step = (JoxStep){.timing = jox_timing_at_once(0.05), .agents = a};
-            f->step.timing.seed = number;
-            f->step.timing.time = number * number * 1234.567;
-            f->in.turning = number != 5;
-            KERNELS[isa](f, 0, PEOPLE);
-            for (uint32_t i = 0; i < PEOPLE; i++) {
-                const float expected = compute_plain_radius(f, i);
-                assert_memory_equal(&a->contact_radius[i], &expected, sizeof expected);
-                turned += expected < jox_param(a, JOX_PARAM_radius, i);
-            }
-            assert_true(number == 5 ? turned == 0 : turned > PEOPLE / 4);
-            jox_forces_free(f);
-            close_move_crowd(&c);
-        }
-}
-
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_move),
-                                       cmocka_unit_test(test_contact_radius)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_move)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,8 +46,8 @@ static void draw_parameters(JoWorld *w, uint32_t id) {
         {JOX_PARAM_horizon, 0.3, 3.0},       {JOX_PARAM_perception, 1.0, 4.0},
         {JOX_PARAM_neighbours, 0.0, 16.9},   {JOX_PARAM_max_speed, 1.0, 2.5},
         {JOX_PARAM_yield, 0.0, 1.0},         {JOX_PARAM_brace, 0.0, 400.0},
-        {JOX_PARAM_turn, 0.0, 0.6},          {JOX_PARAM_damping, 0.0, 5.0},
-        {JOX_PARAM_time_gap, 0.0, 2.0},      {JOX_PARAM_haste, 0.0, 1.0},
+        {JOX_PARAM_damping, 0.0, 5.0},       {JOX_PARAM_time_gap, 0.0, 2.0},
+        {JOX_PARAM_haste, 0.0, 1.0},
     };
     JoxAgents *a = &w->state.agents;
     for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++) {
@@ -300,9 +300,9 @@ static void parameters_that_no_equation_has_change_no_bit(void **state) {
     static const struct {
         JoxParameter parameter;
         double value;
-    } unused[] = {{JOX_PARAM_brace, 400.0}, {JOX_PARAM_turn, 0.6},     {JOX_PARAM_damping, 5.0},
-                  {JOX_PARAM_yield, 1.0},   {JOX_PARAM_time_gap, 2.0}, {JOX_PARAM_haste, 1.0},
-                  {JOX_PARAM_breadth, 0.7}, {JOX_PARAM_depth, 0.2}};
+    } unused[] = {{JOX_PARAM_brace, 400.0},  {JOX_PARAM_damping, 5.0}, {JOX_PARAM_yield, 1.0},
+                  {JOX_PARAM_time_gap, 2.0}, {JOX_PARAM_haste, 1.0},   {JOX_PARAM_breadth, 0.7},
+                  {JOX_PARAM_depth, 0.2}};
     for (uint32_t k = 0; k < 4 * sizeof unused / sizeof *unused; k++) {
         V without[MOST_PEOPLE], with[MOST_PEOPLE];
         const uint64_t begin = draws;

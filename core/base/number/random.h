@@ -18,8 +18,7 @@ typedef enum {
     JOX_DRAW_AIM,      /* where in a place to aim */
     JOX_DRAW_LUA,      /* math.random in hooks */
     JOX_DRAW_MIX,      /* which behaviour of a mix */
-    JOX_DRAW_TURN,     /* how far a shoulder is turned */
-    JOX_DRAW_GAP,      /* a walker's time gap */
+    JOX_DRAW_GAP = 12, /* a walker's time gap */
     JOX_DRAW_WANDER,   /* the direction that a wandering agent turns to */
     JOX_DRAW_PROFILE,  /* which profile of a group */
     JOX_DRAW_DOOR,     /* the place of a set that an agent of a source enters by */

@@ -68,9 +68,9 @@ static void list_pressing(const JoxForces *f, uint32_t i, Pressing *out) {
     out->count = 0;
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1] && has_room(out); k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
-        const JoxV2 impulse = jox_pair_impulse(p, (float)f->step.timing.dt);
+        const JoxV2 impulse = jox_pair_impulse(p);
         add_force_if(out, jox_scale(impulse, p->first == i ? per_second : -per_second),
-                     p->impulse + p->squeeze > 0.0f);
+                     p->impulse > 0.0f);
     }
     for (uint32_t k = 0; k < jox_touch_number_of(touches, i) && has_room(out); k++) {
         const JoxTouch *t = &touches->items[touches->first[i] + k];

@@ -52,13 +52,13 @@ static inline JoxContactSelf jox_load_contact_self(const JoxForces *f, uint32_t 
 
 /* Data of one neighbour of each lane. */
 typedef struct JoxContactCandidates {
-    JoxVector offset;             /* position of the agent relative to the neighbour, m */
-    JoxFloats distance2, squeeze; /* of the centres, m2; N */
-    JoxVector velocity;           /* velocity of the agent relative to the neighbour, m/s */
-    JoxFloats mass;               /* mass of the neighbour, kg */
-    JoxFloats radii;              /* sum of the radii, m */
-    JoxFloats reach;              /* m: gaps up to this are contacts */
-    JoxVector axis;               /* of the neighbour, m */
+    JoxVector offset;    /* position of the agent relative to the neighbour, m */
+    JoxFloats distance2; /* of the centres, m2 */
+    JoxVector velocity;  /* velocity of the agent relative to the neighbour, m/s */
+    JoxFloats mass;      /* mass of the neighbour, kg */
+    JoxFloats radii;     /* sum of the radii, m */
+    JoxFloats reach;     /* m: gaps up to this are contacts */
+    JoxVector axis;      /* of the neighbour, m */
     JoxFloats inverse_half2;
 } JoxContactCandidates;
 
@@ -91,11 +91,6 @@ static inline uint32_t jox_find_candidates(const JoxForces *f, const JoxContactS
     m->inverse_half2 = shape[3];
     m->radii = self->radius + build[0];
     const JoxFloats whole = self->outer + build[1], distance = jf_sqrt(m->distance2);
-    const JoxFloats slack = whole - m->radii;
-    JoxFloats into = whole - distance;
-    into = jf_select(jf_lt(into, zero), zero, jf_select(jf_lt(slack, into), slack, into));
-    const JoxMask is_long = jf_lt(zero, self->inverse_half2 + m->inverse_half2);
-    m->squeeze = jf_select(is_long, zero, JOX_SQUEEZE * into);
     m->velocity = (JoxVector){self->vx - motion[2], self->vy - motion[3]};
     m->mass = build[2];
     JoxFloats closing = jf_sqrt(jv_dot(m->velocity, m->velocity));
@@ -297,19 +292,17 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
     const JoxAgents *a = f->step.agents;
     JoxNearPoint near[2];
     uint32_t second;
-    lanes = jox_find_points(self, m, lanes, near, &second) |
-            (lanes & jm_bits(jf_lt(jf_set(0.0f), m->squeeze)));
+    lanes = jox_find_points(self, m, lanes, near, &second);
     if (!lanes)
         return;
     JoxContactPoint points[2][JOX_WIDTH];
-    float x[JOX_WIDTH], y[JOX_WIDTH], squeeze[JOX_WIDTH], own[2][JOX_WIDTH];
+    float x[JOX_WIDTH], y[JOX_WIDTH], own[2][JOX_WIDTH];
     for (int k = 0; k < (second ? 2 : 1); k++) {
         const JoxPointLanes at = jox_point_lanes(self, m, &near[k]);
         jox_write_points(&at, jox_find_targets(f, self, other, m, &at), points[k]);
         jf_store(own[k], jv_det(at.normal, jv_scale(self->axis, near[k].own)));
     }
     jv_store(x, y, 0, m->offset);
-    jf_store(squeeze, m->squeeze);
     uint32_t may_be_hidden = p->walls;
     if (p->walls && f->in.unhidden2)
         may_be_hidden &= ~jm_bits(jf_lt(m->distance2, jf_load(f->in.unhidden2 + p->first)));
@@ -319,10 +312,8 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
             ((may_be_hidden >> lane & 1) && jox_is_behind_wall(f, i, x[lane], y[lane])))
             continue;
         f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += points[0][lane].gap < 0.0f;
-        JoxFoundPair pair = {.other = other[lane],
-                             .other_id = a->id[other[lane]],
-                             .at = points[0][lane],
-                             .squeeze = squeeze[lane]};
+        JoxFoundPair pair = {
+            .other = other[lane], .other_id = a->id[other[lane]], .at = points[0][lane]};
         JOX_ASSERT(jox_is_unit(pair.at.normal));
         const bool both = second >> lane & 1;
         points[1][lane].again = true;

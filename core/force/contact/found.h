@@ -14,8 +14,6 @@ enum {
 };
 
 #define JOX_SECOND_APART 0.02f /* m: least distance of two points at which the same two touch */
-/* N/m: stiffness of turned shoulders, until the bodies themselves meet */
-#define JOX_SQUEEZE 2000.0f
 
 /* A point at which two agents touch. The normal points to the first, the tangent to the left of it.
    A lever is that of an impulse on the agent about its centre, in its radii of gyration; 0 of a
@@ -35,7 +33,6 @@ typedef struct JoxContactPoint {
 typedef struct JoxFoundPair {
     uint32_t other, other_id;
     JoxContactPoint at;
-    float squeeze; /* as in JoxPair */
 } JoxFoundPair;
 /* The part of a found pair that its layout needs, in few bytes: the other agent, its colour, and
    its number among the contacts of either agent. */

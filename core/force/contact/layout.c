@@ -144,8 +144,7 @@ static void place_pairs(void *context, uint32_t begin, uint32_t end, uint32_t wo
                 .first = i,
                 .second = j,
                 .impulse = jox_find_kept_impulse(last, &kept, a->id[i], found[k].other_id),
-                .at = found[k].at,
-                .squeeze = found[k].squeeze};
+                .at = found[k].at};
             pairs->ends[pairs->end_starts[i] + slots[k].first_end] = (JoxPairEnd){at, j};
             pairs->ends[pairs->end_starts[j] + slots[k].second_end] = (JoxPairEnd){at, i};
         }

@@ -16,15 +16,13 @@ typedef struct JoxPair {
     float impulse; /* along the normal: accumulated, not negative, N s */
     float slip;    /* along the tangent, by friction, N s */
     JoxContactPoint at;
-    float squeeze; /* N: force of turned shoulders, which overlap within the radii; added to the
-                      impulse */
+    float unused; /* completes the last row of four numbers */
 } JoxPair;
 
 /* Returns the impulse of a contact on its first agent, N s. */
-static inline JoxV2 jox_pair_impulse(const JoxPair *p, float dt) {
-    const float along = p->impulse + p->squeeze * dt;
-    return (JoxV2){p->at.normal.x * along - p->at.normal.y * p->slip,
-                   p->at.normal.y * along + p->at.normal.x * p->slip};
+static inline JoxV2 jox_pair_impulse(const JoxPair *p) {
+    return (JoxV2){p->at.normal.x * p->impulse - p->at.normal.y * p->slip,
+                   p->at.normal.y * p->impulse + p->at.normal.x * p->slip};
 }
 
 /* One agent's end of a contact with another agent. */

@@ -33,11 +33,10 @@ static void apply_colour_impulses(void *context, uint32_t begin, uint32_t end, u
     JoxContactSolve *solve = &f->contacts->solve;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
         const JoxPair *p = &f->contacts->pairs.items[k];
-        float impulse = p->impulse + p->squeeze * (float)f->step.timing.dt;
-        if (!(impulse > 0.0f))
+        if (!(p->impulse > 0.0f))
             continue;
-        jox_add_impulse(&solve->motions[p->first], p->at.normal, p->at.levers[0], impulse);
-        jox_add_impulse(&solve->motions[p->second], p->at.normal, p->at.levers[1], -impulse);
+        jox_add_impulse(&solve->motions[p->first], p->at.normal, p->at.levers[0], p->impulse);
+        jox_add_impulse(&solve->motions[p->second], p->at.normal, p->at.levers[1], -p->impulse);
     }
 }
 

@@ -8,10 +8,9 @@
 #include "force/push/pushes.h"
 #include "force/stages/kernels.h"
 #include "force/support/supports.h"
-#include "simd/four.h"
 
-#define X(name, isa) [isa] = jox_breadth_packets_##name,
-static JoxBreadthKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#define X(name, isa) [isa] = jox_record_packets_##name,
+static JoxRecordKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 JoxForceOptions jox_force_default_options(void) {
@@ -75,35 +74,15 @@ static void zero_columns(const JoxForces *f, uint32_t begin, uint32_t end) {
 #undef ZERO_SCRATCH
 }
 
-/* Returns whether breadth or depth are given for any agent, or differ from the radius by default.
- */
-static bool has_measures(const JoxAgents *a) {
-    const JoxParameterColumn breadth = a->param[JOX_PARAM_breadth],
-                             depth = a->param[JOX_PARAM_depth];
-    return JOX_TORSO_BREADTH != 2.0f || JOX_TORSO_DEPTH != 2.0f || breadth.mask || depth.mask ||
-           breadth.cells[0] > 0.0f || depth.cells[0] > 0.0f;
-}
-
-/* Begins the step for the agents of a chunk: zeroes columns, computes breadths, and packs the
-   builds. */
+/* Begins the step for the agents of a chunk. */
 static void begin_agents(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
-    JoxAgents *a = f->step.agents;
     zero_columns(f, begin, end);
     KERNELS[f->isa](f, begin, end);
-    for (uint32_t i = begin; i < end; i += JOX_AGENTS_PADDING)
-        jox_interleave(&f->records[i], a->contact_radius + i, jox_params(a, JOX_PARAM_radius, i),
-                       jox_params(a, JOX_PARAM_mass, i), a->id + i,
-                       end - i < JOX_AGENTS_PADDING ? (end - i + 3) / 4 * 4 : JOX_AGENTS_PADDING);
-    const bool measured = has_measures(a);
-    for (uint32_t i = begin; i < end && measured; i++) {
-        const JoxTorso torso = jox_agent_torso(a, i, f->options.literal);
-        f->records[i].outer = torso.radius + torso.half; /* a disc's before it turned a shoulder */
-    }
 }
 
-/* Returns the stage memory for so many agents, bytes: builds, padded to packets, and what
+/* Returns the stage memory for so many agents, bytes: records, padded to packets, and what
    contact/layout.c takes. */
 static size_t measure_stage_memory(size_t agents) {
     return jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxAgentRecord)) +

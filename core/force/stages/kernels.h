@@ -6,9 +6,9 @@
 #include "force/forces.h"
 #include "simd/isa.h"
 
-/* Computes `breadth` of agents [begin, end), which are in one chunk. */
-typedef void JoxBreadthKernel(const JoxForces *forces, uint32_t begin, uint32_t end);
-#define X(name, isa) JoxBreadthKernel jox_breadth_packets_##name;
+/* Writes the records of agents [begin, end), which are in one chunk. */
+typedef void JoxRecordKernel(const JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxRecordKernel jox_record_packets_##name;
 JOX_ISAS(X)
 #undef X
 /* Equations 10 to 12 for agents [begin, end), in physical mode. `begin` is a multiple of

@@ -207,6 +207,11 @@ bool jox_perform_parameter(JoWorld *world, const JoxInputEntry *entry, JoxText *
     const int p = jox_parameter_find(entry->names[0]);
     if (p < 0) {
         const char *names[JOX_PARAM_COUNT];
+        const char *successor = jox_parameter_successor(entry->names[0]);
+        if (successor) {
+            jox_text_printf(why, "there is no parameter '%s'. %s", entry->names[0], successor);
+            return false;
+        }
         for (int n = 0; n < JOX_PARAM_COUNT; n++)
             names[n] = jox_parameters[n].name;
         return jox_event_refuse_name("parameter", entry->names[0], names, JOX_PARAM_COUNT, why);
