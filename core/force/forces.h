@@ -57,9 +57,6 @@ static inline JoxPlanning jox_planning(const JoxTiming *t, bool each_step) {
     return (JoxPlanning){(float)t->interval, (float)t->interval_response,
                          (float)t->interval_forced};
 }
-static inline JoxPlanning jox_planning_of(const JoxStep *step, uint32_t i) {
-    return jox_planning(&step->timing, jox_stands_pressed(step->agents, i));
-}
 
 /* Returns the sum of an agent's force terms of some roles (flags of JoxForceRole), N, in the order
    of the table. It starts from -0, which keeps the sign of zero terms. */

@@ -14,10 +14,11 @@ static const float SLACK = 1e-3f;
 
 /* Returns how much of a speed the feet can take away by the end of the step, m/s; for a longer plan
    more, of which the step does a share. */
-static inline float find_braking(const JoxStep *step, uint32_t i, float speed, JoxDecay *decay) {
-    const JoxPlanning plan = jox_planning_of(step, i);
-    float damping = jox_param(step->agents, JOX_PARAM_damping, i);
-    float lost = 1.0f - jox_decay(decay, damping, plan.interval);
+static inline float find_braking(const JoxStep *step, uint32_t i, float speed, JoxDecay decays[2]) {
+    const bool each_step = jox_stands_pressed(step->agents, i);
+    const JoxPlanning plan = jox_planning(&step->timing, each_step);
+    const float damping = jox_param(step->agents, JOX_PARAM_damping, i);
+    const float lost = 1.0f - jox_decay(&decays[each_step], damping, plan.interval);
     return speed * jox_minf(1.0f, lost / plan.response);
 }
 
@@ -25,29 +26,23 @@ static inline float find_braking(const JoxStep *step, uint32_t i, float speed, J
    An agent that is pushed may brake; one that follows an agent that wants to be slower leaves room
    for that. */
 static float find_least_speed(const JoxStep *step, uint32_t i, uint32_t j, JoxV2 normal,
-                              float speed, JoxDecay *decay) {
+                              float speed, JoxDecay decays[2]) {
     const JoxAgents *a = step->agents;
     if (speed > 0.0f)
-        return speed - find_braking(step, i, speed, decay);
+        return speed - find_braking(step, i, speed, decays);
     float wanted = -jox_dot((JoxV2){a->pref_x[j], a->pref_y[j]}, normal);
-    float brakes = jox_clampf(-speed - wanted, 0.0f, find_braking(step, j, -speed, decay));
+    float brakes = jox_clampf(-speed - wanted, 0.0f, find_braking(step, j, -speed, decays));
     return speed + brakes;
 }
 
 /* Returns the speed at which the torsos of a pair part by turning, m/s. */
-static float find_turning(const JoxAgents *a, const JoxPair *p) {
-    float speed = 0.0f;
-    const uint32_t of[2] = {p->first, p->second};
-    for (int k = 0; k < 2; k++) {
-        speed +=
-            (k ? -1.0f : 1.0f) * a->spin[of[k]] * p->at.levers[k] * jox_torso_gyration(a, of[k]);
-    }
-    return speed;
+static float find_turning(const JoxContactMotion *motions, const JoxPair *p) {
+    return motions[p->first].spin * p->at.levers[0] - motions[p->second].spin * p->at.levers[1];
 }
 
 /* Makes the planes of the agents that press on agent i or overlap it. Returns how many. */
 static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
-                                   JoxDecay *decay) {
+                                   JoxDecay decays[2]) {
     const JoxAgents *a = f->step.agents;
     const JoxPairs *pairs = &f->contacts->pairs;
     const float time = (float)f->step.timing.planning_time;
@@ -64,9 +59,9 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
         float gap = p->at.target < 0.0f ? -p->at.target * (float)f->step.timing.dt : 0.0f;
         float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
         float both = jox_minf(jox_dot(mean, normal), own);
-        float least = find_least_speed(&f->step, i, j, normal, both, decay) - SLACK;
+        float least = find_least_speed(&f->step, i, j, normal, both, decays) - SLACK;
         const float apart = jox_dot(jox_offset(a, j, i), normal) - p->at.gap;
-        const float turning = 0.5f * jox_maxf(0.0f, -find_turning(a, p));
+        const float turning = 0.5f * jox_maxf(0.0f, -find_turning(f->contacts->solve.motions, p));
         out[n++] = (JoxContactPlane){normal, least + turning - 0.5f * gap / time, j, apart};
     }
     return n;
@@ -74,7 +69,7 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
 
 /* Makes the planes of the bodies that press on agent i or overlap it. Returns how many. */
 static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
-                                 JoxDecay *decay) {
+                                 JoxDecay decays[2]) {
     const JoxTouches *touches = &f->contacts->touches;
     const float time = (float)f->step.timing.planning_time;
     uint32_t n = 0;
@@ -87,7 +82,7 @@ static uint32_t make_body_planes(const JoxForces *f, uint32_t i, JoxContactPlane
         float least = speed;
         if (speed > 0.0f &&
             f->step.objects->rows[t->object].moves) /* a fixed body does not brake */
-            least -= find_braking(&f->step, i, speed, decay);
+            least -= find_braking(&f->step, i, speed, decays);
         least -= jox_maxf(t->gap, 0.0f) / time + SLACK;
         out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};
     }
@@ -98,7 +93,7 @@ static void make_chunk_planes(void *context, uint32_t begin, uint32_t end, uint3
     (void)worker;
     JoxForces *f = context;
     JoxContactPlanes *planes = &f->contacts->planes;
-    JoxDecay decay = f->decay;
+    JoxDecay decays[2] = {f->decay, f->decay};
     for (uint32_t i = begin; i < end; i += JOX_LANES) {
         const uint32_t last = end - i < JOX_LANES ? end : i + JOX_LANES;
         if (jox_have_no_contacts(f->contacts, i, last)) {
@@ -108,8 +103,8 @@ static void make_chunk_planes(void *context, uint32_t begin, uint32_t end, uint3
         }
         for (uint32_t k = i; k < last; k++) {
             JoxContactPlane *own = planes->planes + planes->starts[k];
-            planes->people[k] = (uint8_t)make_people_planes(f, k, own, &decay);
-            planes->bodies[k] = (uint8_t)make_body_planes(f, k, own + planes->people[k], &decay);
+            planes->people[k] = (uint8_t)make_people_planes(f, k, own, decays);
+            planes->bodies[k] = (uint8_t)make_body_planes(f, k, own + planes->people[k], decays);
         }
     }
 }
