@@ -32,13 +32,21 @@ struct JoxContacts {
     JoxWallContacts walls;   /* layout.c */
     JoxTouches touches;      /* bodies_find.c, bodies_solve.c */
     JoxDrives drives;        /* bodies_driven.c */
-    JoxContactSolve solve;   /* solve.c, which starts with what start_wide.c computes */
+    JoxContactSolve solve;   /* solve.c, motions_wide.c */
     JoxWallLoads wall_loads; /* wall_load.c */
     JoxContactPlanes planes; /* planes.c */
     JoxKeptImpulses kept[3]; /* state, by JoxKeptKind: the impulses from which the next step's solve
                                 starts */
 };
 
+/* motions_wide.c: between the motions and the columns of agents [begin, end); both have room for
+   whole packets. One function for each instruction set. */
+typedef void JoxMotionKernel(JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa)                                                                               \
+    JoxMotionKernel jox_start_motions_##name, jox_end_motions_##name, jox_start_bearing_##name,    \
+        jox_end_bearing_##name, jox_end_parting_##name;
+JOX_ISAS(X)
+#undef X
 /* solve_wide.c: solves contacts once whose agents are all different; their motions are below
    `motions`. `friction`: 0 leaves slips alone. Returns the greatest change of an impulse, N s. One
    function for each instruction set. */

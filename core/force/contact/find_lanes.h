@@ -261,20 +261,18 @@ static inline JoxFloats jox_find_targets(const JoxForces *f, const JoxContactSel
 /* Writes the points of all lanes. */
 static inline void jox_write_points(const JoxPointLanes *p, JoxFloats target,
                                     JoxContactPoint out[JOX_WIDTH]) {
-    float of[10][JOX_WIDTH];
-    const JoxFloats values[10] = {p->normal.x, p->normal.y,  p->gap,       target,
-                                  p->mass,     p->slip_mass, p->levers[0], p->levers[1],
-                                  p->slips[0], p->slips[1]};
-    for (int k = 0; k < 10; k++)
-        jf_store(of[k], values[k]);
-    for (int lane = 0; lane < JOX_WIDTH; lane++)
-        out[lane] = (JoxContactPoint){.normal = {of[0][lane], of[1][lane]},
-                                      .gap = of[2][lane],
-                                      .target = of[3][lane],
-                                      .mass = of[4][lane],
-                                      .slip_mass = of[5][lane],
-                                      .levers = {of[6][lane], of[7][lane]},
-                                      .slips = {of[8][lane], of[9][lane]}};
+    const JoxFloats none = jf_set(0.0f);
+    const JoxFloats rows[3][4] = {{p->normal.x, p->normal.y, p->levers[0], p->levers[1]},
+                                  {target, p->mass, p->slip_mass, p->gap},
+                                  {p->slips[0], p->slips[1], none, none}};
+    _Static_assert(sizeof *out == sizeof(float[3][4]), "a point is three rows");
+    for (int k = 0; k < 3; k++) {
+        float *to[JOX_WIDTH];
+        JOX_UNROLL
+        for (int lane = 0; lane < JOX_WIDTH; lane++)
+            to[lane] = &out[lane].normal.x + 4 * k;
+        jf_put_rows(to, rows[k]);
+    }
 }
 
 /* Returns whether a wall stands between an agent and a neighbour at `offset` from it, m. */

@@ -17,7 +17,7 @@ enum {
 
 /* A point at which two agents touch. The normal points to the first, the tangent to the left of it.
    A lever is that of an impulse on the agent about its centre, in its radii of gyration; 0 of a
-   disc, which does not turn. solve_wide.c reads the numbers in rows of four. */
+   disc, which does not turn. Kernels read and write rows of four numbers. */
 typedef struct JoxContactPoint {
     JoxV2 normal;
     float levers[2];       /* of both agents, along the normal */
@@ -26,6 +26,7 @@ typedef struct JoxContactPoint {
     float gap;             /* m */
     float slips[2];        /* levers along the tangent */
     bool again;            /* the two touch at another point, too, which comes before this one */
+    float unused;          /* completes the last row */
 } JoxContactPoint;
 
 /* A contact that an agent was found to have; the normal points to the agent. One of the two agents

@@ -8,8 +8,8 @@
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 
-#define X(name, isa) [isa] = jox_start_packets_##name,
-static JoxStartKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#define X(name, isa) [isa] = jox_start_motions_##name,
+static JoxMotionKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 /* Advances *at through the kept impulses, as contacts come in ascending order of ids. */

@@ -16,7 +16,6 @@ typedef struct JoxPair {
     float impulse; /* along the normal: accumulated, not negative, N s */
     float slip;    /* along the tangent, by friction, N s */
     JoxContactPoint at;
-    float unused; /* completes the last row of four numbers */
 } JoxPair;
 
 /* Returns the impulse of a contact on its first agent, N s. */
@@ -93,12 +92,5 @@ void jox_pairs_free(JoxPairs *pairs);
 /* Returns the kept impulse of a contact, N s; 0 for a new one. Called in ascending order of ids;
  *at is the place in the list, 0 at first. */
 float jox_find_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other);
-
-/* start_wide.c: computes `velocities` and `inverse_mass` of agents [begin, end), the start of the
-   solve. Both have room for whole blocks of JOX_LANES. One function for each instruction set. */
-typedef void JoxStartKernel(JoxForces *forces, uint32_t begin, uint32_t end);
-#define X(name, isa) JoxStartKernel jox_start_packets_##name;
-JOX_ISAS(X)
-#undef X
 
 #endif

@@ -5,12 +5,18 @@
    in memory change a bit. */
 #include <math.h>
 
-#include "agents/torso.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
 
 #define X(name, isa) [isa] = jox_solve_pairs_##name,
 static JoxSolvePairsKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+#define X(name, isa)                                                                               \
+    [isa] = {jox_start_bearing_##name, jox_end_bearing_##name, jox_end_parting_##name},
+static const struct Bearing {
+    JoxMotionKernel *start, *end, *end_parting;
+} BEARING[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 static const float BEARS = 4.0f; /* tolerance of plans, in tolerances of forces */
@@ -170,21 +176,6 @@ void jox_contacts_solve(JoxForces *f) {
     f->totals.residual = most / (float)f->step.timing.dt;
 }
 
-/* Computes the mean velocities of agents [begin, end) within the step, as they are planned. */
-static void start_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    JoxForces *f = context;
-    const JoxAgents *a = f->step.agents;
-    const float on_the_way = (float)f->step.timing.on_the_way;
-    for (uint32_t i = begin; i < end; i++) {
-        JoxContactMotion *m = &f->contacts->solve.motions[i];
-        m->x = a->forced_x[i] + (a->next_x[i] - a->forced_x[i]) * on_the_way;
-        m->y = a->forced_y[i] + (a->next_y[i] - a->forced_y[i]) * on_the_way;
-        a->borne_x[i] = -m->x;
-        a->borne_y[i] = -m->y;
-    }
-}
-
 static void clear_pair_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
@@ -193,40 +184,21 @@ static void clear_pair_impulses(void *context, uint32_t begin, uint32_t end, uin
         items[k].impulse = items[k].slip = 0.0f;
 }
 
-/* Returns the spin of a torso in a solve, rad/s; 0 of a disc. */
-static inline float find_spin(const JoxAgents *a, uint32_t i, const JoxContactMotion *motion) {
-    const float gyration = jox_torso_gyration(a, i);
-    return gyration > 0.0f ? motion->spin / gyration : 0.0f;
+/* Runs a kernel of bearing for agents [begin, end). */
+static void start_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    BEARING[f->isa].start(f, begin, end);
 }
-
-/* Writes what contacts have changed of the velocities and spins of agents [begin, end) so far. */
 static void end_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    JoxAgents *a = f->step.agents;
-    const JoxContactMotion *motions = f->contacts->solve.motions;
-    for (uint32_t i = begin; i < end; i++) {
-        a->borne_x[i] += motions[i].x;
-        a->borne_y[i] += motions[i].y;
-        const float spin = find_spin(a, i, &motions[i]);
-        if (isfinite(a->spin[i])) /* else the world reports it */
-            a->spin[i] = spin;
-        a->parted_spin[i] = -spin;
-        a->parted_x[i] = -motions[i].x;
-        a->parted_y[i] = -motions[i].y;
-    }
+    BEARING[f->isa].end(f, begin, end);
 }
-
 static void end_parting(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    JoxAgents *a = f->step.agents;
-    const JoxContactMotion *motions = f->contacts->solve.motions;
-    for (uint32_t i = begin; i < end; i++) {
-        a->parted_x[i] += motions[i].x;
-        a->parted_y[i] += motions[i].y;
-        a->parted_spin[i] += find_spin(a, i, &motions[i]);
-    }
+    BEARING[f->isa].end_parting(f, begin, end);
 }
 
 /* Raises targets to the parting speed of an overlap; returns whether it is higher. */

@@ -1,11 +1,12 @@
 /* The stage contact, equations 6 and 7: finds the contacts, solves all of them together, and writes
    the agents' contact forces. world/step.c calls it after push. */
-#include <math.h>
-
-#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "force/contact/contacts.h"
+
+#define X(name, isa) [isa] = jox_end_motions_##name,
+static JoxMotionKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
 /* Returns the sum of the impulses that agent i received, N s; adds the number of its contacts that
    press or touch to *contacts. */
@@ -55,12 +56,7 @@ static void write_contact_forces(void *context, uint32_t begin, uint32_t end, ui
 static void write_spins(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    JoxAgents *a = f->step.agents;
-    for (uint32_t i = begin; i < end; i++) {
-        const float gyration = jox_torso_gyration(a, i);
-        if (gyration > 0.0f && isfinite(a->spin[i])) /* else the world reports it */
-            a->spin[i] = f->contacts->solve.motions[i].spin / gyration;
-    }
+    KERNELS[f->isa](f, begin, end);
 }
 
 /* Adds the forces of walls, which have a list of their own. */
