@@ -20,8 +20,8 @@
 #include "run/scene_machines.h"
 #include "run/standstill.h"
 #include "run/starting_people.h"
+#include "run/starting_torsos.h"
 #include "run/tags_and_teams.h"
-#include "run/torso_notes.h"
 #include "run/wall_checks.h"
 
 enum { LARGEST_INPUT = 256 << 20 }; /* bytes */
@@ -161,7 +161,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_place_groups(scene, diagnostics);
         jox_run_check_machine_names(scene, diagnostics);
         jox_run_check_step_length(scene, diagnostics);
-        jox_run_note_torsos(scene, diagnostics);
+        jox_run_start_torsos(scene, diagnostics);
         jox_run_check_sources(scene, diagnostics);
         jox_run_check_journeys(scene, diagnostics);
         jox_run_number_event_signals(scene, diagnostics);

@@ -33,7 +33,7 @@ static void crowd_across_the_seam_moves_as_in_the_middle(void **state) {
     (void)state;
     JoAgent middle[PEOPLE], seam[PEOPLE];
     JoWorld *a = make_seam_world(16.0f, 0.0f, middle), *b = make_seam_world(16.0f, 6.0f, seam);
-    for (int step = 0; step < 30; step++) {
+    for (int step = 0; step < 24; step++) {
         jo_world_step(a, 1);
         jo_world_step(b, 1);
     }
