@@ -10,6 +10,7 @@
     X(flank_eager, "", 0, 0.9, 0.38, "share of their nearness that eager people ignore")           \
     X(room_eager, "", 0, 0.9, 0.235, "share of breadth and room that eager people do without")     \
     X(width_cross, "", 0.1, 3, 0.8, "lateral distance at which crossing ways pass, in R")          \
+    X(turned, "1/m2", 0, 20, 1.4, "density from which on people turn a shoulder to who crosses")   \
     X(length, "", 0.1, 3, 1.045, "length of way that the person ahead takes up, in R")             \
     X(ahead_share, "", 0, 2, 0.54, "share of the time gap over which people are extrapolated")     \
     X(ease, "", 0, 1, 0.71, "how gradually people slow down behind others: 0 at once")             \

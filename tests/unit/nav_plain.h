@@ -216,7 +216,7 @@ static inline float plain_walk_width(const JoxWalkLaw *law, const JoxAgents *a, 
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
     float radii = jox_at(radius, i) + jox_at(radius, j);
     if (minds == MINDS_CROSSING)
-        return radii * (float)law->width_cross;
+        return radii * ((float)law->width_cross * a->contact_radius[i] / jox_at(radius, i));
     return radii * (float)law->width * (1.0f - (float)law->room_eager * a->eager[i]);
 }
 

@@ -144,10 +144,22 @@ static void limit_by_leader(Packet *p, Way *w, uint32_t j, double wanted) {
     lower_to(&w->worth, speed);
 }
 
+/* Returns the distance at which ways that cross pass, m: less in a crowd, where chests turn. */
+static double measure_cross_width(const Packet *p, uint32_t j) {
+    const JoxNeighbours *n = &p->neighbours;
+    double density = 0.0;
+    if (n->count[p->me] > JOX_CROWD_RANK)
+        density = (JOX_CROWD_RANK + 1) / (PI * fmax(1e-4, (double)n->crowding2[p->me]));
+    double turned = fmin(fmax(density - p->law.turned, 0.0), 1.0);
+    double chest = (double)p->agents.contact_radius[p->me] /
+                   (double)jox_param(&p->agents, JOX_PARAM_radius, p->me);
+    return p->law.width_cross * radii(p, j) * (1.0 + (chest - 1.0) * turned);
+}
+
 /* Limits a way by an agent that crosses: the free path, and the time until the two meet. */
 static void limit_by_crossing(Packet *p, Way *w, uint32_t j, double speed) {
     const JoxAgents *a = &p->agents;
-    double x = (double)a->x[j], y = (double)a->y[j], width = p->law.width_cross * radii(p, j);
+    double x = (double)a->x[j], y = (double)a->y[j], width = measure_cross_width(p, j);
     double along = x * w->x + y * w->y, aside = w->x * y - w->y * x;
     if (fabs(aside) < width && along > 0.0) {
         double path = (along - sqrt(width * width - aside * aside)) / p->law.cross_time;

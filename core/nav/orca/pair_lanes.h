@@ -86,7 +86,8 @@ jox_orca_end(const JoxPair *q, const JoxOrcaSelf *self, const JoxOrcaHalf *h) {
 /* Data of an agent that is the same for all of its neighbours. */
 typedef struct JoxSelf {
     JoxFloats x, y, radius; /* m */
-    JoxFloats room; /* gap that a walker keeps to the agent it follows, as a share of the law's */
+    JoxFloats room;  /* gap that a walker keeps to the agent it follows, as a share of the law's */
+    JoxFloats cross; /* gap that it keeps to one that crosses, as a share of the sum of radii */
     JoxOrcaSelf orca;
 } JoxSelf;
 
@@ -108,14 +109,18 @@ static inline JoxOrcaSelf jox_orca_self_of(const JoxSolve *s, uint32_t first) {
 /* Loads it for the agents from `first` on. `walkers`: lanes (bits) that walk by the law. */
 static inline JoxSelf jox_self_of(const JoxSolve *s, uint32_t first, uint32_t walkers) {
     const JoxAgents *a = s->step.agents;
-    JoxFloats room = jf_set(1.0f);
-    if (walkers)
+    const JoxFloats radius = jox_param_lanes(a, JOX_PARAM_radius, first);
+    JoxFloats room = jf_set(1.0f), cross = room;
+    if (walkers) {
         room -= (float)s->nav->walk->room_eager * jf_load(a->eager + first);
+        cross = (float)s->nav->walk->width_cross * jf_load(a->contact_radius + first) / radius;
+    }
     return (JoxSelf){
         .x = jf_load(a->x + first),
         .y = jf_load(a->y + first),
-        .radius = jox_param_lanes(a, JOX_PARAM_radius, first),
+        .radius = radius,
         .room = room,
+        .cross = cross,
         .orca = jox_orca_self_of(s, first),
     };
 }
@@ -158,7 +163,7 @@ static inline JoxWalkerGap jox_walker_gap(const JoxWalkLaw *law, const JoxSelf *
     return (JoxWalkerGap){
         jf_sqrt(jv_dot(offset, offset)),
         q->radii * (float)law->width * self->room,
-        q->radii * (float)law->width_cross,
+        q->radii * self->cross,
     };
 }
 

@@ -76,21 +76,36 @@ static inline JoxFloats jox_share_lanes(JoxFloats x) { /* clamped to 0 ... 1 */
     return jf_min(jf_max(x, jf_set(0.0f)), jf_set(1.0f));
 }
 
-/* Returns the eagerness that the crowd would give agents, 0 to 1, within the bounds of their
-   haste. */
-static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
+/* Returns the density about agents by the nearest of their neighbours, 1/m2; 0 of those who have
+   fewer. */
+static inline JoxFloats jox_density_lanes(const JoxWalk *w, uint32_t first) {
     const JoxNeighbours *n = w->step.neighbours;
-    const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
-    const JoxFloats haste = jox_param_lanes(w->step.agents, JOX_PARAM_haste, first);
-    const JoxFloats twice = 2.0f * haste;
-    const JoxFloats most = jf_set((float)w->law->eager_most);
     uint32_t crowded = 0;
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
         crowded |= (uint32_t)(n->count[first + lane] > JOX_CROWD_RANK) << lane;
     const JoxFloats d2 = jf_load(n->crowding2 + first);
     const JoxFloats area = (float)JOX_PI * jf_max(d2, jf_set(1e-4f));
-    const JoxFloats density =
-        jf_select(jm_of_bits(crowded), (float)(JOX_CROWD_RANK + 1) / area, jf_set(0.0f));
+    return jf_select(jm_of_bits(crowded), (float)(JOX_CROWD_RANK + 1) / area, jf_set(0.0f));
+}
+
+/* Returns the share of the sum of radii at which the ways of agents and others who cross pass: in
+   a crowd of this density (1/m2) with a shoulder turned to each other, that is, as near as depths
+   of chests allow. Others are taken to be built like the agents. */
+static inline JoxFloats jox_cross_width(const JoxWalk *w, uint32_t first, JoxFloats density) {
+    const JoxAgents *a = w->step.agents;
+    const JoxFloats one = jf_set(1.0f), turned = jox_share_lanes(density - (float)w->law->turned);
+    const JoxFloats chest =
+        jf_load(a->contact_radius + first) / jox_param_lanes(a, JOX_PARAM_radius, first);
+    return (float)w->law->width_cross * (one + (chest - one) * turned);
+}
+
+/* Returns the eagerness that a crowd of this density (1/m2) would give agents, 0 to 1, within the
+   bounds of their haste. */
+static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first, JoxFloats density) {
+    const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
+    const JoxFloats haste = jox_param_lanes(w->step.agents, JOX_PARAM_haste, first);
+    const JoxFloats twice = 2.0f * haste;
+    const JoxFloats most = jf_set((float)w->law->eager_most);
     const JoxFloats keen = jox_share_lanes(twice - one); /* haste beyond normal */
     const JoxFloats least = normal * jox_share_lanes(twice) + (one - normal) * keen;
     const JoxFloats bound = most + (one - most) * keen;
@@ -99,9 +114,9 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first) {
 }
 
 /* Returns the eagerness at the end of the step: it approaches the wanted one. */
-static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first) {
+static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first, JoxFloats density) {
     const JoxFloats now = jf_load(w->step.agents->eager + first);
-    const JoxFloats wanted = jox_eagerness_wanted(w, first);
+    const JoxFloats wanted = jox_eagerness_wanted(w, first, density);
     const JoxFloats rate = jf_select(jf_lt(now, wanted), jf_set(w->rise), jf_set(w->fall));
     return now + (wanted - now) * rate;
 }

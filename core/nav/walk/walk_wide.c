@@ -43,6 +43,7 @@ typedef struct Packet {
     JoxFloats speed, gap, eager, radius; /* wanted speed, m/s; time gap, s; eagerness; radius, m */
     JoxFloats unhidden2; /* m2: no wall hides neighbours within this squared distance */
     JoxFloats beside2;   /* weight of the squared lateral distance beside the way, minus 1 */
+    JoxFloats cross;     /* width of ways that cross, as a share of the sum of both radii */
     JoxFloats per_time;  /* 1/s: speed per metre of room behind an agent ahead */
     JoxFloats per_cross; /* 1/s: speed per metre of free path */
     JoxFloats meeting;   /* m/s2: worth of a direction per second until a meeting in it */
@@ -194,7 +195,7 @@ static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool
     }
     for (p->crossing_count = 0; take_nearest(p, &left.crossing, &next, periodic);
          p->crossing_count++) {
-        const JoxFloats width2 = squared((float)law->width_cross * next.radii);
+        const JoxFloats width2 = squared(p->cross * next.radii);
         const JoxFloats apart2 = jv_dot(next.offset, next.offset) - width2;
         p->crossing[p->crossing_count] =
             (Crossing){next.there, next.offset, next.velocity, width2, jf_max(apart2, zero)};
@@ -459,7 +460,8 @@ static void begin_walk_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxVector preferred = jv_load(a->pref_x, a->pref_y, first);
     const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
     float eager[JOX_WIDTH];
-    p->eager = jox_eagerness(p->w, first);
+    const JoxFloats density = jox_density_lanes(p->w, first);
+    p->eager = jox_eagerness(p->w, first, density);
     jf_store(eager, p->eager);
     p->lanes = walkers & ~jm_bits(jf_le(speed, zero));
     for (uint32_t lane = 0; walkers >> lane; lane++)
@@ -481,6 +483,7 @@ static void begin_walk_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxFloats foreseen = (float)law->ahead_share * p->gap;
     const JoxFloats flank = (float)law->flank / (one - (float)law->flank_eager * p->eager);
     p->beside2 = squared(flank) - one;
+    p->cross = jox_cross_width(p->w, first, density);
     p->per_time = one / (p->gap + foreseen);
     p->per_cross = jf_set(1.0f / (float)law->cross_time);
     p->meeting = p->speed * (1.0f / (float)law->contact_time);
