@@ -44,7 +44,7 @@ uint32_t jox_find_contacts_alone(JoxForces *f, uint32_t i, bool walls, JoxFoundP
             (!is_touch_list_full(near, other) || is_in_touch_list(near, other, i)))
             continue;
         if (jox_find_candidates(f, &self, &other, 1, &m))
-            jox_add_contacts(&packet, &self, 1, &other, &m);
+            jox_add_contacts(&packet, &self, 1, &i, &other, &m);
     }
     JOX_ASSERT(packet.count[0] <= JOX_CONTACT_MOST_FOUND);
     memcpy(out, packet.found[0], packet.count[0] * sizeof *out);

@@ -21,7 +21,7 @@ typedef struct JoxFindPacket {
     JoxFoundPair found[JOX_WIDTH][JOX_CONTACT_MOST_FOUND];
 } JoxFindPacket;
 
-/* Data of an agent that is the same for all of its contacts. */
+/* Data of the agents of the lanes that is the same for all of their contacts. */
 typedef struct JoxContactSelf {
     JoxFloats x, y, vx, vy, radius, outer, mass, restitution;
     JoxVector axis; /* m */
@@ -30,24 +30,50 @@ typedef struct JoxContactSelf {
     JoxV2 period;     /* m; 0: none */
 } JoxContactSelf;
 
+/* Loads the agents of a packet. */
 static inline JoxContactSelf jox_load_contact_self(const JoxForces *f, uint32_t first) {
     const JoxAgents *a = f->step.agents;
-    JoxFloats shape[4] = {jf_set(0.0f), jf_set(0.0f), jf_set(0.0f), jf_set(0.0f)}, build[4];
+    const JoxFloats zero = jf_set(0.0f);
+    JoxFloats shape[4] = {zero, zero, zero, zero}, build[4];
     jf_fours((const float *)&f->records[first], 4, build);
     if (f->step.neighbours->has_torsos)
         jf_fours((const float *)&f->step.neighbours->shapes[first], 4, shape);
-    return (JoxContactSelf){jf_load(a->x + first),
-                            jf_load(a->y + first),
-                            jf_load(a->vx + first),
-                            jf_load(a->vy + first),
-                            build[0],
-                            build[1],
-                            build[2],
-                            jox_param_lanes(a, JOX_PARAM_restitution, first),
-                            {shape[0], shape[1]},
-                            shape[3],
-                            ji_load(a->id + first),
-                            a->period};
+    return (JoxContactSelf){.x = jf_load(a->x + first),
+                            .y = jf_load(a->y + first),
+                            .vx = jf_load(a->vx + first),
+                            .vy = jf_load(a->vy + first),
+                            .radius = build[0],
+                            .outer = build[1],
+                            .mass = build[2],
+                            .restitution = jox_param_lanes(a, JOX_PARAM_restitution, first),
+                            .axis = {shape[0], shape[1]},
+                            .inverse_half2 = shape[3],
+                            .least_id = ji_load(a->id + first),
+                            .period = a->period};
+}
+
+/* Loads any agents; neighbours of lesser id count for them, too. */
+static inline JoxContactSelf jox_pick_contact_self(const JoxForces *f, const uint32_t *agents) {
+    const JoxNeighbours *near = f->step.neighbours;
+    const JoxAgents *a = f->step.agents;
+    const JoxFloats zero = jf_set(0.0f);
+    JoxFloats motion[4], shape[4] = {zero, zero, zero, zero}, build[4];
+    jf_records_at(&near->motions[0].x, agents, motion);
+    jf_records_at(&f->records[0].radius, agents, build);
+    if (near->has_torsos)
+        jf_records_at(&near->shapes[0].axis_x, agents, shape);
+    return (JoxContactSelf){.x = motion[0],
+                            .y = motion[1],
+                            .vx = motion[2],
+                            .vy = motion[3],
+                            .radius = build[0],
+                            .outer = build[1],
+                            .mass = build[2],
+                            .restitution = jox_param_of(a->param[JOX_PARAM_restitution], agents),
+                            .axis = {shape[0], shape[1]},
+                            .inverse_half2 = shape[3],
+                            .least_id = ji_set(INT32_MIN),
+                            .period = a->period};
 }
 
 /* Data of one neighbour of each lane. */
@@ -281,11 +307,12 @@ static inline bool jox_is_behind_wall(const JoxForces *f, uint32_t i, float x, f
     return jox_wall_grid_has_wall_between(f->in.walls, at, jox_sub(at, jox_v2(x, y)));
 }
 
-/* Adds the contacts of `lanes` (bits) with their neighbours, unless a wall stands between. Two
+/* Adds the contacts of the agents of `lanes` (bits) with others, unless a wall stands between. Two
    points are in the order in which they lie along the tangent, so that each is the same from step
    to step. */
 static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self, uint32_t lanes,
-                                    const uint32_t *other, const JoxContactCandidates *m) {
+                                    const uint32_t *agents, const uint32_t *other,
+                                    const JoxContactCandidates *m) {
     JoxForces *f = p->f;
     const JoxAgents *a = f->step.agents;
     JoxNearPoint near[2];
@@ -294,20 +321,21 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
     if (!lanes)
         return;
     JoxContactPoint points[2][JOX_WIDTH];
-    float x[JOX_WIDTH], y[JOX_WIDTH], own[2][JOX_WIDTH];
+    float x[JOX_WIDTH], y[JOX_WIDTH], distance2[JOX_WIDTH], own[2][JOX_WIDTH];
     for (int k = 0; k < (second ? 2 : 1); k++) {
         const JoxPointLanes at = jox_point_lanes(self, m, &near[k]);
         jox_write_points(&at, jox_find_targets(f, self, other, m, &at), points[k]);
         jf_store(own[k], jv_det(at.normal, jv_scale(self->axis, near[k].own)));
     }
     jv_store(x, y, 0, m->offset);
-    uint32_t may_be_hidden = p->walls;
-    if (p->walls && f->in.unhidden2)
-        may_be_hidden &= ~jm_bits(jf_lt(m->distance2, jf_load(f->in.unhidden2 + p->first)));
+    jf_store(distance2, m->distance2);
     for (uint32_t lane = 0; lanes >> lane; lane++) {
-        const uint32_t i = p->first + lane;
-        if (!(lanes >> lane & 1) ||
-            ((may_be_hidden >> lane & 1) && jox_is_behind_wall(f, i, x[lane], y[lane])))
+        const uint32_t i = agents[lane], own_lane = i - p->first;
+        if (!(lanes >> lane & 1))
+            continue;
+        const bool unhidden = !(p->walls >> own_lane & 1) ||
+                              (f->in.unhidden2 && distance2[lane] < f->in.unhidden2[i]);
+        if (!unhidden && jox_is_behind_wall(f, i, x[lane], y[lane]))
             continue;
         f->contacts->found.overlaps[i / JOX_FORCE_GRAIN] += points[0][lane].gap < 0.0f;
         JoxFoundPair pair = {
@@ -319,11 +347,11 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
             pair.at = points[1][lane];
             points[1][lane] = points[0][lane];
         }
-        jox_insert_pair(p->found[lane], p->count[lane]++, &pair);
+        jox_insert_pair(p->found[own_lane], p->count[own_lane]++, &pair);
         if (!both)
             continue;
         pair.at = points[1][lane];
-        jox_insert_pair(p->found[lane], p->count[lane]++, &pair);
+        jox_insert_pair(p->found[own_lane], p->count[own_lane]++, &pair);
     }
 }
 

@@ -1,26 +1,56 @@
 /* The kernel that finds contacts. A lane is an agent: the nearest neighbours of all lanes of a
-   packet are tested, then the second nearest, and so on, until none can touch. Contacts are few, so
-   they are written one at a time; so are contacts with walls, and contacts of agents whose
-   neighbour list does not cover touch range (find_alone.c). */
+   packet are tested, then the second nearest, and so on, until none can touch; a lane is then one
+   of those that may touch. Contacts are few, so they are written one at a time; so are contacts
+   with walls, and contacts of agents whose neighbour list does not cover touch range
+   (find_alone.c). */
 #include "force/contact/find_lanes.h"
 #include "geom/wall_grid_lanes.h"
 
-/* Adds the contacts of lanes whose neighbour list covers touch range. */
-static void add_covered_contacts(JoxFindPacket *p, uint32_t lanes) {
+/* Agents of a packet and neighbours that they may touch. */
+typedef struct Meetings {
+    uint32_t count;
+    uint32_t agents[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH];
+    uint32_t others[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH];
+} Meetings;
+
+/* Lists whom the agents of lanes whose neighbour list covers touch range may touch. */
+static void list_meetings(const JoxFindPacket *p, uint32_t lanes, Meetings *out) {
     const JoxForces *f = p->f;
     const JoxNeighbours *near = f->step.neighbours;
     const uint32_t i = p->first;
     const JoxContactSelf self = jox_load_contact_self(f, i);
     const JoxInts most = ji_load_bytes(jox_touch_candidate_counts(near, f->widest) + i);
     const uint32_t *others = near->index + jox_neighbour_at(near, i, 0);
+    const JoxInts own = ji_add(ji_set((int32_t)i), ji_lane());
+    out->count = 0;
     for (uint32_t k = 0; k < near->stride; k++, others += JOX_LANES) {
         lanes &= jm_bits(ji_less(ji_set((int32_t)k), most));
         if (!lanes)
             break;
         JoxContactCandidates m;
         const uint32_t meeting = jox_find_candidates(f, &self, others, lanes, &m);
-        if (meeting)
-            jox_add_contacts(p, &self, meeting, others, &m);
+        if (!meeting)
+            continue;
+        ji_store_packed(out->agents + out->count, own, meeting);
+        ji_store_packed(out->others + out->count, ji_load(others), meeting);
+        out->count += jm_count(meeting);
+    }
+    ji_store(out->agents + out->count, ji_set((int32_t)i)); /* fill the last packet */
+    ji_store(out->others + out->count, ji_set((int32_t)i));
+}
+
+/* Adds the contacts of lanes whose neighbour list covers touch range: a lane is then any agent of
+   the packet with any of its neighbours, so that lanes are full. */
+static void add_covered_contacts(JoxFindPacket *p, uint32_t lanes) {
+    Meetings meetings;
+    list_meetings(p, lanes, &meetings);
+    for (uint32_t k = 0; k < meetings.count; k += JOX_WIDTH) {
+        const uint32_t *agents = meetings.agents + k, *others = meetings.others + k;
+        const JoxContactSelf self = jox_pick_contact_self(p->f, agents);
+        JoxContactCandidates m;
+        const uint32_t meeting =
+            jox_find_candidates(p->f, &self, others, jox_first_lanes(meetings.count - k), &m);
+        jox_add_contacts(p, &self, meeting, agents, others, &m);
     }
 }
 
