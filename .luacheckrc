@@ -10,6 +10,7 @@ std = {
     "after",
     "lasted",
     "stuck",
+    "fallen",
     "hit_by",
     "grounded",
     "incoming",

@@ -118,7 +118,10 @@ typedef enum JoxForceRole {
     X(STATE, float, still_y)                                                                       \
     X(STATE, float, displaced_x) /* from where it stood before others moved it, m */               \
     X(STATE, float, displaced_y)                                                                   \
-    X(STATE, float, settled)       /* time since it was last moved away from there, s */           \
+    X(STATE, float, settled) /* time since it was last moved away from there, s */                 \
+    X(RARE, float, fallen)   /* time since it fell, s; 0: it stands */                             \
+    X(RARE, float, lean_x)   /* where feet would have to be against forces, m from it */           \
+    X(RARE, float, lean_y)                                                                         \
     X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
     X(RARE, uint32_t, arrived_at)  /* reference to the place where it arrived in a crowd */        \

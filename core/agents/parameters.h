@@ -33,7 +33,10 @@
       "time gap kept to people ahead, by the walking law; 0: velocities are chosen by ORCA")       \
     X(haste, "", 0, 1, 0.5, "motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness")            \
     X(step_back, "m/s", 0, 2, 0.11,                                                                \
-      "speed at which an agent that stands steps back to where it stood before it was moved")
+      "speed at which an agent that stands steps back to where it stood before it was moved")      \
+    X(balance, "m", 0, 2, 0,                                                                       \
+      "longest step by which an agent that forces throw regains its balance; 0: it never falls")   \
+    X(rise, "s", 0, 1e6, 5, "time that an agent lies after a fall, until it gets up")
 
 typedef enum JoxParameter {
 #define X(name, unit, least, greatest, value, meaning) JOX_PARAM_##name,

@@ -178,8 +178,9 @@ static void fill_states(JoxLive *live, const JoScene *scene) {
         const uint32_t state = a->machine[i] == JOX_NO_MACHINE ? JOX_LIVE_OTHER_STATE
                                                                : first[a->machine[i]] + a->state[i];
         const struct JoxLiveSeen *seen = &live->seen[slot];
-        const bool lies = a->machine[i] != JOX_NO_MACHINE &&
-                          world->model.machines.items[a->machine[i]]->states[a->state[i]].lies;
+        const bool lies = a->fallen[i] > 0.0f ||
+                          (a->machine[i] != JOX_NO_MACHINE &&
+                           world->model.machines.items[a->machine[i]]->states[a->state[i]].lies);
         JOX_ASSERT(a->slot_index[slot] == i);
         live->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
         live->flags[i] = (uint8_t)(((a->slot_generation[slot] ^ seen->flips) & JOX_LIVE_PARITY) |

@@ -254,14 +254,15 @@ static void print_table_definition(JoxText *out, const char *class, const char *
 static void print_filter_definition(JoxText *out, const JoxWord *word) {
     static const char *const CLASSES[] = {"Number", "Target"};
     const bool flying = !strcmp(word->name, ":flying");
+    const bool plain = flying || !strcmp(word->name, ":fallen");
     const bool metres = !strcmp(word->name, ":incoming");
     for (size_t c = flying; c < 2; c++) { /* `neighbours` are people, who do not fly */
         jox_text_printf(out, "--- %s\n", word->meaning);
-        if (!flying)
+        if (!plain)
             jox_text_printf(out, "---@param %s\n", metres ? "metres number" : "name string");
         jox_text_printf(out, "---@return jostle.%s\nfunction %s%s(%s%s) end\n", CLASSES[c],
                         CLASSES[c], word->name,
-                        flying   ? ""
+                        plain    ? ""
                         : metres ? "metres"
                                  : "name",
                         !strcmp(word->name, ":where") ? ", ..." : "");

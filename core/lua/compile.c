@@ -89,7 +89,7 @@ static void add_home_memory(JoxBuild *build) {
 /* Compiles the filter of a target. */
 static JoxAgentFilter build_target_filter(JoxBuild *build, const JoxNodeFilter *filter) {
     JoxAgentFilter made = {.some = filter->state || filter->machine || filter->memory ||
-                                   filter->grouped,
+                                   filter->grouped || filter->fallen,
                            .state = -1,
                            .machine = -1,
                            .memory = -1,
@@ -97,6 +97,7 @@ static JoxAgentFilter build_target_filter(JoxBuild *build, const JoxNodeFilter *
                            .least = filter->least,
                            .greatest = filter->greatest,
                            .flies = filter->flies,
+                           .fallen = filter->fallen,
                            .comes = (float)filter->comes};
     if (filter->state)
         made.state = add_name_at(build, filter->state, JOX_NAME_STATE, &filter->state_at);
@@ -110,7 +111,8 @@ static JoxAgentFilter build_target_filter(JoxBuild *build, const JoxNodeFilter *
 static bool is_same_filter(const JoxAgentFilter *a, const JoxAgentFilter *b) {
     return a->some == b->some && a->state == b->state && a->machine == b->machine &&
            a->memory == b->memory && a->group == b->group && a->least == b->least &&
-           a->greatest == b->greatest && a->flies == b->flies && a->comes == b->comes;
+           a->greatest == b->greatest && a->flies == b->flies && a->fallen == b->fallen &&
+           a->comes == b->comes;
 }
 
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {

@@ -46,6 +46,7 @@ void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i
     jox_test_set_number(L, "density", a->density[i]);
     jox_test_set_number(L, "compression", a->compression[i]);
     jox_test_set_number(L, "load", a->load[i]);
+    jox_test_set_number(L, "fallen", a->fallen[i]);
     jox_test_set_number(
         L, "pushed",
         sqrt((double)a->force_x[i] * a->force_x[i] + (double)a->force_y[i] * a->force_y[i]));

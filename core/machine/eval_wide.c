@@ -157,6 +157,8 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
         EACH_AGENT(jox_time_in_state(run, i) >= g->lasts[i] - 1e-6);
     case JOX_OP_STUCK:
         EACH_AGENT(g->still[i] >= a[n]);
+    case JOX_OP_FALLEN:
+        EACH_AGENT(g->fallen[i] > 0.0f);
     default:
         return false;
     }

@@ -68,6 +68,8 @@ static void print_filter(const JoxMachine *machine, const JoxAgentFilter *filter
         jox_text_printf(out, ":incoming(%.6g)", (double)filter->comes);
     if (!filter->some)
         return;
+    if (filter->fallen)
+        jox_text_add(out, ":fallen()");
     if (filter->state >= 0)
         jox_text_printf(out, ":in_state(\"%s\")", machine->names[filter->state].text);
     if (filter->machine >= 0)

@@ -47,6 +47,7 @@ enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
     X(time_in_state, time_in_state, "s", "since the state was entered", jox_time_in_state(run, i))
 #define JOX_MEASURED_OTHERS(X)                                                                     \
     X(speed, , "m/s", "present speed", jox_length((JoxV2){a->vx[i], a->vy[i]}))                    \
+    X(fallen, , "s", "time since the agent fell; 0 while it stands", a->fallen[i])                 \
     X(x, , "m", "position east", a->x[i])                                                          \
     X(y, , "m", "position north", a->y[i])                                                         \
     X(neighbours, , "", "neighbours seen", run->neighbours->count[i])                              \
@@ -70,17 +71,17 @@ typedef enum JoxNow {
    agents who have arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the
    last move crossed line `place` from its right to its left. FIRST_IN: the agent heads its queue.
    AFTER: time in state is at least a. LASTED: the drawn duration of the state is over. STUCK: the
-   agent has not moved 0.25 m for a seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED:
-   target, a body, touches the ground. KICKED: the agent kicked target, or a body with its tag, in
-   the last step. HIT_BY: target, faster than 1 m/s, touches the agent, or such a body hit it in the
-   last step. INCOMING: target, at its present velocity, comes within a metres of where the agent
-   stands during the next 2 s.
-   SEES: target exists within perception. HAS: the agent holds target, a body or an agent. HEARD:
-   another agent within perception, and within a metres, gave the signal `name` in the last step.
-   NEIGHBOURS: number of neighbours that match target. THEIRS: memory `name` of the agent that is
-   the target, if its machine makes that public; else 0. SHUT: a gate at place is closed, and the
-   agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the gates called `name` are
-   open. Agents behind a wall are not seen, heard or touched. */
+   agent has not moved 0.25 m for a seconds. FALLEN: the agent lies after a fall. TOUCHES: the gap
+   to target is below 0.05 m. GROUNDED: target, a body, touches the ground. KICKED: the agent kicked
+   target, or a body with its tag, in the last step. HIT_BY: target, faster than 1 m/s, touches the
+   agent, or such a body hit it in the last step. INCOMING: target, at its present velocity, comes
+   within a metres of where the agent stands during the next 2 s. SEES: target exists within
+   perception. HAS: the agent holds target, a body or an agent. HEARD: another agent within
+   perception, and within a metres, gave the signal `name` in the last step. NEIGHBOURS: number of
+   neighbours that match target. THEIRS: memory `name` of the agent that is the target, if its
+   machine makes that public; else 0. SHUT: a gate at place is closed, and the agent sees it.
+   QUEUED: number of agents in the queue `place`. OPEN: the gates called `name` are open. Agents
+   behind a wall are not seen, heard or touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -88,7 +89,7 @@ typedef enum JoxNow {
     X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                           \
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
     X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
-    X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
+    X(TOUCHES) X(FALLEN) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
     X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(SHUT)                             \
     X(QUEUED) X(OPEN)
 /* clang-format on */
@@ -136,6 +137,7 @@ typedef struct JoxAgentFilter {
     int32_t group;                  /* number of the scene's group; -1: any */
     double least, greatest;         /* accepted range of the memory value */
     bool flies;                     /* bodies in the air alone, and no agents */
+    bool fallen;                    /* agents that lie after a fall alone */
     float comes; /* m: what passes within this distance alone (jox_pass_distance); 0: anything */
 } JoxAgentFilter;
 

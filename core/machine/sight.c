@@ -103,7 +103,8 @@ static bool passes_filter(const JoxMachineRun *run, const JoxAgentFilter *filter
                           uint32_t j) {
     const JoxAgents *a = run->agents;
     const JoxName *names = jox_machine_of(run, i)->names;
-    if (filter->group >= 0 && a->group[j] != filter->group)
+    if ((filter->group >= 0 && a->group[j] != filter->group) ||
+        (filter->fallen && !(a->fallen[j] > 0.0f)))
         return false;
     if (filter->state < 0 && filter->machine < 0 && filter->memory < 0)
         return true;

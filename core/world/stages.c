@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "world/falls.h"
 
 /* Checks that a substep is the only one if and only if it is the first and the last. */
 static void check_substep(const JoxSubstep *s) {
@@ -42,6 +43,8 @@ void jox_stage_think(const JoxThinkStage *s) {
 void jox_stage_prefer(const JoxPreferStage *s) {
     const JoxStep *step = &s->substep->step;
     jox_machines_prefer(s->machines, step->pool);
+    if (s->substep->fallen)
+        jox_falls_hold(step->agents);
     if (s->machines->without_spot > s->statistics->most_without_spot)
         s->statistics->most_without_spot = s->machines->without_spot;
     if (!s->literal)
@@ -88,6 +91,8 @@ void jox_stage_solve(const JoxSolveStage *s) {
     if (totals.residual > s->statistics->contact_residual)
         s->statistics->contact_residual = (double)totals.residual;
     s->statistics->walls_relaxed += jox_nav_solve(s->nav, step);
+    if (s->substep->fallen)
+        jox_falls_plan(step->agents);
     jox_force_bear(s->forces_of);
     jox_inspect_after_solve(s->inspection, s->nav, step);
 }

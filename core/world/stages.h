@@ -22,6 +22,7 @@ typedef struct JoxSubstep {
     bool first, last, only; /* only: the step has this one substep */
     uint32_t plan_every;    /* steps from one plan to the next */
     double end;             /* s: simulated time at its end */
+    bool fallen;            /* agents lie, who want and plan nothing */
     JoxStep step;           /* given to nav and force; keeps the timing until the next substep */
 } JoxSubstep;
 

@@ -79,10 +79,11 @@ typedef struct JoxStatistics {
     uint64_t contact_passes; /* passes of the contact solve, over all steps */
     double contact_residual; /* N: greatest change of a force in a last pass */
     uint64_t transitions, kicks, throws, pickups, spawned, removed, hits;
-    uint64_t dropped;           /* carried bodies that fell for want of room */
-    uint64_t shifted_at_birth;  /* agents born on a free spot near their point */
-    uint64_t not_placed;        /* births without a free spot */
-    uint64_t most_without_spot; /* most agents at a time that waited for room at their goal */
+    uint64_t falls, most_fallen; /* falls of agents; most agents that lay at a time */
+    uint64_t dropped;            /* carried bodies that fell for want of room */
+    uint64_t shifted_at_birth;   /* agents born on a free spot near their point */
+    uint64_t not_placed;         /* births without a free spot */
+    uint64_t most_without_spot;  /* most agents at a time that waited for room at their goal */
     uint64_t moved_out, not_moved_out;  /* agents in new walls: moved; without a free spot */
     uint64_t people_lost, bodies_lost;  /* found by number_guard.c */
     uint64_t opened, closed, announced; /* gates, and signals to all agents */

@@ -130,6 +130,8 @@ static void run_infer(JoWorld *w, const JoxSubstep *substep) {
 }
 
 static void run_observe(JoWorld *w, const JoxSubstep *substep) {
+    if (jox_falls_matter(&w->state.agents, w->model.def.literal))
+        jox_falls_step(&w->scratch.falls, &substep->step, w->scratch.forces, &w->state.statistics);
     jox_stage_observe(&(JoxObserveStage){.substep = substep,
                                          .tick = w->state.tick,
                                          .dt = w->model.def.dt,
@@ -197,6 +199,7 @@ static const JoxSubstep *begin_substep(JoWorld *w, uint32_t number, uint32_t sub
     s->first = number == 0;
     s->last = number + 1 == substeps;
     s->only = substeps == 1;
+    s->fallen = jox_falls_lies_any(&w->state.agents);
     s->end = (double)w->state.tick * def->dt + (number + 1) * dt;
     timing.seed = def->seed;
     timing.time = s->end - dt;

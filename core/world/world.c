@@ -77,6 +77,7 @@ static void free_world(JoWorld *world) {
     jox_neighbours_free(&world->scratch.neighbours);
     jox_objects_free_grid(&world->scratch.objects);
     jox_free(world->scratch.walked);
+    jox_falls_free(&world->scratch.falls);
     jox_free(world->scratch.departures.items);
     jox_step_events_free(&world->scratch.step_events);
     jox_free(world->scratch.discs.discs);

@@ -21,6 +21,7 @@
 #include "world/agent_inspection.h"
 #include "world/dragged_bodies.h"
 #include "world/exits.h"
+#include "world/falls.h"
 #include "world/input/input_entries.h"
 #include "world/population.h"
 #include "world/routes/routes.h"
@@ -117,6 +118,7 @@ typedef struct JoxWorldScratch {
     JoxDepartures departures; /* agents that left in the last step */
     JoxDiscList discs;
     JoxHands hands;
+    JoxFalls falls;
     JoxStepEvents step_events; /* events of the last step */
     struct {
         uint32_t *ids;

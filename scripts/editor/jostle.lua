@@ -64,6 +64,12 @@ function Number:where(name, ...) end
 ---@param name string
 ---@return jostle.Target
 function Target:where(name, ...) end
+--- restricts them to agents that lie after a fall (see `balance`)
+---@return jostle.Number
+function Number:fallen() end
+--- restricts them to agents that lie after a fall (see `balance`)
+---@return jostle.Target
+function Target:fallen() end
 --- restricts `nearest` to bodies in the air, which touch neither the ground nor a fixed body and which nobody carries
 ---@return jostle.Target
 function Target:flying() end
@@ -108,7 +114,7 @@ function Target:incoming(metres) end
 ---@field approach? string|jostle.Target|jostle.Number body or agent that the agent does not avoid in advance; it only does not overlap it. Agents are then kept apart by contacts alone, where forces are on
 ---@field kick? table kicks a body that it touches, with no wall between. The body passes the agent's own body until it is clear of it
 ---@field take? string|jostle.Target|jostle.Number body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body
----@field grasp? string|jostle.Target|jostle.Number agent to take hold of, if it is within 0.5 m. Both pull each other until the holder comes into a state without `grasp`, or 1 m is between them. The held agent is dragged, or carried while its own `damping` is 0; see `has` and `holders`
+---@field grasp? string|jostle.Target|jostle.Number agent to take hold of, if it is within 0.5 m. An agent that has fallen gets up the sooner, the more hold on to it. Both pull each other until the holder comes into a state without `grasp`, or 1 m is between them. The held agent is dragged, or carried while its own `damping` is 0; see `has` and `holders`
 ---@field grip? number greatest force with which the agent holds on; default 300, N
 ---@field throw? table throws the body that it carries, from its own side of walls
 ---@field colour? string colour of agents in this state where people are coloured by state; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes. Default: one is chosen
@@ -139,6 +145,8 @@ function Target:incoming(metres) end
 ---@field time_gap? number|jostle.Number|jostle.Drawn time gap kept to people ahead, by the walking law; 0: velocities are chosen by ORCA, s; 0 to 10, default 0
 ---@field haste? number|jostle.Number|jostle.Drawn motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness; 0 to 1, default 0.5
 ---@field step_back? number|jostle.Number|jostle.Drawn speed at which an agent that stands steps back to where it stood before it was moved, m/s; 0 to 2, default 0.11
+---@field balance? number|jostle.Number|jostle.Drawn longest step by which an agent that forces throw regains its balance; 0: it never falls, m; 0 to 2, default 0
+---@field rise? number|jostle.Number|jostle.Drawn time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
 
 ---@class jostle.Transition
 ---@field to? string state to which it leads
@@ -161,6 +169,7 @@ function Target:incoming(metres) end
 ---@field pushed number magnitude of the net force, N
 ---@field compression number sum of contact force magnitudes over circumference, N/m
 ---@field load number greatest push borne from any one direction: over directions d, the greatest sum of the positive parts of f.d over its contacts f, N
+---@field fallen number time since it fell; 0 while it stands, s
 ---@field team number number of its team; 0: none
 ---@field state string name of its state; nil of a neighbour without a machine
 ---@field machine string name of its machine; nil of a neighbour without one
@@ -214,6 +223,10 @@ lasted = nil
 ---@param a1 number|jostle.Number
 ---@return jostle.Condition
 function stuck(a1) end
+
+--- `fallen`: the agent lies after a fall (see `balance`); `now.fallen` is the time since then
+---@type jostle.Condition
+fallen = nil
 
 --- `hit_by(target)`: a target faster than 1 m/s touches the agent, or hit it in the last step
 ---@param a1 jostle.Target
@@ -358,7 +371,7 @@ function sqrt(a1) end
 ---@return jostle.Number
 function clamp(a1, a2, a3) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours driven time density headway eagerness pushed compression load contacts holders time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed fallen x y neighbours driven time density headway eagerness pushed compression load contacts holders time_in_state
 ---@type table<string, jostle.Number>
 now = {}
 

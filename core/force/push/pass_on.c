@@ -18,7 +18,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t f
     const JoxAgents *a = f->step.agents;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
     const uint32_t n = jox_count_found(found);
-    if (n == 0)
+    if (n == 0 || a->fallen[i] > 0.0f)
         return;
     const JoxV2 each = jox_resistance(unit, shortfall, jox_param(a, JOX_PARAM_absorb, i),
                                       jox_param(a, JOX_PARAM_mass, i), n, (float)f->step.timing.dt);
@@ -46,6 +46,8 @@ static float find_taken_share(const JoxForces *f, uint32_t to, JoxV2 force, floa
 static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t found) {
     const JoxAgents *a = f->step.agents;
     float dt = (float)f->step.timing.dt, mass = jox_param(a, JOX_PARAM_mass, i);
+    if (a->fallen[i] > 0.0f)
+        return;
     float absorb = jox_param(a, JOX_PARAM_absorb, i);
     JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     JoxV2 change = jox_slowing(before, after);

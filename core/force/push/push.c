@@ -120,6 +120,8 @@ static int64_t to_fixed(double momentum) {
    and bodies; and the reaction to itself or the ground. */
 static void push_from_agent(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 aim, uint32_t found) {
     Target targets[MOST_TARGETS];
+    if (f->step.agents->fallen[i] > 0.0f)
+        return;
     uint32_t n = list_people_targets(f, i, found, targets);
     if (f->has_bodies)
         n += find_body_targets(f, i, aim, targets + n);

@@ -49,6 +49,8 @@ static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i,
         return lua_pushnumber(L, a->compression[i]), true;
     if (strcmp(name, "load") == 0)
         return lua_pushnumber(L, a->load[i]), true;
+    if (strcmp(name, "fallen") == 0)
+        return lua_pushnumber(L, a->fallen[i]), true;
     if (strcmp(name, "team") == 0)
         return lua_pushinteger(L, a->team[i]), true;
     int parameter = jox_parameter_find(name);

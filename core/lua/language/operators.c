@@ -238,7 +238,8 @@ static int method_is(lua_State *L) {
     return push_comparison(L, JOX_OP_EQ, "is");
 }
 
-/* ---- filters of targets: in_state, of_machine, of_group, where, flying, incoming ---- */
+/* ---- filters of targets: in_state, of_machine, of_group, where, fallen, flying,
+   incoming ---- */
 
 /* Pushes a copy of the value that a method is called on, `nearest` or `neighbours`, and returns the
    filter of the copy, for the method to change; NULL with an error pushed. */
@@ -338,10 +339,20 @@ static int method_flying(lua_State *L) {
         return 1;
     const JoxNode *of = jox_node_get(L, 1);
     if (of->kind != JOX_NODE_TARGET || of->target_kind != JOX_TARGET_NEAREST || filter->state ||
-        filter->machine || filter->memory || filter->grouped)
+        filter->machine || filter->memory || filter->grouped || filter->fallen)
         return jox_word_error(L, "flying", "bad-operand", "Example: nearest(\"ball\"):flying()",
                               ":flying is of `nearest` with a tag of bodies");
     filter->flies = true;
+    return 1;
+}
+
+static int method_fallen(lua_State *L) {
+    JoxNodeFilter *filter = push_filtered_target(L, "fallen");
+    if (filter && filter->flies)
+        return jox_word_error(L, "fallen", "bad-operand", "Take one of them out",
+                              ":fallen is of people, and :flying of bodies");
+    if (filter)
+        filter->fallen = true;
     return 1;
 }
 
@@ -368,6 +379,7 @@ static const luaL_Reg METHODS[] = {{"above", method_above},
                                    {"of_machine", method_of_machine},
                                    {"of_group", method_of_group},
                                    {"where", method_where},
+                                   {"fallen", method_fallen},
                                    {"flying", method_flying},
                                    {"incoming", method_incoming},
                                    {NULL, NULL}};

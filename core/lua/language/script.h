@@ -83,7 +83,7 @@ typedef struct JoxNodeFilter {
     bool grouped;
     int32_t group;
     double least, greatest;
-    bool flies;
+    bool flies, fallen;
     double comes; /* m; 0: anything */
 } JoxNodeFilter;
 

@@ -71,6 +71,8 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"throws", s->throws},
                   {"pickups", s->pickups},
                   {"dropped", s->dropped},
+                  {"falls", s->falls},
+                  {"most_fallen", s->most_fallen},
                   {"hits", s->hits},
                   {"spawned", s->spawned},
                   {"removed", s->removed},

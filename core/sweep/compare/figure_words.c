@@ -83,6 +83,8 @@ static const struct {
     {"events.throws", "throws", "", false},
     {"events.kicks", "kicks", "", false},
     {"events.pickups", "bodies taken up", "", false},
+    {"events.falls", "falls", "", false},
+    {"events.most_fallen", "most people who lay at a time after falls", "", false},
     {"events.dropped", "bodies dropped for want of room", "", false},
     {"events.transitions", "changes of state", "", false},
     {"events.opened", "gates opened", "", false},

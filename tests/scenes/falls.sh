@@ -1,0 +1,20 @@
+# Falls: a crowd that collapses where its people can lose their balance, and does not where they cannot.
+. tests/scenes/lib.sh
+# falls_in NAME ARGS...: runs the scene, and prints its count NAME
+falls_in() {
+    local name=$1; shift
+    "$JOSTLE" run scenes/crowd-collapse.yaml --quiet --for 25 --summary "$work/c.json" "$@" 2>/dev/null
+    sed -n "s/.*\"$name\": \([0-9]*\).*/\1/p" "$work/c.json"
+}
+between "people in a pressing crowd fall onto those who were thrown" "$(falls_in falls)" 60 2000
+between "  and many of the 220 lie at a time" "$(falls_in most_fallen)" 40 220
+between "with a balance of 0 nobody falls" "$(falls_in falls --set groups.people.set.balance=0)" 0 0
+between "without forces of others only those fall who were thrown" "$(falls_in falls --set forces.enabled=false)" 1 20
+between "where nobody is thrown nobody falls" "$(falls_in falls --set events.0.at=1000)" 0 0
+"$JOSTLE" run scenes/crowd-collapse.yaml --for 6 2>&1 | tr '\n' ' ' | grep -qE 'There were [0-9]+ falls, [0-9]+ people that lay at a time'
+verdict "the last lines count falls" $?
+same_hash "falls do not depend on threads" "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10 --threads 1)" \
+    "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10 --threads 3)"
+"$JOSTLE" run scenes/crowd-collapse.yaml --quiet --for 5 --checkpoint 5 --checkpoint-dir "$work/cp" 2>/dev/null
+same_hash "falls go on from a checkpoint" "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10)" \
+    "$("$JOSTLE" resume "$work/cp/latest.checkpoint" --for 10 --quiet --summary - 2>/dev/null | figure hash)"
