@@ -46,21 +46,25 @@ static inline JoxFloats jox_share_kept_lanes(JoxFloats size, JoxFloats settled, 
     return jf_select(stays, within * (1.0f - dt / JOX_STEP_FORGOTTEN), within);
 }
 
-/* Returns which of the agents from `first` on feel a force of others. Who comes to rest feels its
-   own deceleration (8) as a force, too, and has not been moved by anybody. */
-static inline JoxMask jox_moved_by_others_lanes(const JoxAgents *a, uint32_t first) {
+/* Returns which of the agents from `first` on a force of others moves: by contact or push, or one
+   that others pass on and that makes them faster. Who comes to rest feels its own deceleration (8)
+   as a force, too, and has not been moved by anybody. */
+static inline JoxMask jox_moved_by_others_lanes(const JoxAgents *a, uint32_t first, JoxVector old,
+                                                JoxVector force) {
     const JoxVector contact = jv_load(a->contact_x, a->contact_y, first),
                     push = jv_load(a->push_x, a->push_y, first),
                     external = jv_load(a->last_ext_x, a->last_ext_y, first);
-    return jf_lt(jf_set(0.0f),
-                 jv_dot(contact, contact) + jv_dot(push, push) + jv_dot(external, external));
+    const JoxFloats direct =
+        jv_dot(contact, contact) + jv_dot(push, push) + jv_dot(external, external);
+    const JoxFloats speed = jv_dot(jv_load(a->vx, a->vy, first), force);
+    return jm_or(jf_lt(jf_set(0.0f), direct), jf_lt(jv_dot(old, force), speed));
 }
 
 /* Adds a move of `dt` seconds to how far the agents from `first` on are displaced from where they
-   stood, m: begins with a move under a force of others. Agents that want to walk, and those that do
-   not step back, have no such place. */
+   stood, m: begins with a move under a force of others. `old`: velocity before the step, m/s.
+   Agents that want to walk, and those that do not step back, have no such place. */
 static inline void jox_note_displacement_lanes(JoxAgents *a, uint32_t first, JoxVector move,
-                                               float dt) {
+                                               JoxVector old, float dt) {
     const JoxFloats zero = jf_set(0.0f);
     const JoxVector before = jv_load(a->displaced_x, a->displaced_y, first);
     const JoxVector force = jv_load(a->half_plane_x, a->half_plane_y, first);
@@ -68,7 +72,7 @@ static inline void jox_note_displacement_lanes(JoxAgents *a, uint32_t first, Jox
     if (!jm_bits(known))
         return;
     const JoxMask begun =
-        jm_or(jf_lt(zero, jv_dot(before, before)), jox_moved_by_others_lanes(a, first));
+        jm_or(jf_lt(zero, jv_dot(before, before)), jox_moved_by_others_lanes(a, first, old, force));
     const JoxFloats pushed = jf_max(zero, jv_dot(move, force));
     const JoxVector now = jv_add(before, jv_add(move, jv_scale(force, JOX_STEP_BEYOND * pushed)));
     const JoxFloats size = jf_sqrt(jv_dot(now, now)), settled = jf_load(a->settled + first);

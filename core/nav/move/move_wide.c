@@ -147,8 +147,12 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         const JoxVector at = jv_load(x, y, 0), way = jv_sub(at, from);
         jv_store(a->x, a->y, i, at);
         extend_ways(&ways, jm_of_bits(there), way);
-        if (!m->nav->literal)
-            jox_note_displacement_lanes(a, i, way, (float)m->step.timing.dt);
+        if (!m->nav->literal) {
+            JoxFloats motion[4]; /* of before the step */
+            jf_fours((const float *)&m->step.neighbours->motions[i], 4, motion);
+            jox_note_displacement_lanes(a, i, way, (JoxVector){motion[2], motion[3]},
+                                        (float)m->step.timing.dt);
+        }
         const uint32_t out = there & jm_bits(jm_or(find_outside(at.x, a->origin.x, a->period.x),
                                                    find_outside(at.y, a->origin.y, a->period.y)));
         for (uint32_t lane = 0; out >> lane; lane++)
