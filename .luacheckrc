@@ -7,6 +7,7 @@ std = {
     "near",
     "touches",
     "first_in",
+    "joined",
     "after",
     "lasted",
     "stuck",

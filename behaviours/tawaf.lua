@@ -36,6 +36,10 @@ return machine {
       { to = "Exit",    when = done } },
 
     ToStone = { steer = queue "black_stone", speed = 0.3 * own.speed, perception = 1, push = shove,
+      { to = "Queue",   when = joined "black_stone" },
+      { to = "Circle",  when = after(60) | stuck(15) } },
+
+    Queue = { steer = queue "black_stone", speed = 0.3 * own.speed, perception = 1, push = shove,
       { to = "Touch",   when = first_in "black_stone" & near("black_stone", 0.75) },
       { to = "Circle",  when = after(60) | stuck(15) } },
 

@@ -123,7 +123,7 @@ typedef enum JoxForceRole {
     X(RARE, float, lean_x)   /* where feet would have to be against forces, m from it */           \
     X(RARE, float, lean_y)                                                                         \
     X(STATE, uint32_t, queue_at)   /* reference to the place whose queue it stands in */           \
-    X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
+    X(STATE, uint32_t, queued)     /* tick at which it took its place there; JOX_NO_TURN */        \
     X(RARE, uint32_t, arrived_at)  /* reference to the place where it arrived in a crowd */        \
     X(RARE, float, kept_off)       /* time for which a crowd has kept it off a place, s */         \
     X(STATE, uint32_t, turn)       /* order among agents that gather in a place; 0: none */        \
@@ -139,6 +139,7 @@ typedef enum JoxForceRole {
     X(STATE, uint8_t, held)        /* how many agents hold on to it (`grasped`) */
 
 #define JOX_NO_MACHINE UINT16_MAX
+#define JOX_NO_TURN UINT32_MAX /* in `queued`: it is on its way to the end of the queue */
 
 /* Bits of the column plan_notes: what acted on an agent's plan that no equation of the paper
    prints. The first two are rules of the default mode, the third a limit of literal mode. */

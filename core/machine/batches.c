@@ -1,4 +1,4 @@
-/* Scratch of a step: agents grouped by state into batches, ranks in queues, people counted in
+/* Scratch of a step: agents grouped by state into batches, people counted in
    places. */
 #include <string.h>
 
@@ -97,13 +97,6 @@ static void add_batches(JoxMachineScratch *s, uint16_t machine, uint16_t state, 
     }
 }
 
-int16_t jox_queue_target(const JoxState *state) {
-    for (uint32_t t = 0; t < state->steer_count; t++)
-        if (state->steer[t].kind == JOX_STEER_QUEUE)
-            return state->steer[t].target;
-    return -1;
-}
-
 /* Sorts a long list by id: marks the ranks in a bitmap, then reads it in order. */
 static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
     JoxMachineScratch *s = run->scratch;
@@ -136,55 +129,6 @@ void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count) {
     else
         jox_sort(list, count, sizeof *list, compare_ids, a->id, run->scratch->spare);
     JOX_CHECK(jox_by_id_check(a, list, count));
-}
-
-/* Orders agents by queue, arrival, id. */
-static int compare_queue_turns(const void *first, const void *second, const void *context) {
-    const JoxMachineRun *run = context;
-    const JoxMachineScratch *s = run->scratch;
-    const JoxAgents *a = run->agents;
-    const uint32_t i = *(const uint32_t *)first, j = *(const uint32_t *)second;
-    if (s->queue[i] != s->queue[j])
-        return s->queue[i] < s->queue[j] ? -1 : 1;
-    if (a->queued[i] != a->queued[j])
-        return a->queued[i] < a->queued[j] ? -1 : 1;
-    return (a->id[i] > a->id[j]) - (a->id[i] < a->id[j]);
-}
-
-/* Ranks agents in queues by arrival. */
-static void rank_queues(JoxMachineRun *run) {
-    JoxMachineScratch *s = run->scratch;
-    JoxAgents *a = run->agents;
-    uint32_t count = 0, *list = s->list;
-    if (run->place_count > s->place_capacity) {
-        s->place_capacity = run->place_count + 16;
-        s->place_people = jox_realloc(s->place_people, s->place_capacity, sizeof(uint32_t));
-        s->place_queue = jox_realloc(s->place_queue, s->place_capacity, sizeof(uint32_t));
-    }
-    if (run->place_count)
-        memset(s->place_queue, 0, run->place_count * sizeof *s->place_queue);
-    for (uint32_t b = 0; b < s->batch_count; b++) {
-        const JoxBatchRange *batch = &s->batches[b];
-        int16_t target = jox_queue_target(&run->set->items[batch->machine]->states[batch->state]);
-        for (uint32_t n = 0; target >= 0 && n < batch->count; n++) {
-            uint32_t i = s->grouped[batch->begin + n];
-            s->queue[i] = jox_target_place(run, i, target);
-            const uint32_t at = jox_reference(s->queue[i]);
-            if (a->queue_at[i] != at) { /* it keeps its turn in states that queue at the same
-                                           place */
-                a->queue_at[i] = at;
-                a->queued[i] = run->tick;
-            }
-            if (s->queue[i] >= 0)
-                s->place_queue[s->queue[i]]++;
-            list[count++] = i;
-        }
-    }
-    jox_sort(list, count, sizeof *list, compare_queue_turns, run, s->spare);
-    for (uint32_t k = 0; k < count; k++)
-        s->rank[list[k]] =
-            k > 0 && s->queue[list[k]] == s->queue[list[k - 1]] ? s->rank[list[k - 1]] + 1 : 0;
-    JOX_CHECK(jox_queues_check(run, list, count));
 }
 
 /* Returns whether all agents are in one state of one machine, as in many crowds. */
@@ -319,7 +263,7 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
         for (uint32_t k = 0; k < run->set->items[m]->state_count; k++)
             add_batches(s, (uint16_t)m, (uint16_t)k, first[sort.bases[m] + k],
                         first[sort.bases[m] + k + 1]);
-    rank_queues(run);
+    jox_queues_rank(run);
 }
 
 /* Marks the places whose number of people an expression reads. */

@@ -133,7 +133,9 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
     case JOX_OP_NEAR:
         return is_target_near(run, i, in->target, a);
     case JOX_OP_FIRST_IN:
-        return run->scratch->rank[i] == 0;
+        return run->scratch->rank[i] == 0 && run->agents->queued[i] != JOX_NO_TURN;
+    case JOX_OP_JOINED:
+        return run->scratch->rank[i] != UINT32_MAX && run->agents->queued[i] != JOX_NO_TURN;
     case JOX_OP_TOUCHES:
         spot = jox_target_find(run, i, in->target);
         return is_touching(run, i, &spot, 0.05f);

@@ -70,6 +70,7 @@ typedef enum JoxNow {
    of 2 m about it). INSIDE: target is in place. ARRIVED: the agent is in place, or
    agents who have arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the
    last move crossed line `place` from its right to its left. FIRST_IN: the agent heads its queue.
+   JOINED: it has its place in its queue.
    AFTER: time in state is at least a. LASTED: the drawn duration of the state is over. STUCK: the
    agent has not moved 0.25 m for a seconds. FALLEN: the agent lies after a fall. TOUCHES: the gap
    to target is below 0.05 m. GROUNDED: target, a body, touches the ground. KICKED: the agent kicked
@@ -88,8 +89,9 @@ typedef enum JoxNow {
     X(ADD) X(SUB) X(MUL) X(DIV) X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP)    \
     X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                           \
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
-    X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
-    X(TOUCHES) X(FALLEN) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
+    X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(JOINED) X(AFTER)      \
+    X(LASTED) X(STUCK) X(TOUCHES) X(FALLEN) X(GROUNDED) X(KICKED) X(HIT_BY)     \
+    X(INCOMING) X(SEES)                                                         \
     X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(SHUT)                             \
     X(QUEUED) X(OPEN)
 /* clang-format on */

@@ -162,13 +162,13 @@ void jox_queues_check(const JoxMachineRun *run, const uint32_t *list, uint32_t c
     JOX_ASSERT(count <= a->count);
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = list[k];
-        JOX_ASSERT(s->rank[i] <= k && a->queued[i] <= run->tick);
+        JOX_ASSERT(s->rank[i] <= k && (a->queued[i] <= run->tick || a->queued[i] == JOX_NO_TURN));
         JOX_ASSERT(a->queue_at[i] <= run->place_count);
         if (s->rank[i] == 0)
             continue;
         JOX_ASSERT(s->queue[list[k - 1]] == s->queue[i]);
-        JOX_ASSERT(s->rank[list[k - 1]] + 1 == s->rank[i]);
-        JOX_ASSERT(a->queued[list[k - 1]] <= a->queued[i]); /* earlier arrivals have lower ranks */
+        JOX_ASSERT(s->rank[list[k - 1]] + 1 == s->rank[i] ||
+                   (s->rank[list[k - 1]] == s->rank[i] && a->queued[i] == JOX_NO_TURN));
     }
 }
 

@@ -255,6 +255,9 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
 void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count);
 /* Grows the scratch, groups agents by state into batches, and ranks the queues. */
 void jox_machines_group(JoxMachineRun *run, JoxPool *pool);
+/* Ranks agents in queues by turn; those without one get the next rank. In each step one
+   agent at most takes its place in a queue: the nearest. */
+void jox_queues_rank(JoxMachineRun *run);
 /* Returns the target whose queue agents of this state stand in, or -1. */
 int16_t jox_queue_target(const JoxState *state);
 void jox_machines_count_places(JoxMachineRun *run);

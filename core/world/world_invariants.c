@@ -17,7 +17,8 @@ static const char *find_machine_fault(const JoWorld *w, uint32_t i) {
         return NULL;
     JOX_MUST(a->machine[i] < w->model.machines.count);
     JOX_MUST(a->state[i] < w->model.machines.items[a->machine[i]]->state_count);
-    JOX_MUST(a->entered[i] <= w->state.tick && a->queued[i] <= w->state.tick);
+    JOX_MUST(a->entered[i] <= w->state.tick);
+    JOX_MUST(a->queued[i] <= w->state.tick || a->queued[i] == JOX_NO_TURN);
     return NULL;
 }
 

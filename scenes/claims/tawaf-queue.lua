@@ -4,8 +4,8 @@ local WITHOUT = { ["forces.enabled"] = false }
 return claim {
   id = "9", title = "The queue to the Black Stone moves because it pushes",
   source = "Kim et al. 2014, Fig. 13",
-  text = "Those who queue push those in their way, and are served in the order in which they came. Without forces "
-    .. "the stream around the Kaaba sweeps the queue away and hardly anybody gets to the stone.",
+  text = "Those who queue push those in their way, and are served in the order in which they came to the queue, from "
+    .. "where its time and order count. Without forces the stream around the Kaaba sweeps the queue away and hardly anybody gets to the stone.",
   calibrated = measure.tawaf,
   runs = {
     full = measure.tawaf_run { seeds = 3 },

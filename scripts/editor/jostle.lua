@@ -210,6 +210,11 @@ function touches(a1) end
 ---@return jostle.Condition
 function first_in(a1) end
 
+--- `joined(queue)`: the agent has come to the queue that it steers in, and taken its place there
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function joined(a1) end
+
 --- `after(seconds)`: the agent has been in this state for at least this time, s
 ---@param a1 number|jostle.Number
 ---@return jostle.Condition
@@ -422,7 +427,7 @@ function dodge(a1, a2) end
 ---@return jostle.Steering
 function orbit(...) end
 
---- `queue(place)`: to the agent's place in a queue, in order of arrival
+--- `queue(place)`: to the end of a queue, along it where walls hide that; an agent that comes within 1 m of the queue takes the next place, and moves up as those before it leave
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function queue(a1) end

@@ -34,6 +34,65 @@ test("everybody is served and leaves", function()
   counter(6):reaches("Gone", { within = 90 })
 end)
 
+-- A counter at the end of a lane between walls, into which people come from a hall. Returns whether they were served
+-- in the order in which they took their places, and how many.
+local function serve_lane(width, seed, group)
+  local half = width / 2
+  group.count, group["in"], group.spacing = 16, "hall", 0.9
+  local s = scene({
+    places = {
+      hall = { polygon = { { 6, -3 }, { 14, -3 }, { 14, 3 }, { 6, 3 } } },
+      counter = { queue = { { 0.3, 0 }, { 13, 0 } }, spacing = 0.6 },
+      exit = { polygon = { { -6, -3 }, { -4, -3 }, { -4, 3 }, { -6, 3 } } },
+    },
+    walls = { { line = { { 5, half }, { 0, half }, { 0, 6 } } }, { line = { { 5, -half }, { 0, -half }, { 0, -6 } } } },
+    groups = { people = group },
+  }, { seed = seed })
+  local past, served, ordered = {}, 0, true
+  for _ = 1, 4000 do
+    s:step()
+    for _, a in ipairs(s:agents()) do
+      if a.state:find "Serv" and not past[a.id] then
+        past[a.id], served = true, served + 1
+        for _, other in ipairs(s:agents()) do -- all others in the lane are behind, or beside
+          ordered = ordered and (past[other.id] or other.x > a.x - 0.3)
+        end
+      end
+    end
+  end
+  return ordered, served, s:count()
+end
+
+for seed = 1, 3 do
+  for _, width in ipairs { 0.7, 1.2 } do
+    test(("all are served at the end of a lane of %.1f m, from the front, seed %d"):format(width, seed), function()
+      for _, group in ipairs {
+        { behaviour = "customer.lua", set = { counter = "counter", exit = "exit" } },
+        { journey = { { queue = "counter", service = "uniform(2, 4)" }, { exit = "exit" } } },
+      } do
+        local ordered, served, left_over = serve_lane(width, seed, group)
+        truthy(ordered, "somebody was served before one who stood ahead")
+        equal(served, 16)
+        equal(left_over, 0)
+      end
+    end)
+  end
+end
+
+test("two who come from different sides are served in the order in which they come to the end", function()
+  local s = scene({
+    places = { counter = { queue = { { 0, 0 }, { 12, 0 } }, spacing = 0.7 },
+      exit = { point = { -3, -4 }, radius = 1 } },
+    groups = {
+      far = { behaviour = "customer.lua", at = { { 9, 4 } }, set = { counter = "counter", exit = "exit" } },
+      near = { behaviour = "customer.lua", at = { { 2, -2 } }, set = { counter = "counter", exit = "exit" } },
+    },
+  }, { seed = 1 })
+  s:reaches("Service", { agents = "near", within = 6 })
+  equal(s:entered("Service", { agents = "far" }), 0)
+  s:reaches("Service", { agents = "far", within = 20 })
+end)
+
 test("without a queue to stand in the scene is refused", function()
   refused({ groups = { c = { behaviour = "customer.lua", at = { { 0, 0 } } } } }, "no group that runs customer sets it")
 end)

@@ -31,7 +31,7 @@ test("seven circuits, then out by a gate, and everybody gets there", function()
   equal(s:count(), 0)
   truthy(s:entered("Istilam") >= 40, "seven times a chance of 0.3")
   truthy(s:entered("Touch") >= 1, "somebody gets to the stone")
-  truthy(s:entered("Touch") <= s:entered("ToStone"), "and nobody past the queue")
+  truthy(s:entered("Touch") <= s:entered("Queue"), "and nobody past the queue")
 end)
 
 test("people leave by all gates, whichever is nearer", function()
@@ -97,12 +97,12 @@ test("the stone: by the queue, for three seconds, once", function()
   for _ = 1, 4800 do
     s:step()
     local before = busy
-    busy = s:count("ToStone") + s:count("Touch")
+    busy = s:count("Queue") + s:count("Touch")
     for _, a in ipairs(busy + before > 0 and s:agents() or {}) do
       local from = state[a.id]
       if from ~= a.state then
         if a.state == "Touch" then
-          equal(from, "ToStone")
+          equal(from, "Queue")
           equal(a.touched, false)
           touches[a.id] = (touches[a.id] or 0) + 1
           equal(touches[a.id], 1)

@@ -29,6 +29,8 @@ const JoxWord jox_words[] = {
      "the gap between the agent and the target, of torsos or discs, is below 5 cm", "touches(nearest \"ball\")"},
     {"first_in", "p", CONDITION, JOX_OP_FIRST_IN, 0, "first_in(queue)", "",
      "the agent is at the head of the queue that it steers in", "first_in \"row\""},
+    {"joined", "p", CONDITION, JOX_OP_JOINED, 0, "joined(queue)", "",
+     "the agent has come to the queue that it steers in, and taken its place there", "joined \"row\""},
     {"after", "n", CONDITION, JOX_OP_AFTER, 0, "after(seconds)", "",
      "the agent has been in this state for at least this time, s", "after(5)"},
     {"lasted", NULL, CONDITION, JOX_OP_LASTED, 0, "lasted", "",
@@ -150,7 +152,8 @@ const JoxWord jox_words[] = {
      "round a place, counter-clockwise. Options: inward, density_near, density_far, far and "
      "beyond set how dense the crowd about it may be", "orbit(\"yard\", { far = 20 })"},
     {"queue", "p", STEER, JOX_STEER_QUEUE, 0, "queue(place)", "",
-     "to the agent's place in a queue, in order of arrival", "queue \"row\""},
+     "to the end of a queue, along it where walls hide that; an agent that comes within 1 m of the queue takes the next "
+     "place, and moves up as those before it leave", "queue \"row\""},
     {"along", "p", STEER, JOX_STEER_ALONG, 0, "along(place)", "",
      "in the direction of a line, or along a queue to its head", "along \"row\""},
     {"follow", "t?d", STEER, JOX_STEER_FOLLOW, 0, "follow(target [, metres])", "",

@@ -49,6 +49,21 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
                                     : jox_steer_arrive(from, to, jox_param(a, JOX_PARAM_speed, i));
 }
 
+/* Finds the point of a queue that an agent heads for: the spot `behind` m behind its head, or, if a
+   wall hides that, the first point farther back that it sees. Returns whether it is the spot. */
+static bool find_queue_point(const JoxMachineRun *run, JoxV2 at, const JoxPlace *queue,
+                             float behind, JoxV2 *to) {
+    float length = 0.0f, on = behind;
+    for (uint32_t k = 0; k + 1 < queue->count; k++)
+        length += jox_length(jox_sub(queue->points[k + 1], queue->points[k]));
+    *to = jox_place_queue_point(queue, on);
+    while (on < length && jox_is_hidden(run, at, *to, true)) {
+        on = jox_minf(on + queue->spacing, length);
+        *to = jox_place_queue_point(queue, on);
+    }
+    return on == behind;
+}
+
 /* Returns the way to the agent's place in the queue; before it has a rank, towards the queue. */
 static JoxV2 steer_queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
@@ -57,8 +72,11 @@ static JoxV2 steer_queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTer
     if (index < 0 || rank == UINT32_MAX || !jox_place_is_queue(&run->places[index]))
         return jox_steer_seek(run, i, term->target);
     const JoxPlace *place = &run->places[index];
-    JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
-    return jox_steer_arrive((JoxV2){a->x[i], a->y[i]}, spot, jox_param(a, JOX_PARAM_speed, i));
+    const JoxV2 at = {a->x[i], a->y[i]};
+    JoxV2 to;
+    return find_queue_point(run, at, place, (float)rank * place->spacing, &to)
+               ? jox_steer_arrive(at, to, jox_param(a, JOX_PARAM_speed, i))
+               : jox_unit(jox_sub(to, at));
 }
 
 /* Returns the direction away from the neighbours' centroid. */

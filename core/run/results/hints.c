@@ -95,6 +95,7 @@ static bool is_expected(const JoxMachine *m, const JoxInstruction *in, bool *tes
                (in->op == JOX_OP_NEAR || in->target < 0);
     case JOX_OP_CROSSES:
     case JOX_OP_FIRST_IN:
+    case JOX_OP_JOINED:
     case JOX_OP_LASTED:
     case JOX_OP_MEMORY:
         *tests = true;

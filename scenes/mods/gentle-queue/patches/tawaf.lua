@@ -13,5 +13,7 @@ return patch "tawaf" {
     } },
     ToStone = { push = 0, perception = 3,
       insert_before = { Circle = { to = "Circle", when = manners.squeezed, id = "squeezed" } } },
+    Queue = { push = 0, perception = 3,
+      insert_before = { Circle = { to = "Circle", when = manners.squeezed, id = "squeezed" } } },
   },
 }
