@@ -4,6 +4,7 @@
 #define JOX_NAV_NAV_STATE_H
 
 #include "base/assert.h"
+#include "base/number/random.h"
 #include "geom/wall_grid.h"
 #include "nav/nav.h"
 #include "nav/spots/spots.h"
@@ -90,6 +91,28 @@ static inline JoxStep jox_nav_step(const JoxStep *step) {
     if (own.touched && !own.touched->agents)
         own.touched = NULL;
     return own;
+}
+
+/* What agents that get nowhere draw of late: a random stream, and the moment of one purpose, which
+   changes each second. */
+typedef struct JoxStuckDraw {
+    uint64_t stream, moment;
+} JoxStuckDraw;
+
+static inline JoxStuckDraw jox_stuck_draw_of(const JoxTiming *timing, JoxDraw purpose) {
+    return (JoxStuckDraw){jox_random_stream(timing->seed),
+                          jox_random_moment((uint64_t)timing->time, purpose)};
+}
+/* Returns what an agent draws that has stood still for so many s: zero for the first second without
+   moving JOX_STILL_REACH, then anew each second between `least` and 1, of which it takes a share
+   that grows for four more seconds. */
+static inline float jox_draw_of_stuck(const JoxStuckDraw *draw, uint32_t id, float still,
+                                      float least) {
+    const float stood = 0.25f * (still - 1.0f);
+    if (!(stood > 0.0f))
+        return 0.0f;
+    const uint64_t bits = jox_random_of(draw->stream, id, 0, draw->moment);
+    return jox_minf(stood, 1.0f) * (least + (1.0f - least) * (float)jox_random_share(bits));
 }
 
 void jox_nav_reserve(JoxNav *nav, uint32_t agents);

@@ -157,6 +157,42 @@ static void torsos_turn_to_pass_slots(void **state) {
     }
 }
 
+/* ---- standing before a wall ---- */
+
+/* Lets a torso stand in a niche 0.8 m wide, whose end is at x = 0, for 8 s; it wants to go on along
+   x at `speed`, and is pressed that way. Returns the greatest angle of its chest to the way, rad,
+   after it stood for 3 s; *early: the same before it stood for 1 s. */
+static double stand_in_niche(double speed, double newtons, double *early) {
+    const double niche[] = {-2.0, -0.4, 0.0, -0.4, 0.0, 0.4, -2.0, 0.4};
+    JoWorld *w = open_world(0.05);
+    double late = 0.0;
+    assert_true(jo_world_add_line(w, niche, 4, NULL));
+    const JoAgent one = add_torso(w, -0.13, 0.0, 0.0, 0.45, 0.25);
+    *early = 0.0;
+    for (int n = 0; n < 160; n++) {
+        jo_agent_set_preferred(w, one, speed, 0.0);
+        jo_agent_apply_force(w, one, newtons, 0.0);
+        jo_world_step(w, 1);
+        const JoxAgents *a = &w->state.agents;
+        const double angle = fabs(atan2((double)a->chest_y[0], (double)a->chest_x[0]));
+        double *most = n < 20 ? early : &late;
+        if (n < 20 || n >= 60)
+            *most = fmax(*most, angle);
+    }
+    jo_world_free(w);
+    return late;
+}
+
+/* Who is pressed and gets nowhere turns a shoulder after a second; the nulls: who is not pressed,
+   and who wants to stand, do not. */
+static void pressed_torsos_that_get_nowhere_turn(void **state) {
+    (void)state;
+    double early;
+    assert_true(stand_in_niche(1.0, 100.0, &early) > 0.5 && early < 0.05);
+    assert_true(stand_in_niche(1.0, 0.0, &early) < 0.05 && early < 0.05);
+    assert_true(stand_in_niche(0.0, 100.0, &early) < 0.05 && early < 0.05);
+}
+
 /* ---- statics ---- */
 
 enum { ROW = 5 };
@@ -280,6 +316,7 @@ int main(void) {
         cmocka_unit_test(torsos_do_not_sink_into_boxes),
         cmocka_unit_test(torsos_do_not_sink_into_poles),
         cmocka_unit_test(torsos_turn_to_pass_slots),
+        cmocka_unit_test(pressed_torsos_that_get_nowhere_turn),
         cmocka_unit_test(a_row_of_torsos_bears_a_force),
         cmocka_unit_test(heaps_are_the_same_on_all_instruction_sets_and_threads),
         cmocka_unit_test(a_restored_heap_goes_on_alike),

@@ -224,8 +224,7 @@ static uint32_t compare_solve_crowd(JoIsa isa, uint32_t number, bool plans) {
         step.touched = NULL;
     const JoxSolve s = {.nav = c.nav,
                         .step = step,
-                        .stream = jox_random_stream(6),
-                        .moment = jox_random_moment(2, JOX_DRAW_ASIDE)};
+                        .aside = {jox_random_stream(6), jox_random_moment(2, JOX_DRAW_ASIDE)}};
     uint32_t failures = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         JoxHalfPlane list[JOX_MOST_CONSTRAINTS];

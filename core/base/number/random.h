@@ -24,7 +24,8 @@ typedef enum {
     JOX_DRAW_DOOR,     /* the place of a set that an agent of a source enters by */
     JOX_DRAW_ARRIVAL,  /* time between two agents of a source */
     JOX_DRAW_ASIDE,    /* how far an agent that blocks others steps aside */
-    JOX_DRAW_SWAY      /* movement of waiting agents around their spots */
+    JOX_DRAW_SWAY,     /* movement of waiting agents around their spots */
+    JOX_DRAW_SHOULDER  /* how far an agent that gets nowhere turns a shoulder */
 } JoxDraw;
 
 /* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */

@@ -76,19 +76,13 @@ static float find_wall_reach(const JoxAgents *a, float planning_time) {
     return most;
 }
 
-/* Returns the random moment of the angle by which agents turn aside, which changes each second. */
-static uint64_t pick_aside_moment(double time) {
-    return jox_random_moment((uint64_t)time, JOX_DRAW_ASIDE);
-}
-
 uint32_t jox_nav_solve(JoxNav *nav, const JoxStep *step) {
     const JoxTiming *timing = &step->timing;
     const JoxAgents *agents = step->agents;
     JoxSolve solve = {.nav = nav,
                       .step = jox_nav_step(step),
                       .unhidden2 = nav->grid.walls ? nav->unhidden2 : NULL,
-                      .stream = jox_random_stream(timing->seed),
-                      .moment = pick_aside_moment(timing->time)};
+                      .aside = jox_stuck_draw_of(timing, JOX_DRAW_ASIDE)};
     if (nav->grid.walls) {
         jox_wall_grid_fit(&nav->grid, find_wall_reach(agents, (float)timing->planning_time));
         jox_nav_find_unhidden(nav, step);
@@ -186,8 +180,7 @@ void jox_nav_plan(const JoxNav *nav, const JoxStep *step, uint32_t agent, JoxPla
     JoxNeighbours neighbours = {0};
     JoxSolve solve = {.nav = (JoxNav *)nav,
                       .step = jox_nav_step(step),
-                      .stream = jox_random_stream(step->timing.seed),
-                      .moment = pick_aside_moment(step->timing.time)};
+                      .aside = jox_stuck_draw_of(&step->timing, JOX_DRAW_ASIDE)};
     Touched *own = solve.step.touched ? jox_alloc(1, sizeof *own) : NULL;
     JOX_ASSERT(agent < step->agents->count);
     jox_perceive_alone(step->agents, agent, nav->literal, &neighbours);

@@ -25,19 +25,14 @@ typedef struct JoxSolve {
     JoxNav *nav;
     JoxStep step; /* with contact planes of this step or NULL */
     const float
-        *unhidden2; /* m2, nav's: no wall hides neighbours nearer than this; NULL: unknown */
-    uint64_t stream, moment; /* random stream, and moment of the draws for turning aside */
+        *unhidden2;     /* m2, nav's: no wall hides neighbours nearer than this; NULL: unknown */
+    JoxStuckDraw aside; /* of turning aside */
 } JoxSolve;
 
-/* Returns how far an agent that stands before others turns aside, 0 to 1: zero for the first second
-   without moving JOX_STILL_REACH, then drawn anew each second from a range that widens for four
-   more seconds. */
+/* Returns how far an agent that stands before others turns aside, 0 to 1. */
 static inline float jox_turn_aside(const JoxSolve *s, uint32_t i) {
-    const float stood = 0.25f * (s->step.agents->still[i] - 1.0f);
-    if (!(stood > 0.0f))
-        return 0.0f;
-    const uint64_t bits = jox_random_of(s->stream, s->step.agents->id[i], 0, s->moment);
-    return jox_minf(stood, 1.0f) * (float)jox_random_share(bits);
+    const JoxAgents *a = s->step.agents;
+    return jox_draw_of_stuck(&s->aside, a->id[i], a->still[i], 0.0f);
 }
 /* Numbers of an agent's half-planes by kind, in the order of JoxConstraintKind and of the list. */
 typedef struct JoxHalfPlaneCounts {

@@ -1,6 +1,6 @@
 /* The kernel by which agents turn their torsos; a lane is an agent. Whoever wants to get on faces
    its way, and turns a shoulder ahead where others or walls leave less room than the shoulders
-   need; whoever stands faces where it looks. */
+   need, or where it is pressed and gets nowhere; whoever stands faces where it looks. */
 #include "agents/torso_lanes.h"
 #include "nav/walk/walk.h"
 #include "simd/vectors.h"
@@ -11,6 +11,7 @@
     0.5f /* cosine: people whose ways differ less go together; they leave each other room */
 #define CLEARANCE 0.02f      /* m: room that is left beside the torso */
 #define LEAST_COSINE 0.2f    /* of the angle to the way; people turn no farther */
+#define PRESSED 50.0f        /* N: load of people who turn a shoulder where they get nowhere */
 #define WALK_STIFFNESS 36.0f /* 1/s2: of the turn to the wanted angle */
 #define STAND_STIFFNESS 4.0f /* 1/s2: of people who stand */
 #define DAMPING 10.0f        /* 1/s */
@@ -117,9 +118,27 @@ static void find_room(Packet *p, uint32_t moving) {
     p->right = jf_load(right);
 }
 
+/* Returns how far those of a packet's `moving` lanes (bits) that are pressed and get nowhere turn a
+   shoulder, as they draw each second: -1 to 1, the left or the right one ahead; 0 in all other
+   lanes. */
+static JoxFloats find_stuck_turns(const JoxWalk *w, const JoxStuckDraw *draw, uint32_t first,
+                                  uint32_t moving) {
+    const JoxAgents *a = w->step.agents;
+    const JoxFloats still = jf_load(a->still + first), load = jf_load(a->load + first);
+    const JoxMask pressed = jf_lt(jf_set(PRESSED), load);
+    float turned[JOX_WIDTH] = {0.0f};
+    uint32_t stuck = moving & jm_bits(jm_and(pressed, jf_lt(jf_set(1.0f), still)));
+    for (; stuck; stuck &= stuck - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(stuck);
+        turned[lane] = jox_draw_of_stuck(draw, a->id[first + lane], a->still[first + lane], -1.0f);
+    }
+    return jf_load(turned);
+}
+
 void JOX_WIDE(jox_torso_packets)(const JoxWalk *w, uint32_t begin, uint32_t end) {
     JoxAgents *a = w->step.agents;
     const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), dt = jf_set((float)w->step.timing.dt);
+    const JoxStuckDraw draw = jox_stuck_draw_of(&w->step.timing, JOX_DRAW_SHOULDER);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxTorsoLanes torso = jox_torso_lanes(a, i);
         const JoxMask is_long = jf_lt(zero, torso.half);
@@ -135,12 +154,15 @@ void JOX_WIDE(jox_torso_packets)(const JoxWalk *w, uint32_t begin, uint32_t end)
         find_room(&packet, moving);
         const JoxFloats free = packet.left + packet.right - CLEARANCE;
         const JoxFloats wanted = (free - 2.0f * torso.radius) / (2.0f * torso.half);
-        JoxFloats cosine = jf_min(one, jf_max(jf_set(LEAST_COSINE), wanted));
+        const JoxFloats stuck = find_stuck_turns(w, &draw, i, moving);
+        const JoxFloats most_cosine = one - jf_abs(stuck) * (1.0f - LEAST_COSINE);
+        JoxFloats cosine = jf_min(most_cosine, jf_max(jf_set(LEAST_COSINE), wanted));
         cosine = jf_select(stands, one, cosine);
         const JoxFloats sine = jf_sqrt(one - cosine * cosine);
         const JoxVector chest = jv_load(a->chest_x, a->chest_y, i);
         const JoxFloats s = jv_det(packet.way, chest), c = jv_dot(packet.way, chest);
-        const JoxFloats wanted_sine = jf_select(jf_lt(s, zero), -sine, sine);
+        const JoxFloats side = jf_select(jf_lt(zero, jf_abs(stuck)), stuck, s);
+        const JoxFloats wanted_sine = jf_select(jf_lt(side, zero), -sine, sine);
         const JoxFloats turn = wanted_sine * c - cosine * s; /* sine of the angle that is left */
         const JoxMask behind = jf_lt(cosine * c + wanted_sine * s, zero);
         const JoxFloats most = jf_select(jf_lt(turn, zero), jf_set(-1.0f), one);
