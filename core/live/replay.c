@@ -260,7 +260,8 @@ void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
     for (uint32_t i = 0; i < r->count; i++) {
         const uint32_t state = jox_replay_state(r, i);
         r->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
-        r->flags[i] = r->parity[r->slot[i]];
+        r->flags[i] = (uint8_t)(r->parity[r->slot[i]] |
+                                (r->frame.fallen && r->frame.fallen[i] > 0.0f ? JOX_LIVE_LIES : 0));
     }
     crowd.state = r->state;
     crowd.flags = r->flags;

@@ -206,6 +206,17 @@ static void write_symbol_rows(Legend *l) {
         jox_canvas_close(l->d->canvas);
         write_legend_row(l, "where they look", "");
     }
+    if (l->d->fallen) {
+        const JoxV2 at = find_symbol_centre(l);
+        const float r = 5 * u;
+        const JoxV2 ends[4] = {
+            {at.x - r, at.y - r}, {at.x + r, at.y + r}, {at.x - r, at.y + r}, {at.x + r, at.y - r}};
+        jox_canvas_open(l->d->canvas, NULL, "sign",
+                        (JoxStyle){.line = {0x10, 0x10, 0x10, 1.0f}, .width = 1.4f * u});
+        jox_canvas_segments(l->d->canvas, ends, 4);
+        jox_canvas_close(l->d->canvas);
+        write_legend_row(l, "fallen", "");
+    }
     if (wall || solid) {
         if (solid)
             draw_box_symbol(l, (JoxStyle){jox_ink_solid, jox_ink_wall, 1.5f * u, 0});

@@ -26,8 +26,9 @@ typedef struct JoxDrawing {
         JoxV2 low, high;
     } labels[JOX_DRAW_LABELS]; /* px: boxes taken by names so far */
     uint32_t label_count;
-    /* headings were drawn; some people are outside the area and were not drawn */
-    bool headings, outside;
+    /* headings were drawn; people who have fallen were; some people are outside the area and were
+       not drawn */
+    bool headings, fallen, outside;
 } JoxDrawing;
 
 extern const JoxInk jox_ink_text, jox_ink_faint, jox_ink_wall, jox_ink_solid, jox_ink_gate,

@@ -232,6 +232,31 @@ static void draw_headings(JoxDrawing *d) {
     jox_free(ends);
 }
 
+/* Crosses out the people who have fallen. */
+static void draw_fallen(JoxDrawing *d) {
+    const JoxFrame *frame = d->picture->frame;
+    JoxV2 *ends = jox_alloc(4 * (size_t)frame->count + 1, sizeof *ends);
+    uint32_t count = 0;
+    for (uint32_t i = 0; frame->fallen && i < frame->count; i++) {
+        const float radius = jox_maxf(find_disc_radius(d, i), HEADED * d->unit);
+        const JoxV2 at = jox_draw_to_pixels(d, jox_v2(frame->x[i], frame->y[i]));
+        if (!(frame->fallen[i] > 0.0f) || !is_disc_on_map(d, at, radius))
+            continue;
+        for (int k = 0; k < 4; k++) {
+            const float x = k % 2 ? radius : -radius, y = k < 2 ? x : -x;
+            ends[count++] = jox_add(at, jox_v2(x, y));
+        }
+    }
+    d->fallen = count > 0;
+    if (count) {
+        const JoxStyle style = {.line = {0x10, 0x10, 0x10, 1.0f}, .width = 1.4f * d->unit};
+        jox_canvas_open(d->canvas, "fallen", NULL, style);
+        jox_canvas_segments(d->canvas, ends, count);
+        jox_canvas_close(d->canvas);
+    }
+    jox_free(ends);
+}
+
 void jox_draw_people(JoxDrawing *d) {
     const JoxFrame *frame = d->picture->frame;
     uint32_t *order = sort_people_by_class(d), at = 0;
@@ -258,6 +283,7 @@ void jox_draw_people(JoxDrawing *d) {
     }
     jox_canvas_close(d->canvas);
     draw_headings(d);
+    draw_fallen(d);
     jox_free(order);
 }
 

@@ -30,6 +30,7 @@ typedef struct JoxFrame {
     /* Torsos: from the centre to the left end of the axis, and the distance of the surface from the
        axis, m. NULL, too, where all are discs; one disc among others has no axis. */
     const float *axis_x, *axis_y, *contact_radius;
+    const float *fallen;       /* s: time since the person fell; 0: it stands */
     const float *force;        /* magnitude of the net force, N */
     const float *compression;  /* sum of contact force magnitudes over circumference, N/m */
     const float *load;         /* greatest push borne from any one direction, N */

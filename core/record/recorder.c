@@ -14,7 +14,7 @@
 #include "record/recorder_schema.h"
 #include "task/thread.h"
 
-enum { FRAMES = 4, COLUMNS = 15, BATCH = 50 }; /* BATCH: rows that one statement writes */
+enum { FRAMES = 4, COLUMNS = 16, BATCH = 50 }; /* BATCH: rows that one statement writes */
 static const double COMMITTED = 1.0;           /* s: frames are committed at least this often */
 
 typedef struct Frame {
@@ -109,12 +109,12 @@ static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
 static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecordRow *row) {
     const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
                              row->force, row->compression, row->load,  row->radius,
-                             row->chest, row->breadth,     row->depth};
-    const double parts[] = {PLACE_PARTS, PLACE_PARTS, 1e3, 1e3,         10.0,       10.0,
-                            10.0,        PLACE_PARTS, 1e3, PLACE_PARTS, PLACE_PARTS};
+                             row->chest, row->breadth,     row->depth, row->fallen};
+    const double parts[] = {PLACE_PARTS, PLACE_PARTS, 1e3, 1e3,         10.0,        10.0,
+                            10.0,        PLACE_PARTS, 1e3, PLACE_PARTS, PLACE_PARTS, 10.0};
     sqlite3_bind_int64(to, first, frame);
     sqlite3_bind_int64(to, first + 1, row->id);
-    for (int k = 0; k < 11; k++) /* state and group stand between load and radius */
+    for (int k = 0; k < 12; k++) /* state and group stand between load and radius */
         bind_parts(to, first + 2 + k + (k < 7 ? 0 : 2), numbers[k], parts[k]);
     sqlite3_bind_int64(to, first + 9, row->state);
     sqlite3_bind_int64(to, first + 10, row->group);
@@ -249,7 +249,7 @@ static bool resume_recording(JoxRecorder *r, uint32_t last) {
 
 static bool prepare_inserts(JoxRecorder *r) {
     static const char INSERT[] = "INSERT INTO jostle_row VALUES";
-    static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?),";
+    static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?),";
     char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
     char *end = stpcpy(batch, INSERT);
     for (int k = 0; k < BATCH; k++)

@@ -31,6 +31,7 @@ typedef struct JoxRecordRow {
     /* The torso, NAN of a disc: the angle to which the chest points, anticlockwise from +x, rad;
        breadth and depth, m. */
     float chest, breadth, depth;
+    float fallen; /* s: time since it fell; 0: it stands */
 } JoxRecordRow;
 /* A body in a frame. */
 typedef struct JoxRecordBody {

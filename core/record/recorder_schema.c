@@ -105,15 +105,15 @@ const char *const jox_recording_tables[] = {
 
 /* SQLite stores small integers in one to four bytes and other numbers in eight. So jostle_row has
    positions, radii, breadths and depths in 0.1 mm, directions and angles in thousandths, and
-   forces, compressions and loads in tenths; the table of the format is a view of it, which its
-   readers cannot tell from a table. Our columns stand beside those of the format. The primary key
-   replaces the index of the format: rows are found by it and lie in its order. */
+   forces, compressions, loads and times since falls in tenths; the table of the format is a view of
+   it, which its readers cannot tell from a table. Our columns stand beside those of the format. The
+   primary key replaces the index of the format: rows are found by it and lie in its order. */
 const char jox_recording_schema[] =
     "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
     "CREATE TABLE jostle_row(frame INTEGER NOT NULL, id INTEGER NOT NULL, x INTEGER NOT NULL,"
     " y INTEGER NOT NULL, facing_x INTEGER NOT NULL, facing_y INTEGER NOT NULL, force INTEGER,"
     " compression INTEGER, load INTEGER, state INTEGER, member INTEGER, radius INTEGER,"
-    " chest INTEGER, breadth INTEGER, depth INTEGER, PRIMARY KEY(frame, id))"
+    " chest INTEGER, breadth INTEGER, depth INTEGER, fallen INTEGER, PRIMARY KEY(frame, id))"
     " WITHOUT ROWID;"
     "CREATE VIEW trajectory_data AS " JOX_RECORDED_ROWS ";"
     "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"

@@ -29,12 +29,15 @@ bool jox_recording_merge_log(JoxDatabase *db, JoxText *message);
 extern const char *const jox_recording_tables[];
 
 /* Query for the rows of one of our recordings in the units of the JuPedSim format: jostle_row
-   stores scaled integers. Older recordings have no torsos, still older ones no radii. */
+   stores scaled integers. Older recordings have no falls, still older ones no torsos, then no
+   radii. */
 #define JOX_RECORDED_BEFORE_RADII JOX_RECORDED_WITH("")
 #define JOX_RECORDED_BEFORE_TORSOS JOX_RECORDED_WITH("radius / 1e4 AS radius, ")
-#define JOX_RECORDED_ROWS                                                                          \
-    JOX_RECORDED_WITH("radius / 1e4 AS radius, chest / 1e3 AS chest, breadth / 1e4 AS breadth, "   \
-                      "depth / 1e4 AS depth, ")
+#define JOX_RECORDED_TORSOS                                                                        \
+    "radius / 1e4 AS radius, chest / 1e3 AS chest, breadth / 1e4 AS breadth, depth / 1e4 AS "      \
+    "depth, "
+#define JOX_RECORDED_BEFORE_FALLS JOX_RECORDED_WITH(JOX_RECORDED_TORSOS)
+#define JOX_RECORDED_ROWS JOX_RECORDED_WITH(JOX_RECORDED_TORSOS "fallen / 10.0 AS fallen, ")
 #define JOX_RECORDED_WITH(more)                                                                    \
     "SELECT frame, id, x / 1e4 AS pos_x, y / 1e4 AS pos_y, facing_x / 1e3 AS ori_x, facing_y / "   \
     "1e3 AS ori_y, force / 10.0 AS force, compression / 10.0 AS compression, load / 10.0 AS "      \

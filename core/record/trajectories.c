@@ -63,6 +63,7 @@ static void permute_columns(JoxTrajectories *t, const Place *places) {
     PERMUTE(axis_x)
     PERMUTE(axis_y)
     PERMUTE(contact_radius)
+    PERMUTE(fallen)
     PERMUTE(group)
     PERMUTE(state)
     PERMUTE(face_x)

@@ -30,6 +30,7 @@ typedef struct JoxTrajectories {
     float *radius;                     /* m; NULL unless recorded */
     /* m: torsos as in JoxTrajectoryReaderFrame; NULL unless recorded */
     float *axis_x, *axis_y, *contact_radius;
+    float *fallen;            /* s: time since a fall; 0: stands; NULL unless recorded */
     uint16_t *group;          /* NULL unless recorded */
     char **groups;            /* names */
     JoxColour *group_colours; /* 0 where a group has none */

@@ -36,7 +36,7 @@ static void build_recorded_state_names(JoxTrajectories *t, const JoxTrajectoryRe
 }
 
 /* Makes room for `need` rows in the columns that only our recordings have. */
-enum { OWN = 11 }; /* number of such columns */
+enum { OWN = 12 }; /* number of such columns */
 static void reserve_own_columns(JoxTrajectories *t, const JoxTrajectoryReader *r,
                                 size_t capacities[OWN], size_t need) {
     JOX_RESERVE(t->force, capacities[0], need);
@@ -50,6 +50,8 @@ static void reserve_own_columns(JoxTrajectories *t, const JoxTrajectoryReader *r
         JOX_RESERVE(t->axis_y, capacities[9], need);
         JOX_RESERVE(t->contact_radius, capacities[10], need);
     }
+    if (r->falls)
+        JOX_RESERVE(t->fallen, capacities[11], need);
     JOX_RESERVE(t->group, capacities[2], need);
     JOX_RESERVE(t->face_x, capacities[3], need);
     JOX_RESERVE(t->face_y, capacities[4], need);
@@ -81,6 +83,8 @@ static void add_person_row(JoxTrajectories *t, const JoxTrajectoryReader *r, uin
         t->axis_y[row] = r->axis_y[i];
         t->contact_radius[row] = r->contact_radius[i];
     }
+    if (r->falls)
+        t->fallen[row] = f->fallen[i];
     t->group[row] = f->group[i];
     t->face_x[row] = f->face_x[i];
     t->face_y[row] = f->face_y[i];

@@ -41,6 +41,7 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .axis_x = t->axis_x ? t->axis_x + first : NULL,
                       .axis_y = t->axis_y ? t->axis_y + first : NULL,
                       .contact_radius = t->contact_radius ? t->contact_radius + first : NULL,
+                      .fallen = t->fallen ? t->fallen + first : NULL,
                       .walls = t->history ? jox_wall_history_standing(t->history, t->number[first])
                                           : &t->walls,
                       .group = t->group ? t->group + first : NULL,
@@ -83,7 +84,8 @@ void jox_trajectories_free(JoxTrajectories *t) {
                        t->state_colours,
                        t->axis_x,
                        t->axis_y,
-                       t->contact_radius};
+                       t->contact_radius,
+                       t->fallen};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     for (uint32_t g = 0; g < t->group_count; g++)

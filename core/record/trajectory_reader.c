@@ -62,9 +62,9 @@ static void reserve_frame_columns(JoxTrajectoryReader *r, size_t need) {
         return;
     r->capacity = need + need / 2 + 64;
     r->id = jox_realloc(r->id, r->capacity, sizeof *r->id);
-    float **columns[] = {&r->x,      &r->y,           &r->face_x,        &r->face_y,
-                         &r->force,  &r->compression, &r->load,          &r->radius,
-                         &r->axis_x, &r->axis_y,      &r->contact_radius};
+    float **columns[] = {&r->x,      &r->y,           &r->face_x,         &r->face_y,
+                         &r->force,  &r->compression, &r->load,           &r->radius,
+                         &r->axis_x, &r->axis_y,      &r->contact_radius, &r->fallen};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         *columns[c] = jox_realloc(*columns[c], r->capacity, sizeof(float));
     r->state = jox_realloc(r->state, r->capacity, sizeof *r->state);
@@ -141,6 +141,7 @@ static void store_person_row(JoxTrajectoryReader *r, uint32_t n) {
         r->radius[n] = read_radius(r->rows, 10);
     if (r->torsos)
         read_torso(r, n);
+    r->fallen[n] = r->falls ? (float)sqlite3_column_double(r->rows, 14) : 0.0f;
 }
 
 bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
@@ -185,6 +186,7 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     out->axis_x = r->torso ? r->axis_x : NULL;
     out->axis_y = r->torso ? r->axis_y : NULL;
     out->contact_radius = r->torso ? r->contact_radius : NULL;
+    out->fallen = r->falls ? r->fallen : NULL;
     out->group = r->ours ? r->group : NULL;
     return true;
 }
@@ -363,10 +365,10 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
         jox_free(r->states[s].name);
     }
     jox_free(r->states);
-    void *columns[] = {r->axis_x, r->axis_y, r->contact_radius, r->number, r->from,  r->id,
-                       r->x,      r->y,      r->face_x,         r->face_y, r->force, r->compression,
-                       r->load,   r->radius, r->state,          r->group,  r->body,  r->changes,
-                       r->corners};
+    void *columns[] = {r->fallen,      r->axis_x, r->axis_y, r->contact_radius, r->number, r->from,
+                       r->id,          r->x,      r->y,      r->face_x,         r->face_y, r->force,
+                       r->compression, r->load,   r->radius, r->state,          r->group,  r->body,
+                       r->changes,     r->corners};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     jox_free(r);

@@ -24,6 +24,7 @@ typedef struct JoxTrajectoryReaderFrame {
     /* The torso: from its centre to the left end of its axis, and the distance of its surface from
        the axis, m. A disc has no axis; NULL, too, where all are discs. */
     const float *axis_x, *axis_y, *contact_radius;
+    const float *fallen; /* s: time since the person fell; 0: it stands */
     const uint16_t *group;
     uint32_t body_count;
     const JoxRecordBody *bodies; /* in ascending order of ids */

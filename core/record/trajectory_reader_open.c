@@ -122,8 +122,8 @@ static void read_state_names(JoxTrajectoryReader *r) {
 }
 
 /* Prepares the query for the rows of a frame, by the columns that the file has. In order: our
-   recordings; those before torsos; before radii; before that, those with table jostle_agent; those
-   before loads; files of JuPedSim; files with nothing but positions. */
+   recordings; those before falls; before torsos; before radii; before that, those with table
+   jostle_agent; those before loads; files of JuPedSim; files with nothing but positions. */
 static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     static const char *const WAYS[] = {"WHERE d.frame = ?1 ORDER BY d.id",
                                        "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
@@ -133,6 +133,8 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.%s AND a.id = d.id"           \
     " AND a.frame = d.frame"
     static const char *const COLUMNS[] = {
+        PLACED ", d.state, d.force, d.compression, d.member, d.load, d.radius, d.chest, d.breadth, "
+               "d.depth, d.fallen FROM trajectory_data d",
         PLACED ", d.state, d.force, d.compression, d.member, d.load, d.radius, d.chest, d.breadth, "
                "d.depth FROM trajectory_data d",
         PLACED
@@ -147,11 +149,12 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
         jox_text_printf(&sql, COLUMNS[c], r->sorted ? "source" : "rowid");
         jox_text_printf(&sql, " %s", WAYS[r->way]);
         r->rows = jox_database_prepare(r->db, sql.data);
-        r->torsos = c < 1;
-        r->radii = c < 2;
-        r->loads = c < 4;
-        r->ours = c < 5;
-        r->facing = c < 6;
+        r->falls = c < 1;
+        r->torsos = c < 2;
+        r->radii = c < 3;
+        r->loads = c < 5;
+        r->ours = c < 6;
+        r->facing = c < 7;
         jox_text_free(&sql);
     }
     double last;
@@ -250,9 +253,13 @@ static bool find_row_table(JoxTrajectoryReader *r, const char *path, const char 
         *table = "jostle_row";
         static const char *const VIEWS[] = {
             "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS,
+            "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_FALLS,
             "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_TORSOS,
             "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_RADII};
-        const int version = has_column(r->db, "chest") ? 0 : has_column(r->db, "radius") ? 1 : 2;
+        const int version = has_column(r->db, "fallen")   ? 0
+                            : has_column(r->db, "chest")  ? 1
+                            : has_column(r->db, "radius") ? 2
+                                                          : 3;
         sqlite3_exec(r->db->sqlite, VIEWS[version], NULL, NULL, NULL);
     } else if (query_number(
                    r->db,

@@ -17,6 +17,7 @@ struct JoxTrajectoryReader {
     bool ours;   /* our own recording, with states, forces and groups */
     bool loads;  /* has loads; older recordings of ours have none */
     bool radii;  /* has radii; older recordings of ours have none */
+    bool falls;  /* has a column of falls; older recordings of ours have none */
     bool torsos; /* has columns of torsos; older recordings of ours have none */
     bool torso;  /* somebody in the frame that was read last is no disc */
     bool facing; /* has the directions in which people look */
@@ -42,7 +43,7 @@ struct JoxTrajectoryReader {
     JoxV2 low, high;
     /* Columns of the frame that was read last. */
     int64_t *id;
-    float *x, *y, *face_x, *face_y, *force, *compression, *load, *radius, *axis_x, *axis_y,
+    float *x, *y, *face_x, *face_y, *force, *compression, *load, *radius, *fallen, *axis_x, *axis_y,
         *contact_radius;
     uint32_t *state;
     uint16_t *group;

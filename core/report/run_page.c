@@ -170,6 +170,21 @@ static void put_scene_statement(FILE *out, const JoScene *scene, const JoxSubjec
     jox_text_free(&text);
 }
 
+/* Writes how many people fell, if any did. */
+static void put_falls(FILE *out, const JoScene *scene) {
+    const JoxStatistics *s = &scene->world->state.statistics;
+    JoxText text = {0};
+    if (s->falls == 0)
+        return;
+    jox_text_add(&text, s->falls == 1 ? "There was " : "There were ");
+    jox_text_noun(&text, s->falls, "fall|falls");
+    jox_text_add(&text, "; at most ");
+    jox_text_noun(&text, s->most_fallen, "person|people");
+    jox_text_add(&text, " lay at a time.");
+    jox_html_statement(out, "Who fell.", text.data);
+    jox_text_free(&text);
+}
+
 /* Writes what went wrong in the run, and what is validated. */
 static void put_caveats(FILE *out, const JoScene *scene) {
     char *troubles = jox_run_troubles(scene);
@@ -189,6 +204,7 @@ static void put_run_summary(FILE *out, const JoScene *scene, const JoxSubject *s
     fputs("<div class=summary>\n", out);
     put_scene_statement(out, scene, subject);
     jox_summary_crowd(out, subject);
+    put_falls(out, scene);
     put_caveats(out, scene);
     fputs("</div>\n", out);
 }

@@ -100,6 +100,7 @@ static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
                           .y = a->y,
                           .radius = a->param[JOX_PARAM_radius].cells,
                           .one_radius = !a->param[JOX_PARAM_radius].mask,
+                          .fallen = a->fallen,
                           .compression = a->compression,
                           .load = a->load,
                           .failed = a->failed,

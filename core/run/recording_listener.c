@@ -231,7 +231,8 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
                                    radius.cells[i & radius.mask],
                                    NAN,
                                    NAN,
-                                   NAN};
+                                   NAN,
+                                   a->fallen[i]};
         if (!scene->world->model.def.literal)
             add_torso(a, i, &rows[n - 1]);
     }

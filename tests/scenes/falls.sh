@@ -13,6 +13,11 @@ between "without forces of others only those fall who were thrown" "$(falls_in f
 between "where nobody is thrown nobody falls" "$(falls_in falls --set events.0.at=1000)" 0 0
 "$JOSTLE" run scenes/crowd-collapse.yaml --for 6 2>&1 | tr '\n' ' ' | grep -qE 'There were [0-9]+ falls, [0-9]+ people that lay at a time'
 verdict "the last lines count falls" $?
+"$JOSTLE" run scenes/crowd-collapse.yaml --quiet --for 6 --record "$work/c.sqlite" --report "$work/report" --no-half-step 2>/dev/null
+between "a recording tells who lies" "$(sqlite3 "$work/c.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE fallen > 0")" 40 220
+grep -q 'Who fell' "$work/report/index.html"; verdict "a report says how many fell" $?
+"$JOSTLE" render "$work/c.sqlite" --out "$work/c.svg" --at 5 2>/dev/null
+grep -q '>fallen<' "$work/c.svg"; verdict "a picture shows who has fallen" $?
 same_hash "falls do not depend on threads" "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10 --threads 1)" \
     "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10 --threads 3)"
 "$JOSTLE" run scenes/crowd-collapse.yaml --quiet --for 5 --checkpoint 5 --checkpoint-dir "$work/cp" 2>/dev/null

@@ -49,7 +49,8 @@ static bool submit_test_frame(JoxRecorder *r, uint32_t f, JoxText *error) {
                                  10.5f,     2.5f,
                                  3.5f,      0,
                                  0.25f,     NAN,
-                                 NAN,       NAN};
+                                 NAN,       NAN,
+                                 0};
     bodies[0] = (JoxRecordBody){7, (float)f, 2, 3, 0, 0, 0, 1};
     return jox_recorder_submit_frame(r, f, error);
 }

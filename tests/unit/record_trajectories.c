@@ -419,47 +419,6 @@ static void own_recordings_keep_forces_and_walls(void **state) {
     jox_text_free(&error);
 }
 
-static void torsos_are_recorded(void **state) {
-    (void)state;
-    JoxText error = {0};
-    JoxRecorder *r = jox_recorder_open(path, 10, "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))", &error);
-    assert_non_null(r);
-    JoxRecordBody *bodies;
-    JoxRecordRow *rows = jox_recorder_begin_frame(r, 2, 0, &bodies);
-    rows[0] = (JoxRecordRow){.id = 1, .radius = 0.2f, .chest = NAN, .breadth = NAN, .depth = NAN};
-    rows[1] = (JoxRecordRow){
-        .id = 2, .x = 1.0f, .radius = 0.2f, .chest = 1.5708f, .breadth = 0.45f, .depth = 0.25f};
-    assert_true(jox_recorder_submit_frame(r, 0, &error));
-    assert_true(jox_recorder_close(r, &error));
-    JoxTrajectories *t = read_recording(0, 0, NULL);
-    JoxFrame frame;
-    assert_non_null(t);
-    assert_true(jox_trajectories_frame(t, 0, &frame));
-    assert_near(frame.axis_x[0], 0.0, 0);
-    assert_near(frame.contact_radius[0], 0.2, 1e-6);
-    assert_near(frame.axis_x[1], -0.1, 1e-4); /* the chest points to +y: the left is -x */
-    assert_near(frame.contact_radius[1], 0.125, 1e-6);
-    jox_trajectories_free(t);
-    /* Written by versions without torsos. */
-    sqlite3 *db;
-    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-    assert_int_equal(
-        sqlite3_exec(db,
-                     "DROP VIEW trajectory_data; ALTER TABLE jostle_row DROP COLUMN chest;"
-                     "ALTER TABLE jostle_row DROP COLUMN breadth;"
-                     "ALTER TABLE jostle_row DROP COLUMN depth",
-                     NULL, NULL, NULL),
-        SQLITE_OK);
-    sqlite3_close(db);
-    t = read_recording(0, 0, NULL);
-    assert_non_null(t);
-    assert_true(jox_trajectories_frame(t, 0, &frame));
-    assert_null(frame.axis_x);
-    assert_near(frame.radius[1], 0.2, 1e-6);
-    jox_trajectories_free(t);
-    jox_text_free(&error);
-}
-
 /* Texts with zero bytes, which C strings cannot hold. */
 static void zero_bytes_are_located(void **state) {
     (void)state;
@@ -484,7 +443,6 @@ static void zero_bytes_are_located(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(torsos_are_recorded),
         cmocka_unit_test(columns_by_position),
         cmocka_unit_test(columns_by_name),
         cmocka_unit_test(velocity_is_displacement_per_time),
