@@ -18,8 +18,9 @@
     X(gap_spread, "", 0, 0.9, 0.1, "greatest part by which people's time gaps differ")             \
     X(gap_noise, "", 0, 2, 0.45, "greatest logarithm by which a person's time gap wanders")        \
     X(crowded, "1/m2", 0, 20, 2.6, "density from which on people grow eager")                      \
+    X(crowded_bound, "1/m2", 0, 20, 1.3, "density from which on those grow eager who have a goal") \
     X(eager_normal, "", 0, 1, 0.62, "least eagerness in a normal crowd: calm 0, keen 1")           \
-    X(eager_most, "", 0, 1, 0.33, "greatest eagerness in a calm or normal crowd: keen 1")          \
+    X(eager_most, "", 0, 1, 0.4, "greatest eagerness in a calm or normal crowd: keen 1")           \
     X(eager_rise, "s", 0.05, 60, 1, "time in which eagerness rises")                               \
     X(eager_fall, "s", 0.05, 60, 10, "time in which eagerness falls")                              \
     X(cross_time, "s", 0.05, 10, 0.35, "time gap kept to people who cross")                        \

@@ -186,7 +186,8 @@ static void limit_by_plain_wall(Packet *p, Way *w, uint32_t edge, double speed) 
     const double stride = 0.0005;
     const JoxAgents *a = &p->agents;
     const JoxV2 aside = jox_left((JoxV2){a->aim_x[p->me], a->aim_y[p->me]});
-    double keep = p->law.wall_reach * (double)jox_torso_reach(a, p->me, aside), path = 0.0;
+    double room = 1.0 - p->law.room_eager * (double)a->eager[p->me];
+    double keep = p->law.wall_reach * room * (double)jox_torso_reach(a, p->me, aside), path = 0.0;
     if (measure_distance(p, edge, 0.0, 0.0) < keep) { /* too near: not towards it */
         JoxV2 off = jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], (JoxV2){0, 0});
         path = (double)off.x * w->x + (double)off.y * w->y > 0.0 ? 0.0 : INFINITY;

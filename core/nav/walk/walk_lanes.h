@@ -100,7 +100,7 @@ static inline JoxFloats jox_cross_width(const JoxWalk *w, uint32_t first, JoxFlo
 }
 
 /* Returns the eagerness that a crowd of this density (1/m2) would give agents, 0 to 1, within the
-   bounds of their haste. */
+   bounds of their haste. Agents bound for a place compete for it: they grow eager sooner. */
 static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first, JoxFloats density) {
     const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
     const JoxFloats haste = jox_param_lanes(w->step.agents, JOX_PARAM_haste, first);
@@ -109,7 +109,10 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first, J
     const JoxFloats keen = jox_share_lanes(twice - one); /* haste beyond normal */
     const JoxFloats least = normal * jox_share_lanes(twice) + (one - normal) * keen;
     const JoxFloats bound = most + (one - most) * keen;
-    const JoxFloats crowd = jox_share_lanes(density - (float)w->law->crowded);
+    const JoxMask is_bound = ji_less(ji_set(0), ji_load(w->step.agents->bound + first));
+    const JoxFloats from =
+        jf_select(is_bound, jf_set((float)w->law->crowded_bound), jf_set((float)w->law->crowded));
+    const JoxFloats crowd = jox_share_lanes(density - from);
     return jf_max(least, jf_min(bound, crowd));
 }
 

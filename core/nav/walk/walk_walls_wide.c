@@ -1,7 +1,7 @@
 /* The walking law: how far away walls count, and the speeds that they allow one agent. Walls are
-   kept at a share of how far the torso reaches across the way: people pass them with a shoulder
-   turned. Plain loops over the directions, which compilers vectorise with the same bits on each
-   instruction set. */
+   kept at a share of how far the torso reaches across the way, less by eager people: they pass with
+   a shoulder turned. Plain loops over the directions, which compilers vectorise with the same bits
+   on each instruction set. */
 #include <math.h>
 
 #include "agents/torso_lanes.h"
@@ -87,8 +87,9 @@ void JOX_WIDE(jox_walk_mind_walls)(const JoxWalk *w, uint32_t i, uint32_t lane,
     const JoxAgents *a = w->step.agents;
     const JoxWallGrid *grid = &w->nav->grid;
     const JoxV2 aim = {a->aim_x[i], a->aim_y[i]};
+    const float room = 1.0f - (float)w->law->room_eager * a->eager[i];
     Seeker p = {.at = {a->x[i], a->y[i]},
-                .keep = (float)w->law->wall_reach * jox_torso_reach(a, i, jox_left(aim)),
+                .keep = (float)w->law->wall_reach * room * jox_torso_reach(a, i, jox_left(aim)),
                 .speed = jox_length((JoxV2){a->pref_x[i], a->pref_y[i]}),
                 .per_time = 1.0f / (float)w->law->wall_time};
     for (int k = 0; k < EDGE_LANES; k++) {
