@@ -10,14 +10,14 @@
 enum { X, Y, SPIN, INVERSE_MASS };
 
 static inline void load_motions(const JoxForces *f, uint32_t i, JoxFloats out[4]) {
-    jf_fours(&f->contacts->solve.motions[i].x, 4, out);
+    jf_fours((const float *)&f->contacts->solve.motions[i], 4, out);
 }
 
 static inline void put_motions(const JoxForces *f, uint32_t i, const JoxFloats motions[4]) {
     float *rows[JOX_WIDTH];
     JOX_UNROLL
     for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-        rows[lane] = &f->contacts->solve.motions[i + lane].x;
+        rows[lane] = (float *)&f->contacts->solve.motions[i + lane];
     jf_put_rows(rows, motions);
 }
 
@@ -40,15 +40,17 @@ void JOX_WIDE(jox_start_motions)(JoxForces *f, uint32_t begin, uint32_t end) {
         const JoxVector starts = jv_select(finite, begins, (JoxVector){zero, zero});
         const JoxFloats turns = jf_load(a->spin + i) * jox_gyration_lanes(a, i);
         const JoxFloats spin = jf_select(are_finite(turns), turns, zero);
-        put_motions(f, i, (const JoxFloats[]){starts.x, starts.y, spin, inverse_mass});
+        const JoxFloats motions[4] = {starts.x, starts.y, spin, inverse_mass};
+        put_motions(f, i, motions);
     }
 }
 
-/* Writes the agents' spins, rad/s. One that is not finite stays, for the step to report. */
-static inline JoxFloats write_spins(const JoxForces *f, uint32_t i, const JoxFloats motions[4]) {
+/* Writes the agents' spins, rad/s, by those of their motions, and returns them. One that is not
+   finite stays, for the step to report. */
+static inline JoxFloats write_spins(const JoxForces *f, uint32_t i, JoxFloats of_motions) {
     JoxAgents *a = f->step.agents;
     const JoxFloats before = jf_load(a->spin + i);
-    const JoxFloats spin = motions[SPIN] / jox_gyration_lanes(a, i);
+    const JoxFloats spin = of_motions / jox_gyration_lanes(a, i);
     jf_store(a->spin + i, jf_select(are_finite(before), spin, before));
     return spin;
 }
@@ -57,7 +59,7 @@ void JOX_WIDE(jox_end_motions)(JoxForces *f, uint32_t begin, uint32_t end) {
     JoxFloats motions[4];
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         load_motions(f, i, motions);
-        write_spins(f, i, motions);
+        write_spins(f, i, motions[SPIN]);
     }
 }
 
@@ -87,7 +89,7 @@ void JOX_WIDE(jox_end_bearing)(JoxForces *f, uint32_t begin, uint32_t end) {
         const JoxVector velocity = {motions[X], motions[Y]};
         jv_store(a->borne_x, a->borne_y, i, jv_add(jv_load(a->borne_x, a->borne_y, i), velocity));
         jv_store(a->parted_x, a->parted_y, i, (JoxVector){-velocity.x, -velocity.y});
-        jf_store(a->parted_spin + i, -write_spins(f, i, motions));
+        jf_store(a->parted_spin + i, -write_spins(f, i, motions[SPIN]));
     }
 }
 
