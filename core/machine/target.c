@@ -196,9 +196,8 @@ float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     const JoxV2 at = {spot->x, spot->y};
     const float discs = jox_length(jox_sub(at, (JoxV2){a->x[i], a->y[i]})) - spot->radius -
                         jox_param(a, JOX_PARAM_radius, i);
-    const float torsos = spot->agent != JOX_NO_INDEX
-                             ? jox_torso_gap(a, i, spot->agent)
-                             : jox_torso_distance(a, i, at) - spot->radius;
+    const float torsos = spot->agent != JOX_NO_INDEX ? jox_torso_gap(a, i, spot->agent)
+                                                     : jox_torso_distance(a, i, at) - spot->radius;
     return jox_minf(discs, torsos); /* hands and feet reach to the edge of the disc */
 }
 
