@@ -73,9 +73,10 @@ static const char *find_numbers_fault(const JoWorld *w) {
     const uint32_t n = a->count;
     const float *const positions[] = {a->x, a->y, a->prev_x, a->prev_y, a->still_x, a->still_y};
     const float *const others[] = {
-        a->vx,          a->vy,    a->pref_x,      a->pref_y,      a->next_x,   a->next_y,
-        a->eager,       a->still, a->force_x,     a->force_y,     a->course_x, a->course_y,
-        a->compression, a->load,  a->displaced_x, a->displaced_y, a->settled,  a->spin};
+        a->vx,          a->vy,     a->pref_x,      a->pref_y,      a->next_x,   a->next_y,
+        a->eager,       a->still,  a->force_x,     a->force_y,     a->course_x, a->course_y,
+        a->compression, a->load,   a->displaced_x, a->displaced_y, a->settled,  a->spin,
+        a->fallen,      a->lean_x, a->lean_y};
 #define COLUMNS_OF_STATE(name) a->name##_x, a->name##_y,
 #define COLUMNS_OF_SCRATCH(name)
 #define TERM_COLUMNS(X, keep, role, name, label) COLUMNS_OF_##keep(name)
