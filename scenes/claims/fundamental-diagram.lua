@@ -43,6 +43,8 @@ return claim {
     return out
   end,
   expect = expect,
+  tried = { "From three people per square metre on, normal people walk a third and more faster than by Weidmann; calm ones "
+    .. "in the ring of F2 have the speeds recorded there." },
   plots = { { name = "diagram", title = "Speed and density", x = "density (1/m²)", y = "mean speed (m/s)",
     { "Jostle", figures = measured }, { "Weidmann 1993", line = law } } },
   pictures = { d200 = { "paths.png" } },
