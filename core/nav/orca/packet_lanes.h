@@ -174,17 +174,20 @@ static inline uint32_t jox_may_be_hidden(const JoxSolve *s, uint32_t first, cons
     return jm_bits(jm_and(is_near, jox_wall_grid_may_cross_lanes(d2, own, its)));
 }
 
-/* Reduces the radii of pairs that do not walk by the law to what their torsos leave. */
-static inline void jox_reduce_radii(const JoxPacket *p, uint32_t most, uint32_t walkers,
-                                    JoxNeighbour *pairs) {
+/* Fits the radii of pairs that do not walk by the law to their torsos. Returns the greatest, m. */
+static inline JoxFloats jox_fit_radii(const JoxPacket *p, uint32_t most, uint32_t walkers,
+                                      JoxNeighbour *pairs) {
     const JoxStep *step = &p->s->step;
     const uint32_t *others =
         step->neighbours->index + jox_neighbour_at(step->neighbours, p->first, 0);
+    JoxFloats widest = jf_set(0.0f);
     for (uint32_t k = 0; k < most; k++, others += JOX_LANES) {
         JoxPair *q = &pairs[k].pair;
         q->radii = jf_select(jm_of_bits(walkers), q->radii,
                              jox_radii_of_torsos(step, p->first, others, q));
+        widest = jf_max(widest, q->radii);
     }
+    return widest;
 }
 
 /* Loads the pairs with the `most` first neighbours of the lanes. A lane with fewer gets arbitrary
@@ -214,7 +217,7 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
             out[k].velocity = (JoxVector){motion[2], motion[3]};
     }
     if (jox_may_be_pressed(&p->s->step))
-        jox_reduce_radii(p, most, walkers, out);
+        return jox_fit_radii(p, most, walkers, out);
     return widest;
 }
 

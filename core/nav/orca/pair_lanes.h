@@ -131,8 +131,8 @@ static inline bool jox_may_be_pressed(const JoxStep *step) {
     return step->neighbours->has_torsos && step->touched;
 }
 
-/* Returns how near two agents come by their own will, m: as near as their discs, or as they already
-   are, but their torsos part. */
+/* Returns how near two agents come by their own will, m: those under way keep a disc and their
+   shoulders free; those who stand stay as near as they are, but their torsos part. */
 static inline JoxFloats jox_radii_of_torsos(const JoxStep *step, uint32_t first,
                                             const uint32_t *others, const JoxPair *q) {
     const JoxNeighbours *near = step->neighbours;
@@ -145,7 +145,8 @@ static inline JoxFloats jox_radii_of_torsos(const JoxStep *step, uint32_t first,
         jf_abs(jv_dot(own, offset)) + jf_abs(jv_dot((JoxVector){shape[0], shape[1]}, offset));
     const JoxFloats radii = jf_load(step->agents->contact_radius + first) + shape[2];
     const JoxFloats torsos = radii + axes / jf_max(distance, jf_set(1e-6f));
-    return jf_min(q->radii, jf_max(torsos, distance));
+    const JoxFloats pressed = jf_min(q->radii, jf_max(torsos, distance));
+    return jf_select(jox_stands_lanes(step->agents, first), pressed, jf_max(q->radii, torsos));
 }
 
 /* ---- the walking law (core/walking.md) ---- */
