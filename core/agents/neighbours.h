@@ -42,9 +42,9 @@ typedef struct JoxNeighbours {
     JoxTorsoShape *shapes; /* torso per agent; likewise */
     bool has_torsos;       /* some agent is no disc */
     /* Contacts do not depend on perception. If the list above may lack an agent within touching
-       range, the JOX_MOST_NEIGHBOURS nearest within that range are stored here, from i *
-       JOX_MOST_NEIGHBOURS on, nearest first; else touch_count[i] is JOX_TOUCH_AMONG_NEIGHBOURS.
-       NULL: the list above suffices for all agents. */
+       range, the JOX_MOST_NEIGHBOURS that reach nearest to its centre, within that range, are
+       stored here, from i * JOX_MOST_NEIGHBOURS on, nearest first; else touch_count[i] is
+       JOX_TOUCH_AMONG_NEIGHBOURS. NULL: the list above suffices for all agents. */
     uint32_t *touch_index;
     uint8_t *touch_count;
 } JoxNeighbours;

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "agents/torso.h"
 #include "base/number/random.h"
 #include "nav/near/perceive.h"
 
@@ -166,6 +167,22 @@ static float find_sight(const JoxAgents *a, float reach) {
     return a->period.y > 0.0f ? jox_minf(reach, 0.49f * a->period.y) : reach;
 }
 
+/* Keeps those of `count` others that may touch agent i, by how near they may reach to its centre;
+   returns how many it lists. */
+static uint32_t list_reaching(const JoxAgents *a, uint32_t i, uint32_t count, Other *all) {
+    const JoxTorso own = jox_agent_torso(a, i, false);
+    const float most = own.radius + own.half + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxTorso torso = jox_agent_torso(a, all[k].index, false);
+        const float near = jox_maxf(0.0f, sqrtf(all[k].d2) - (torso.radius + torso.half));
+        if (near * near <= most * most)
+            all[kept++] = (Other){near * near, all[k].id, all[k].index};
+    }
+    qsort(all, kept, sizeof *all, by_distance);
+    return kept < JOX_MOST_NEIGHBOURS ? kept : JOX_MOST_NEIGHBOURS;
+}
+
 static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_t i, float seen,
                              Other *all) {
     float range =
@@ -174,8 +191,7 @@ static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_
     assert_int_equal(n->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS, seen >= range);
     if (n->touch_count[i] == JOX_TOUCH_AMONG_NEIGHBOURS)
         return;
-    uint32_t count = list_reference(a, i, range, all);
-    count = count < JOX_MOST_NEIGHBOURS ? count : JOX_MOST_NEIGHBOURS;
+    const uint32_t count = list_reaching(a, i, list_reference(a, i, range, all), all);
     assert_int_equal(n->touch_count[i], count);
     for (uint32_t k = 0; k < count; k++)
         assert_int_equal(n->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k], all[k].index);

@@ -26,6 +26,10 @@ typedef struct Nearest {
     uint64_t keys[JOX_MOST_NEIGHBOURS];
     uint64_t waiting[BUFFER];
     uint32_t count, most, waits;
+    /* By reach: candidates are as near as the farthest of their surface may be, at most `beyond` m;
+       else as their centres are. */
+    bool by_reach, discs; /* discs: all are, as in literal mode */
+    float beyond;
 } Nearest;
 
 static void clear_nearest(Nearest *n) {
@@ -50,13 +54,22 @@ static void sort_in_waiting(Nearest *n) {
     n->waits = 0;
 }
 
+/* Returns the square of how far a point is from what agent j may reach, m2; d2: from its centre. */
+static inline float find_reached2(const JoxAgents *a, uint32_t j, float d2, bool discs) {
+    const JoxTorso torso = jox_agent_torso(a, j, discs);
+    const float beyond = jox_maxf(0.0f, sqrtf(d2) - (torso.radius + torso.half));
+    return beyond * beyond;
+}
+
 /* Buffers agent j as a candidate if it is not agent i and lies within the radius of a point. */
 static inline void buffer_candidate(const JoxAgents *a, uint32_t i, uint32_t j, JoxV2 point,
                                     float radius2, Nearest *found) {
     const float dx = a->x[j] - point.x, dy = a->y[j] - point.y, d2 = dx * dx + dy * dy;
-    found->waiting[found->waits] = make_sort_key(d2, a->rank[j]);
+    const float near2 = found->by_reach ? find_reached2(a, j, d2, found->discs) : d2;
+    const float most2 = found->by_reach ? found->beyond * found->beyond : radius2;
+    found->waiting[found->waits] = make_sort_key(near2, a->rank[j]);
     found->waits +=
-        (d2 <= radius2) &
+        (d2 <= radius2) & (near2 <= most2) &
         (j != i); /* overwritten by the next candidate if it does not count; no branch */
     if (found->waits == BUFFER)
         sort_in_waiting(found);
@@ -116,7 +129,11 @@ static void search_nearest(const JoxNav *nav, const JoxAgents *a, uint32_t i, fl
 void jox_perceive_touching(const JoxPerceive *p, uint32_t i, float range) {
     const JoxAgents *a = p->agents;
     JoxNeighbours *out = p->out;
-    Nearest found = {.most = JOX_MOST_NEIGHBOURS};
+    const JoxTorso own = jox_agent_torso(a, i, p->nav->literal);
+    Nearest found = {.most = JOX_MOST_NEIGHBOURS,
+                     .by_reach = true,
+                     .discs = p->nav->literal,
+                     .beyond = own.radius + own.half + JOX_TOUCH_LEAST + JOX_TOUCH_MOST};
     search_nearest(p->nav, a, i, range, &found);
     out->touch_count[i] = (uint8_t)found.count;
     for (uint32_t k = 0; k < found.count; k++)
@@ -154,6 +171,7 @@ void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
     const float perception = jox_minf(jox_param(a, JOX_PARAM_perception, i), p->sight);
     Nearest found;
     found.most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
+    found.by_reach = false;
     clear_nearest(&found);
     for (bool again = found.most > 0; again;) {
         radius = jox_minf(radius, perception);

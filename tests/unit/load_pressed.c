@@ -1,6 +1,6 @@
-/* A crowd that presses on a closed door at the end of a corridor: what the door bears hardly
-   depends on the time step, and people neither sink into each other nor stand denser than they can.
- */
+/* Crowds that press on a closed door at the end of a corridor, and on a very broad person: what the
+   door bears hardly depends on the time step, and people neither sink into others nor stand denser
+   than they can. */
 #include "unit/load_torso.h"
 
 enum { CROWD = 240, ROW = 5 };
@@ -109,7 +109,47 @@ static void a_closed_door_bears_alike_at_any_step(void **state) {
     assert_true(none.load < 0.25 * coarse.load); /* the null: nobody pushes */
 }
 
+/* ---- a broad person ---- */
+
+/* Lets a crowd press from both sides on a person who stands, 3 m broad. Returns the 99th percentile
+   of how deep people are in that one, m. */
+static double press_on_broad(void) {
+    JoWorld *w = open_world(0.05);
+    JoxAgents *a = &w->state.agents;
+    uint32_t bins[100] = {0};
+    const JoAgent broad = add_torso(w, 0.0, 0.0, 0.0, 3.0, 0.5);
+    jo_agent_set_parameter(w, broad, "mass", 3000.0, NULL);
+    for (int n = 0; n < CROWD; n++) {
+        const double side = n % 2 ? 1.0 : -1.0;
+        const JoAgent one = add_torso(w, side * (0.6 + 0.4 * (n / 2 / 8)), 0.4 * (n / 2 % 8 - 3.5),
+                                      0.0, 0.45, 0.25);
+        jo_agent_set_parameter(w, one, "push", PUSH, NULL);
+    }
+    for (int step = 0; step < 400; step++) {
+        for (uint32_t i = 0; i < a->count; i++)
+            if (a->id[i] != a->id[jox_world_find_agent(w, broad)])
+                jo_agent_set_preferred(w, jox_world_agent_handle(w, i), a->x[i] > 0.0f ? -1.3 : 1.3,
+                                       0.0);
+        jo_world_step(w, 1);
+        const uint32_t i = jox_world_find_agent(w, broad);
+        for (uint32_t j = 0; j < a->count; j++)
+            if (j != i && jox_torso_gap(a, i, j) < 0.002f)
+                bins[(int)fmin(99.0, 1e3 * fmax(0.0, -(double)jox_torso_gap(a, i, j)))]++;
+    }
+    assert_null(jo_world_failure(w));
+    jo_world_free(w);
+    return find_p99(bins);
+}
+
+static void nobody_sinks_into_broad_person(void **state) {
+    (void)state;
+    const double depth = press_on_broad();
+    print_message("  depth %.0f mm\n", 1e3 * depth);
+    assert_true(depth <= SUNK);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_closed_door_bears_alike_at_any_step)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_closed_door_bears_alike_at_any_step),
+                                       cmocka_unit_test(nobody_sinks_into_broad_person)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
