@@ -53,7 +53,7 @@ static uint32_t list_queues(JoxMachineRun *run) {
             uint32_t i = s->grouped[batch->begin + n];
             s->queue[i] = jox_target_place(run, i, target);
             const uint32_t at = jox_reference(s->queue[i]);
-            if (a->queue_at[i] != at) {
+            if (a->queue_at[i] != at || !at) { /* without a place there is no turn */
                 a->queue_at[i] = at;
                 a->queued[i] = JOX_NO_TURN;
             }
@@ -82,16 +82,20 @@ static JoxV2 find_nearest_in_queue(const JoxPlace *queue, float end, JoxV2 at) {
     return best;
 }
 
-/* Gives the next place to the agent that is nearest to a queue, of `count` without one. */
-static void give_place(JoxMachineRun *run, const JoxPlace *queue, uint32_t rank,
-                       const uint32_t *list, uint32_t count) {
+/* Gives the next place to the agent that is nearest to a queue, or to another place at which people
+   queue, of `count` without one. */
+static void give_place(JoxMachineRun *run, uint32_t place, uint32_t rank, const uint32_t *list,
+                       uint32_t count) {
     const JoxAgents *a = run->agents;
+    const JoxPlace *queue = &run->places[place];
     uint32_t nearest = JOX_NO_INDEX;
     float least = INFINITY;
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = list[k];
         const JoxV2 at = {a->x[i], a->y[i]};
-        const JoxV2 to = find_nearest_in_queue(queue, (float)rank * queue->spacing, at);
+        const JoxV2 to = jox_place_is_queue(queue)
+                             ? find_nearest_in_queue(queue, (float)rank * queue->spacing, at)
+                             : jox_place_nearest(run->places, place, at);
         const float way = jox_length(jox_sub(to, at));
         if (way < least && way <= (a->still[i] > HELD_UP ? 2.0f * COMES_TO : COMES_TO) &&
             !jox_is_hidden(run, at, to, true)) {
@@ -135,13 +139,14 @@ void jox_queues_rank(JoxMachineRun *run) {
             s->rank[list[end]] = turns;
             turns += a->queued[list[end]] != JOX_NO_TURN;
         }
-        if (place < 0 || !jox_place_is_queue(&run->places[place]))
+        if (place < 0)
             continue;
-        for (uint32_t rank = 0; rank + 1 < turns; rank++)
+        const bool has_spots = jox_place_is_queue(&run->places[place]);
+        for (uint32_t rank = 0; has_spots && rank + 1 < turns; rank++)
             rank += exchange_turns(run, &run->places[place], rank, list[first + rank],
                                    list[first + rank + 1]);
         if (first + turns < end && (!turns || a->queued[list[first + turns - 1]] < run->tick))
-            give_place(run, &run->places[place], turns, list + first + turns, end - first - turns);
+            give_place(run, (uint32_t)place, turns, list + first + turns, end - first - turns);
     }
     JOX_CHECK(jox_queues_check(run, list, count));
 }

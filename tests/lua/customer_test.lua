@@ -93,6 +93,28 @@ test("two who come from different sides are served in the order in which they co
   s:reaches("Service", { agents = "far", within = 20 })
 end)
 
+test("people who queue at a point are served, too, one after another", function()
+  local s = scene({
+    places = { counter = { point = { 0, 0 } }, exit = { point = { -8, -4 }, radius = 1 } },
+    groups = { customers = { behaviour = "customer.lua", at = { { 3, 0 }, { 4, 0 }, { 5, 0 } },
+      set = { counter = "counter", exit = "exit" } } },
+  }, { seed = 1 })
+  s:reaches("Gone", { within = 60 })
+end)
+
+test("who has no place to queue at is at the head of nothing", function()
+  local s = scene({
+    places = { post = { point = { 0, 0 } } },
+    groups = { lost = { at = { { 3, 0 }, { 4, 0 } }, behaviour = [[
+      return machine { name = "lost", start = "Wait", states = {
+        Wait = { steer = queue(goal), { to = "Head", when = first_in(goal) | joined(goal) } },
+        Head = { steer = hold } } }
+    ]] } },
+  }, { seed = 1 })
+  for _ = 1, 40 do s:step() end
+  equal(s:entered("Head"), 0)
+end)
+
 test("without a queue to stand in the scene is refused", function()
   refused({ groups = { c = { behaviour = "customer.lua", at = { { 0, 0 } } } } }, "no group that runs customer sets it")
 end)
