@@ -21,7 +21,11 @@ int jox_parameter_find(const char *name) {
 }
 
 const char *jox_parameter_successor(const char *name) {
-    return strcmp(name, "turn") == 0 ? "People have torsos that turn: see breadth and depth" : NULL;
+    if (strcmp(name, "turn") == 0)
+        return "People have torsos that turn: see breadth and depth";
+    if (strcmp(name, "wall_radius") == 0)
+        return "See wall_reach: it counts in reaches of the torso, not in radii";
+    return NULL;
 }
 
 /* Words for values of haste. */

@@ -22,9 +22,10 @@
     X(brace_angle, "degree", 0, 180, 60, "half-angle of the cone that takes a passed-on force")    \
     X(yield, "", 0, 1, 0.5, "share of mutual avoidance that the agent takes; 0.5 is reciprocal")   \
     X(radius, "m", 0.02, 5, 0.2, "radius of the disc for which an agent keeps room as it walks")   \
-    X(breadth, "m", 0, 10, 0, "breadth of the torso across the shoulders; 0: twice the radius")    \
+    X(breadth, "m", 0, 10, 0,                                                                      \
+      "breadth of the torso across the shoulders; 0: 2.25 times the radius")                       \
     X(depth, "m", 0, 10, 0,                                                                        \
-      "depth of the torso; 0: twice the radius; a disc unless less than the breadth")              \
+      "depth of the torso; 0: 1.25 times the radius; a disc unless less than the breadth")         \
     X(mass, "kg", 1, 10000, 70, "mass")                                                            \
     X(restitution, "", 0, 1, 0, "restitution of contacts between agents")                          \
     X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")              \
@@ -54,7 +55,8 @@ extern const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT];
 
 /* Returns the index of a parameter by name, or -1. */
 int jox_parameter_find(const char *name);
-/* Returns what to use in place of a parameter that there is no more; NULL for any other name. */
+/* Returns what to use in place of a parameter, or a constant of the walking law, that there is no
+   more; NULL for any other name. */
 const char *jox_parameter_successor(const char *name);
 /* Finds the value of a word: haste is calm (0), normal (0.5) or keen (1). Returns false if the
    parameter has no such word. */

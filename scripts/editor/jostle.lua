@@ -136,8 +136,8 @@ function Target:incoming(metres) end
 ---@field brace_angle? number|jostle.Number|jostle.Drawn half-angle of the cone that takes a passed-on force, degree; 0 to 180, default 60
 ---@field yield? number|jostle.Number|jostle.Drawn share of mutual avoidance that the agent takes; 0.5 is reciprocal; 0 to 1, default 0.5
 ---@field radius? number|jostle.Number|jostle.Drawn radius of the disc for which an agent keeps room as it walks, m; 0.02 to 5, default 0.2
----@field breadth? number|jostle.Number|jostle.Drawn breadth of the torso across the shoulders; 0: twice the radius, m; 0 to 10, default 0
----@field depth? number|jostle.Number|jostle.Drawn depth of the torso; 0: twice the radius; a disc unless less than the breadth, m; 0 to 10, default 0
+---@field breadth? number|jostle.Number|jostle.Drawn breadth of the torso across the shoulders; 0: 2.25 times the radius, m; 0 to 10, default 0
+---@field depth? number|jostle.Number|jostle.Drawn depth of the torso; 0: 1.25 times the radius; a disc unless less than the breadth, m; 0 to 10, default 0
 ---@field mass? number|jostle.Number|jostle.Drawn mass, kg; 1 to 10000, default 70
 ---@field restitution? number|jostle.Number|jostle.Drawn restitution of contacts between agents; 0 to 1, default 0
 ---@field damping? number|jostle.Number|jostle.Drawn how fast the feet stop a velocity given by force, 1/s; 0 to 50, default 2.5

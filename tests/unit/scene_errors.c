@@ -60,6 +60,7 @@ static const struct Case {
     {"places: {a: @{set: []}}\n" GROUP, "bad-place", "set: [NAME, NAME]"},
     {"places: @[a, b]\n" GROUP, "bad-type", NULL},
     {"regions: @7\n" GROUP, "bad-type", NULL},
+    {"walking: {@wall_radius: 0.6}\n" GROUP, "unknown-key", "See wall_reach"},
     {"sinks: @5\n" GROUP, "bad-type", NULL},
     {"sources: @{rate: 3}\n" GROUP, "bad-type", NULL},
     {SQUARE "sources: [{at: @[box], like: g, rate: 1}]\n" GROUP, "bad-type", NULL},

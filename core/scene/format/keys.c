@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "agents/parameters.h"
 #include "base/assert.h"
 #include "base/format/plurals.h"
 
@@ -82,9 +83,11 @@ bool jox_owner_check_keys(const JoxReader *reader, const JoxYaml *map, const cha
     JOX_ASSERT(count > 0);
     for (uint32_t k = 0; k < map->count; k++)
         if (!jox_key_find(reader->format, owner, map->keys[k])) {
+            const char *successor = jox_parameter_successor(map->keys[k]);
             const char *hint = jox_scene_suggest(reader, map->keys[k], names, count);
-            jox_diag_error(reader->diagnostics, map->key_positions[k], "unknown-key", hint,
-                           "unknown key '%s' of %s %s", map->keys[k], jox_article(owner), owner);
+            jox_diag_error(reader->diagnostics, map->key_positions[k], "unknown-key",
+                           successor ? successor : hint, "unknown key '%s' of %s %s", map->keys[k],
+                           jox_article(owner), owner);
         }
     return true;
 }
