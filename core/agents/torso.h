@@ -16,10 +16,18 @@ typedef struct JoxTorso {
     float radius, half; /* m */
 } JoxTorso;
 
+/* Return the measures of a torso, m; 0: by the radius. */
+static inline float jox_torso_breadth(float breadth, float radius) {
+    return breadth > 0.0f ? breadth : JOX_TORSO_BREADTH * radius;
+}
+static inline float jox_torso_depth(float depth, float radius) {
+    return depth > 0.0f ? depth : JOX_TORSO_DEPTH * radius;
+}
+
 /* Returns the torso of these measures, m; 0: by the radius. */
 static inline JoxTorso jox_torso_of(float breadth, float depth, float radius) {
-    const float across = breadth > 0.0f ? breadth : JOX_TORSO_BREADTH * radius;
-    const float through = depth > 0.0f ? depth : JOX_TORSO_DEPTH * radius;
+    const float across = jox_torso_breadth(breadth, radius);
+    const float through = jox_torso_depth(depth, radius);
     return (JoxTorso){0.5f * (through < across ? through : across),
                       across > through ? 0.5f * (across - through) : 0.0f};
 }

@@ -30,13 +30,15 @@ static void note_at_group(const JoxGroup *group, const char *code, const char *h
                  text);
 }
 
-/* Notes a torso that is deeper than broad. Returns whether it is. */
+/* Notes a torso that is deeper than broad, also where one of both is not given. Returns whether it
+   is. */
 static bool note_deep_torso(const JoxAgents *a, uint32_t i, const JoxGroup *group,
                             JoxDiagnostics *diagnostics) {
-    const float breadth = jox_param(a, JOX_PARAM_breadth, i),
-                depth = jox_param(a, JOX_PARAM_depth, i);
+    const float radius = jox_param(a, JOX_PARAM_radius, i);
+    const float breadth = jox_torso_breadth(jox_param(a, JOX_PARAM_breadth, i), radius),
+                depth = jox_torso_depth(jox_param(a, JOX_PARAM_depth, i), radius);
     char text[200];
-    if (!(breadth > 0.0f && depth > breadth))
+    if (!(depth > breadth))
         return false;
     snprintf(text, sizeof text,
              "people of group '%.60s' have a breadth of %.2f m and a depth of %.2f m: who is not "

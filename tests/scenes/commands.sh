@@ -374,10 +374,12 @@ groups:
   beside: {behaviour: stander.lua, at: [[8, 5], [8, 5.15]], set: {breadth: 0.45, depth: 0.25}}
   apart: {behaviour: stander.lua, at: [[14, 5], [14, 5.33]], set: {breadth: 0.45, depth: 0.25}}
   behind: {behaviour: stander.lua, at: [[11, 5], [11, 5.33]], facing: 90, set: {breadth: 0.45, depth: 0.25}}
+  stout: {behaviour: stander.lua, at: [[17, 5]], set: {depth: 0.6}}
 END
 "$JOSTLE" check "$work/torsos.yaml" 2>&1 | tr -s '\n ' ' ' >"$work/out"
 for said in "of group 'roomy' keep room for a disc of 0.50 m" "of group 'deep' have a breadth of 0.25 m and a depth of 0.45 m" \
-    "2 of the 2 people of group 'beside' begin in others, up to 0.10 m deep" "nothing wrong, 3 notes"; do
+    "of group 'stout' have a breadth of 0.45 m and a depth of 0.60 m" \
+    "2 of the 2 people of group 'beside' begin in others, up to 0.10 m deep" "nothing wrong, 4 notes"; do
     grep -qF "$said" "$work/out" || break
 done
 verdict "notes on torsos name odd measures, and who begins in others however they turn" $?
