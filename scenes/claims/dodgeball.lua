@@ -2,6 +2,7 @@ local SIDE = { red = -1, blue = 1 } -- side of the court on which a group plays,
 local STEP = 0.051                  -- s: a little more than the longest step here
 local DEFENDS = { Defense = true, Notice = true, Dodge = true }
 local REACTION, REBOUND = 0.3, 0.8  -- s: as in behaviours/dodgeball.lua
+local TOUCHES = 0.051 + 0.025       -- m: gap of a touch, and by how much shoulders are broader than the disc of `gap`
 
 -- Whether the ball touched the ground in the step before: its centre is no higher than its radius, plus 0.04 m for what
 -- may lie under it, plus the height that it bounced since.
@@ -33,7 +34,7 @@ local rules = {
     return e.from == "Play" or e.time - who.kicked < STEP or ball <= 0
   end,
   -- Only an attacker kicks, once, a ball that it touches and that is not in the other court.
-  kicks = function(e, ball, who) return e.state == "Attack" and who.kicks == 1 and e.gap < 0.0501 and ball > -0.11 end,
+  kicks = function(e, ball, who) return e.state == "Attack" and who.kicks == 1 and e.gap < TOUCHES and ball > -0.11 end,
 }
 
 -- Slope of y over x by least squares.
