@@ -71,8 +71,8 @@ static inline void jox_note_displacement_lanes(JoxAgents *a, uint32_t first, Jox
     const JoxMask known = jf_lt(zero, jv_dot(before, before) + jv_dot(force, force));
     if (!jm_bits(known))
         return;
-    const JoxMask begun =
-        jm_or(jf_lt(zero, jv_dot(before, before)), jox_moved_by_others_lanes(a, first, old, force));
+    const JoxMask begun = jm_and(known, jm_or(jf_lt(zero, jv_dot(before, before)),
+                                              jox_moved_by_others_lanes(a, first, old, force)));
     const JoxFloats pushed = jf_max(zero, jv_dot(move, force));
     const JoxVector now = jv_add(before, jv_add(move, jv_scale(force, JOX_STEP_BEYOND * pushed)));
     const JoxFloats size = jf_sqrt(jv_dot(now, now)), settled = jf_load(a->settled + first);

@@ -20,6 +20,26 @@ grep -q 'Who fell' "$work/report/index.html"; verdict "a report says how many fe
 grep -q '>fallen<' "$work/c.svg"; verdict "a picture shows who has fallen" $?
 same_hash "falls do not depend on threads" "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10 --threads 1)" \
     "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10 --threads 3)"
+# People who are thrown, help each other up, and step back beside others who do not.
+cat >"$work/helper.lua" <<'END'
+local lying = nearest("anyone"):fallen()
+return machine { name = "helper", start = "Go", own = { goal = "post" },
+  defaults = { speed = 1.3, time_gap = 0.25, balance = 0.001, rise = 0 },
+  states = {
+    Go = { steer = seek(own.goal), push = 60, { to = "Help", when = sees(lying) }, { to = "Down", when = fallen } },
+    Down = { { to = "Go", when = ~fallen } },
+    Help = { grasp = lying, steer = seek(lying), { to = "Go", when = after(2) }, { to = "Down", when = fallen } },
+  } }
+END
+cat >"$work/helpers.yaml" <<'END'
+jostle: 1
+duration: 8
+places: {yard: {polygon: [[-6, -6], [6, -6], [6, 6], [-6, 6]]}, post: {point: [12, 0], radius: 0.6}}
+groups: {people: {behaviour: helper.lua, count: 120, in: yard, set: {goal: post}}}
+events: [{at: 2, push: yard, force: [1500, 0], lasts: 0.2}]
+END
+same_hash "falls do not depend on the instruction set" "$(hash_of "$JOSTLE" "$work/helpers.yaml")" \
+    "$(hash_of "$JOSTLE" "$work/helpers.yaml" --isa scalar)"
 "$JOSTLE" run scenes/crowd-collapse.yaml --quiet --for 5 --checkpoint 5 --checkpoint-dir "$work/cp" 2>/dev/null
 same_hash "falls go on from a checkpoint" "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10)" \
     "$("$JOSTLE" resume "$work/cp/latest.checkpoint" --for 10 --quiet --summary - 2>/dev/null | figure hash)"
