@@ -302,13 +302,13 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
         jox_page_put_validation(out);
         jox_html_paragraph(
             out,
-            "None of that validates this scenario. Its geometry, numbers of people, behaviours and "
-            "parameters are what its author gave; nothing on this page was compared with a crowd "
-            "that did this here. Load in particular is a model's: forces inside real crowds "
-            "of this size have hardly been measured, the contacts are those of discs, and the "
-            "limits come from single persons and from what was found after disasters. Read the "
-            "limits as places and times to look at, not as a count of injured; run several seeds "
-            "before comparing plans.");
+            "None of that validates this scenario. Its geometry, numbers of people, behaviours "
+            "and parameters are what its author gave; nothing on this page was compared with a "
+            "crowd that did this here. Load in particular is a model's: forces inside real crowds "
+            "of this size have hardly been measured, the contacts are those of rigid outlines, "
+            "and the limits come from single persons and from what was found after disasters. "
+            "Read the limits as places and times to look at, not as a count of injured; run "
+            "several seeds before comparing plans.");
         put_model_notes(out, scene);
         put_run_inputs(out, scene);
         jox_html_end(out);

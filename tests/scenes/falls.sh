@@ -16,6 +16,7 @@ verdict "the last lines count falls" $?
 "$JOSTLE" run scenes/crowd-collapse.yaml --quiet --for 6 --record "$work/c.sqlite" --report "$work/report" --no-half-step 2>/dev/null
 between "a recording tells who lies" "$(sqlite3 "$work/c.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE fallen > 0")" 40 220
 grep -q 'Who fell' "$work/report/index.html"; verdict "a report says how many fell" $?
+grep -q 'contacts are those of rigid outlines' "$work/report/index.html"; verdict "  and what shape of people contacts assume" $?
 "$JOSTLE" render "$work/c.sqlite" --out "$work/c.svg" --at 5 2>/dev/null
 grep -q '>fallen<' "$work/c.svg"; verdict "a picture shows who has fallen" $?
 same_hash "falls do not depend on threads" "$(hash_of "$JOSTLE" scenes/crowd-collapse.yaml --for 10 --threads 1)" \
