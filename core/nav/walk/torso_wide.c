@@ -9,8 +9,12 @@
 #define LOOK_BESIDE 0.1f /* m: and as far back */
 #define SAME_WAY                                                                                   \
     0.5f /* cosine: people whose ways differ less go together; they leave each other room */
-#define CLEARANCE 0.02f      /* m: room that is left beside the torso */
-#define LEAST_COSINE 0.2f    /* of the angle to the way; people turn no farther */
+#define CLEARANCE 0.02f   /* m: room that is left beside the torso */
+#define LEAST_COSINE 0.2f /* of the angle to the way; people turn no farther */
+/* s: time without getting anywhere in which people try it by a shoulder; where it does not help,
+   nothing gives way. */
+#define TRIES_FROM 1.0f
+#define TRIES_TO 4.0f
 #define PRESSED 50.0f        /* N: load of people who turn a shoulder where they get nowhere */
 #define WALK_STIFFNESS 36.0f /* 1/s2: of the turn to the wanted angle */
 #define STAND_STIFFNESS 4.0f /* 1/s2: of people who stand */
@@ -127,7 +131,8 @@ static JoxFloats find_stuck_turns(const JoxWalk *w, const JoxStuckDraw *draw, ui
     const JoxFloats still = jf_load(a->still + first), load = jf_load(a->load + first);
     const JoxMask pressed = jf_lt(jf_set(PRESSED), load);
     float turned[JOX_WIDTH] = {0.0f};
-    uint32_t stuck = moving & jm_bits(jm_and(pressed, jf_lt(jf_set(1.0f), still)));
+    const JoxMask tries = jm_and(jf_lt(jf_set(TRIES_FROM), still), jf_lt(still, jf_set(TRIES_TO)));
+    uint32_t stuck = moving & jm_bits(jm_and(pressed, tries));
     for (; stuck; stuck &= stuck - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(stuck);
         turned[lane] = jox_draw_of_stuck(draw, a->id[first + lane], a->still[first + lane], -1.0f);
