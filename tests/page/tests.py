@@ -499,7 +499,7 @@ def torsos(browser):
     folder = temporary_copy({"scene.yaml": """jostle: 1
 groups:
   torsos: {behaviour: stander.lua, at: [[0, 0]], facing: 90, set: {breadth: 0.45, depth: 0.25}}
-  discs: {behaviour: stander.lua, at: [[2, 0]]}
+  discs: {behaviour: stander.lua, at: [[2, 0]], set: {breadth: 0.4, depth: 0.4}}
 """})
     session = Session("run", os.path.join(folder, "scene.yaml"), "--view")
     try:
