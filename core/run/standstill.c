@@ -11,7 +11,7 @@
 #include "world/routes/hindrance.h"
 
 static const double LOOK_INTERVAL = 1.0;    /* s between looks at all people */
-static const float MOVED = 0.25f;           /* m: an agent that moved farther does not stand */
+static const float MOVED = 0.5f;            /* m: an agent that moved farther does not stand */
 static const double STANDSTILL_TIME = 30.0; /* s: an agent that stood longer stands still */
 static const float CLUSTER_RADIUS = 5.0f;   /* m: agents within it form a cluster */
 /* A crowd: CROWD people who stand still, or FEW and half of all present. CANDIDATES people are

@@ -1,4 +1,4 @@
-# Nobody who wants to get on stands for ever: in no shipped scene with the walking law does a person move less than 0.25 m
+# Nobody who wants to get on stands for ever: in no shipped scene with the walking law does a person move less than 0.5 m
 # in a minute.
 . tests/scenes/lib.sh
 MOST=60    # s

@@ -14,7 +14,7 @@
 /* s: time without getting anywhere in which people try it by a shoulder; where it does not help,
    nothing gives way. */
 #define TRIES_FROM 1.0f
-#define TRIES_TO 4.0f
+#define TRIES_TO 8.0f
 #define PRESSED 50.0f        /* N: load of people who turn a shoulder where they get nowhere */
 #define WALK_STIFFNESS 36.0f /* 1/s2: of the turn to the wanted angle */
 #define STAND_STIFFNESS 4.0f /* 1/s2: of people who stand */
