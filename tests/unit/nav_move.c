@@ -67,6 +67,9 @@ static void open_move_crowd(Crowd *c, uint32_t number) {
         a->chest_y[i] = 0.8f;
         a->spin[i] = draw_move(number, &drawn, -20.0, 20.0);
     }
+    jox_neighbours_reserve(&c->neighbours, PEOPLE, 1);
+    for (uint32_t i = 0; i < PEOPLE; i++)
+        c->neighbours.motions[i] = (JoxMotion){a->x[i], a->y[i], a->vx[i], a->vy[i]};
     c->neighbours.has_torsos = number % 2;
     c->move = (JoxMove){.nav = c->nav,
                         .step = {.timing = {.dt = 0.05, .response = 0.6, .on_the_way = 0.35},
@@ -77,6 +80,7 @@ static void open_move_crowd(Crowd *c, uint32_t number) {
 
 static void close_move_crowd(Crowd *c) {
     jox_nav_free(c->nav);
+    jox_neighbours_free(&c->neighbours);
     jox_agents_free(&c->agents);
     jox_walls_free(&c->walls);
 }
