@@ -1,5 +1,4 @@
-/* Scratch of a step: agents grouped by state into batches, people counted in
-   places. */
+/* Scratch of a step: agents grouped by state into batches, people counted in places. */
 #include <string.h>
 
 #include "base/assert.h"

@@ -67,22 +67,21 @@ typedef enum JoxNow {
 /* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. Target -1 is the
    agent itself. x / 0 is 0. CLAMP: a within [b, c]. DISTANCE: metres from the agent's centre to the
    target, infinite when absent. PLACE_DENSITY, PLACE_COUNT: people in place (a polygon, else a disc
-   of 2 m about it). INSIDE: target is in place. ARRIVED: the agent is in place, or
-   agents who have arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the
-   last move crossed line `place` from its right to its left. FIRST_IN: the agent heads its queue.
-   JOINED: it has its place in its queue.
-   AFTER: time in state is at least a. LASTED: the drawn duration of the state is over. STUCK: the
-   agent has not moved 0.25 m for a seconds. FALLEN: the agent lies after a fall. TOUCHES: the gap
-   to target is below 0.05 m. GROUNDED: target, a body, touches the ground. KICKED: the agent kicked
-   target, or a body with its tag, in the last step. HIT_BY: target, faster than 1 m/s, touches the
-   agent, or such a body hit it in the last step. INCOMING: target, at its present velocity, comes
-   within a metres of where the agent stands during the next 2 s. SEES: target exists within
-   perception. HAS: the agent holds target, a body or an agent. HEARD: another agent within
-   perception, and within a metres, gave the signal `name` in the last step. NEIGHBOURS: number of
-   neighbours that match target. THEIRS: memory `name` of the agent that is the target, if its
-   machine makes that public; else 0. SHUT: a gate at place is closed, and the agent sees it.
-   QUEUED: number of agents in the queue `place`. OPEN: the gates called `name` are open. Agents
-   behind a wall are not seen, heard or touched. */
+   of 2 m about it). INSIDE: target is in place. ARRIVED: the agent is in place, or agents who have
+   arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the last move crossed
+   line `place` from its right to its left. FIRST_IN: the agent heads its queue. JOINED: it has its
+   place in its queue. AFTER: time in state is at least a. LASTED: the drawn duration of the state
+   is over. STUCK: the agent has not moved 0.25 m for a seconds. FALLEN: the agent lies after a
+   fall. TOUCHES: the gap to target is below 0.05 m. GROUNDED: target, a body, touches the ground.
+   KICKED: the agent kicked target, or a body with its tag, in the last step. HIT_BY: target, faster
+   than 1 m/s, touches the agent, or such a body hit it in the last step. INCOMING: target, at its
+   present velocity, comes within a metres of where the agent stands during the next 2 s. SEES:
+   target exists within perception. HAS: the agent holds target, a body or an agent. HEARD: another
+   agent within perception, and within a metres, gave the signal `name` in the last step.
+   NEIGHBOURS: number of neighbours that match target. THEIRS: memory `name` of the agent that is
+   the target, if its machine makes that public; else 0. SHUT: a gate at place is closed, and the
+   agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the gates called `name` are
+   open. Agents behind a wall are not seen, heard or touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \

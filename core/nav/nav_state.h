@@ -93,7 +93,7 @@ static inline JoxStep jox_nav_step(const JoxStep *step) {
     return own;
 }
 
-/* What agents that get nowhere draw of late: a random stream, and the moment of one purpose, which
+/* The draw of agents that get nowhere, for one purpose: a random stream, and its moment, which
    changes each second. */
 typedef struct JoxStuckDraw {
     uint64_t stream, moment;

@@ -95,14 +95,22 @@ static int compare_x(const void *left, const void *right, const void *context) {
     return a < b ? -1 : a > b;
 }
 
+/* Returns how far a torso reaches from its centre at most, m. */
+static float find_outer_reach(const JoxTorsos *t, uint32_t i) {
+    return t->radius[i] + jox_length((JoxV2){t->axis_x[i], t->axis_y[i]});
+}
+
 /* Counts the pairs of each agent in first[i + 1]; or, where `other` is there, lists them from
    first[i] on, which it raises. */
-static void visit_pairs(const JoxAgents *a, const uint32_t *order, uint32_t *first,
-                        uint32_t *other) {
-    const float reach = 2.0f * jox_agents_widest(a, false);
-    for (uint32_t m = 0; m < a->count; m++)
-        for (uint32_t n = m + 1; n < a->count && a->x[order[n]] - a->x[order[m]] < reach; n++) {
-            const uint32_t i = order[m], j = order[n];
+static void visit_pairs(const JoxAgents *a, const JoxTorsos *t, const uint32_t *order,
+                        uint32_t *first, uint32_t *other) {
+    const float widest = jox_agents_widest(a, false);
+    for (uint32_t m = 0; m < a->count; m++) {
+        const uint32_t i = order[m];
+        const float own = find_outer_reach(t, i);
+        for (uint32_t n = m + 1; n < a->count && a->x[order[n]] - a->x[i] < own + widest; n++) {
+            const uint32_t j = order[n];
+            const float reach = own + find_outer_reach(t, j);
             const JoxV2 offset = {a->x[j] - a->x[i], a->y[j] - a->y[i]};
             if (jox_length2(offset) > reach * reach)
                 continue;
@@ -114,19 +122,20 @@ static void visit_pairs(const JoxAgents *a, const uint32_t *order, uint32_t *fir
                 first[j + 1]++;
             }
         }
+    }
 }
 
-static Pairs list_pairs(const JoxAgents *a) {
+static Pairs list_pairs(const JoxAgents *a, const JoxTorsos *t) {
     uint32_t *order = jox_alloc((size_t)a->count + 1, sizeof *order);
     Pairs pairs = {.first = jox_alloc((size_t)a->count + 2, sizeof *pairs.first)};
     for (uint32_t i = 0; i < a->count; i++)
         order[i] = i;
     jox_sort(order, a->count, sizeof *order, compare_x, a, NULL);
-    visit_pairs(a, order, pairs.first, NULL);
+    visit_pairs(a, t, order, pairs.first, NULL);
     for (uint32_t i = 0; i < a->count; i++)
         pairs.first[i + 1] += pairs.first[i];
     pairs.other = jox_alloc((size_t)pairs.first[a->count] + 1, sizeof *pairs.other);
-    visit_pairs(a, order, pairs.first, pairs.other);
+    visit_pairs(a, t, order, pairs.first, pairs.other);
     memmove(pairs.first + 1, pairs.first, a->count * sizeof *pairs.first); /* as before listing */
     pairs.first[0] = 0;
     jox_free(order);
@@ -155,6 +164,8 @@ static void turn_out_of_others(JoxAgents *a, JoxTorsos *t, const Pairs *pairs, u
     const JoxV2 chest = {a->chest_x[i], a->chest_y[i]};
     float least = find_depth(a, t, pairs, i);
     JoxV2 best = chest;
+    if (least <= SKIN)
+        return;
     for (int k = 2; k <= 2 * MOST_TURNS + 1 && least > SKIN; k++) {
         const double angle = (k % 2 ? -1 : 1) * (k / 2) * TURN * JOX_DEGREE;
         const JoxV2 along = {(float)jox_cos(angle), (float)jox_sin(angle)};
@@ -173,7 +184,7 @@ static void turn_out_of_others(JoxAgents *a, JoxTorsos *t, const Pairs *pairs, u
 /* Turns chests; returns how deep each agent's torso still is in another, m. */
 static float *turn_chests(JoxAgents *a, JoxTorsos *t) {
     float *depths = jox_alloc((size_t)a->count + 1, sizeof *depths);
-    Pairs pairs = list_pairs(a);
+    Pairs pairs = list_pairs(a, t);
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         for (uint32_t i = 0; i < a->count; i++)
             if (jox_length2((JoxV2){t->axis_x[i], t->axis_y[i]}) > 0.0f)

@@ -117,7 +117,7 @@ static bool loses_balance(const JoxFalls *f, const JoxStep *step, uint32_t i, Jo
     return needed > FEET && needed > find_reach(step, i, way);
 }
 
-/* What a step does for a range of agents: each writes its own alone. */
+/* A step of a range of agents, each of which writes its own columns alone. */
 typedef struct Range {
     JoxFalls *falls;
     const JoxStep *step;

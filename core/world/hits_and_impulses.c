@@ -6,7 +6,6 @@
 #include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
-#include "base/number/pi.h"
 #include "world/stages.h"
 #include "world/world.h"
 

@@ -183,8 +183,8 @@ static double stand_in_niche(double speed, double newtons, double *early) {
     return late;
 }
 
-/* Who is pressed and gets nowhere turns a shoulder after a second; the nulls: who is not pressed,
-   and who wants to stand, do not. */
+/* Torsos that are pressed and get nowhere turn a shoulder after a second; the nulls, one that is
+   not pressed and one that wants to stand, do not. */
 static void pressed_torsos_that_get_nowhere_turn(void **state) {
     (void)state;
     double early;

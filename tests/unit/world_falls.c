@@ -86,7 +86,7 @@ static void nobody_falls_by_default(void **state) {
     jo_world_free(w);
 }
 
-/* Who runs, and stops, is not thrown. */
+/* An agent that runs, and stops, is not thrown. */
 static void own_motion_throws_nobody(void **state) {
     (void)state;
     JoWorld *w = make_world(0.05);
@@ -122,8 +122,8 @@ static void fallen_gets_up(void **state) {
     jo_world_free(w);
 }
 
-/* Whoever is pressed onto one who lies falls too, since its feet are stopped; whoever is pressed as
-   hard onto one who stands is held up. */
+/* An agent that is pressed onto one that lies falls, too, as its feet are stopped; one that stands
+   holds it up. */
 static void pressed_agent_falls_onto_the_fallen(void **state) {
     (void)state;
     for (int k = 0; k < STEP_COUNT * 2; k++) {

@@ -161,7 +161,7 @@ static inline JoxNearPoint jox_select_point(JoxMask m, JoxNearPoint a, JoxNearPo
                           jv_select(m, a.apart, b.apart), jf_select(m, a.distance2, b.distance2)};
 }
 
-/* What the solve needs of a point, by lane (JoxContactPoint). */
+/* Numbers of a point that the solve needs, by lane (JoxContactPoint). */
 typedef struct JoxPointLanes {
     JoxVector normal;
     JoxFloats gap, mass, slip_mass, levers[2], slips[2];
