@@ -44,7 +44,7 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
         double number = value->kind == JOX_VALUE_UNSET ? jox_parameters[p].value
                                                        : jox_value(run, machine, value, i);
         jox_param_set(a, p, i, jox_parameter_store((JoxParameter)p, number));
-        if (jox_is_odd(p, number))
+        if (jox_is_odd(p, value->kind, number))
             jox_odd_note(run, i, p, value, number);
     }
     if (a->ignore[i] != state->ignore)

@@ -1,8 +1,10 @@
 /* Odd numbers: values of parameters and actions that a machine computes or draws and that are
-   invalid (NaN, infinite, a radius or mass of 0 or less). The nearest valid value is taken, and the
-   first agent is reported, once per line of source. */
+   invalid (NaN, infinite, a radius or mass of 0 or less, a breadth or depth below 0 or computed as
+   0). The nearest valid value is taken, and the first agent is reported, once per line of source.
+ */
 #include <math.h>
 
+#include "agents/torso.h"
 #include "base/assert.h"
 #include "base/mem.h"
 #include "machine/machine_parts.h"
@@ -14,9 +16,19 @@ static const JoxParameterInfo ACTION_NUMBERS[] = {
     {"grip", "N", "", 0, JOX_MOST_GRIP, 0},        {"lasts", "s", "", 0, 1e6, INFINITY},
 };
 
-bool jox_is_odd(int parameter, double value) {
-    return !isfinite(value) ||
-           (value <= 0.0 && (parameter == JOX_PARAM_radius || parameter == JOX_PARAM_mass));
+bool jox_is_odd(int parameter, JoxValueKind kind, double value) {
+    if (!isfinite(value))
+        return true;
+    switch (parameter) {
+    case JOX_PARAM_radius:
+    case JOX_PARAM_mass:
+        return value <= 0.0;
+    case JOX_PARAM_breadth:
+    case JOX_PARAM_depth: /* a plain 0 asks for what the radius gives; a computed one is an error */
+        return value < 0.0 || (value == 0.0 && kind == JOX_VALUE_EXPRESSION);
+    default:
+        return false;
+    }
 }
 
 static bool is_odd_before(const JoxOdd *a, const JoxOdd *b) {
@@ -65,9 +77,9 @@ void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t cou
                   const double *values, JoxOdd *first) {
     bool any = false;
     for (uint32_t n = 0; n < count; n++)
-        any |= jox_is_odd(parameter, values[n]);
+        any |= jox_is_odd(parameter, JOX_VALUE_EXPRESSION, values[n]);
     for (uint32_t n = 0; any && n < count; n++) {
-        if (!jox_is_odd(parameter, values[n]))
+        if (!jox_is_odd(parameter, JOX_VALUE_EXPRESSION, values[n]))
             continue;
         const JoxMachine *machine = jox_machine_of(run, agents[n]);
         const JoxState *state = &machine->states[run->agents->state[agents[n]]];
@@ -106,6 +118,14 @@ static void say_replacement(const JoxOdd *odd, JoxText *out) {
     const double taken =
         action ? replace_odd(info, odd->value)
                : jox_parameter_value(parameter, jox_parameter_store(parameter, odd->value));
+    const bool breadth = odd->parameter == JOX_PARAM_breadth;
+    if (taken == 0.0 && (breadth || odd->parameter == JOX_PARAM_depth)) {
+        jox_text_printf(out,
+                        "%g times the radius is taken, as where none is given. Keep it above 0, as "
+                        "by clamp(x, 0.1, %g)",
+                        (double)(breadth ? JOX_TORSO_BREADTH : JOX_TORSO_DEPTH), info->greatest);
+        return;
+    }
     jox_text_printf(out, "%g %s is taken. Keep it within bounds, as by clamp(x, %g, %g)", taken,
                     info->unit, info->least, info->greatest);
 }

@@ -290,10 +290,10 @@ void jox_counts_add_before(JoxMachineCounts *counts, const char *from, const cha
                            uint64_t taken);
 void jox_counts_free(JoxMachineCounts *counts);
 /* invalid_values.c: odd parameters are numbers that are invalid for their parameter. jox_is_odd
-   tests one; jox_odd_look finds the first odd number of a batch that was not reported yet, and
-   stores it in `first` if it comes before that; jox_odd_first returns the first of all workers;
-   jox_odd_tell reports it. */
-bool jox_is_odd(int parameter, double value);
+   tests one; jox_odd_look finds the first odd number that a batch computed and that was not
+   reported yet, and stores it in `first` if it comes before that; jox_odd_first returns the first
+   of all workers; jox_odd_tell reports it. */
+bool jox_is_odd(int parameter, JoxValueKind kind, double value);
 void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, int parameter,
                   const double *values, JoxOdd *first);
 const JoxOdd *jox_odd_first(const JoxOdd *odd, uint32_t count);

@@ -96,7 +96,10 @@ static void invalid_computed_parameters_are_reported(void **state) {
         {"mass =\n 5 - 10 * now.speed - 20", "came out as -15; 1 kg is taken."},
         {"speed =\n distance(nearest \"opponents\")", "came out as inf; 20 m/s is taken."},
         {"push =\n 5 - distance(nearest \"opponents\")", "came out as -inf; 0 N is taken."},
-        {"radius =\n normal(-1, 0.1)", "; 0.02 m is taken."}};
+        {"radius =\n normal(-1, 0.1)", "; 0.02 m is taken."},
+        {"breadth =\n 0 * now.speed", "came out as 0; 2.25 times the radius is taken, as where"},
+        {"depth =\n now.speed - 20", "came out as -20; "},
+        {"depth =\n normal(-1, 0.1)", " times the radius is taken, "}};
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         char sheet[600];
         snprintf(sheet, sizeof sheet,
