@@ -108,11 +108,13 @@ static void visit_pairs(const JoxAgents *a, const JoxTorsos *t, const uint32_t *
     for (uint32_t m = 0; m < a->count; m++) {
         const uint32_t i = order[m];
         const float own = find_outer_reach(t, i);
-        for (uint32_t n = m + 1; n < a->count && a->x[order[n]] - a->x[i] < own + widest; n++) {
-            const uint32_t j = order[n];
+        const uint32_t end = a->period.x > 0.0f ? m + a->count : a->count; /* on over the edge */
+        for (uint32_t n = m + 1; n < end; n++) {
+            const uint32_t j = order[n % a->count];
             const float reach = own + find_outer_reach(t, j);
-            const JoxV2 offset = {a->x[j] - a->x[i], a->y[j] - a->y[i]};
-            if (jox_length2(offset) > reach * reach)
+            if (a->x[j] + (n < a->count ? 0.0f : a->period.x) - a->x[i] >= own + widest)
+                break;
+            if (jox_length2(jox_offset(a, i, j)) > reach * reach)
                 continue;
             if (other) {
                 other[first[i]++] = j;
