@@ -82,6 +82,8 @@ typedef struct JoxStatistics {
     uint64_t falls, most_fallen; /* falls of agents; most agents that lay at a time */
     uint64_t dropped;            /* carried bodies that fell for want of room */
     uint64_t shifted_at_birth;   /* agents born on a free spot near their point */
+    uint64_t born_in_others;     /* agents whose torso was deep in another as they came in */
+    double deepest_birth;        /* m: most of these depths */
     uint64_t not_placed;         /* births without a free spot */
     uint64_t most_without_spot;  /* most agents at a time that waited for room at their goal */
     uint64_t moved_out, not_moved_out;  /* agents in new walls: moved; without a free spot */

@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/number/elementary.h"
+#include "world/turn_chests.h"
 #include "world/world.h"
 
 static const double PLANNING_TIME = 0.05; /* s: between plans of an agent that walks */
@@ -224,8 +225,10 @@ bool jox_world_step(JoWorld *w) {
         return false;
     jox_world_run_events(w);
     jox_world_settle_walls(w);
+    const uint32_t before = w->state.agents.count;
     jox_world_run_sources(w);
     jox_world_spawn_due_starts(w);
+    jox_world_turn_newcomers(w, before);
     jox_nav_end_births(w->scratch.nav);
     JOX_CHECK(jox_world_check_model(w));
     JOX_CHECK(jox_world_check_agents(w));

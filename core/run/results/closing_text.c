@@ -205,6 +205,7 @@ char *jo_scene_closing(const JoScene *scene) {
     say_states(scene, &text);
     jox_run_say_demand(scene, &text);
     jox_run_say_starts(scene, &text);
+    jox_run_say_births(scene, &text);
     jox_run_say_kept(scene, &text);
     say_events(scene, &text);
     say_drives(scene, &text);

@@ -96,3 +96,15 @@ void jox_run_say_starts(const JoScene *scene, JoxText *out) {
             group->name, group->position.file, group->position.line);
     }
 }
+
+void jox_run_say_births(const JoScene *scene, JoxText *out) {
+    const JoxStatistics *s = &scene->world->state.statistics;
+    if (s->born_in_others == 0)
+        return;
+    jox_text_add(out, " ");
+    jox_text_noun(out, s->born_in_others, "person|people");
+    jox_text_printf(out,
+                    " came in with their torso in another, up to %.2f m deep, however their chests "
+                    "turned: widen the place where they come in, or let them come more slowly.",
+                    s->deepest_birth);
+}

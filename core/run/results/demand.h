@@ -19,5 +19,7 @@ void jox_run_say_demand(const JoScene *scene, JoxText *out);
    ,"starts_waiting": N if people start after 0 s. */
 void jox_run_add_starts(const JoScene *scene, JoxJson *json);
 void jox_run_say_starts(const JoScene *scene, JoxText *out);
+/* The same for people who came in with their torso deep in another. */
+void jox_run_say_births(const JoScene *scene, JoxText *out);
 
 #endif

@@ -77,6 +77,7 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"spawned", s->spawned},
                   {"removed", s->removed},
                   {"shifted_at_birth", s->shifted_at_birth},
+                  {"born_in_others", s->born_in_others},
                   {"not_placed", s->not_placed},
                   {"most_without_spot", s->most_without_spot},
                   {"moved_out", s->moved_out},

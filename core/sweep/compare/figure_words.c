@@ -90,6 +90,7 @@ static const struct {
     {"events.opened", "gates opened", "", false},
     {"events.closed", "gates closed", "", false},
     {"events.shifted_at_birth", "people who began beside their point", "", false},
+    {"events.born_in_others", "people who came in with their torso in another", "", false},
     {"events.not_placed", "people who were not placed", "", false},
     {"events.most_without_spot", "most people who waited at a time where there was no room", "",
      false},
