@@ -146,7 +146,8 @@ JO_API bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, Jo
 
 typedef struct JoAgentDef {
     double x, y;             /* m, within 10 km of the origin */
-    double radius;           /* m, of the agent's disc, 0.02 to 5; default 0.2 */
+    double radius;           /* m, of the disc for which it keeps room, 0.02 to 5; default 0.2; its
+                                torso is 2.25 radii broad and 1.25 deep, or the disc if `literal` */
     double mass;             /* kg, 1 to 10,000; default 70 */
     double speed, max_speed; /* m/s: wanted speed, 0 to 20, and the greatest that it chooses, 0 to
                                 30; defaults 1.3 and 1.8 */

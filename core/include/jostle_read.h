@@ -143,9 +143,9 @@ typedef struct JoCast {
     double nx, ny; /* unit normal, from the thing that was hit to the centre */
 } JoCast;
 /* Casts a disc of `radius`, m (0: a ray), from one point to another in the plane and returns the
-   first hit among the kinds asked for: the discs of people, the footprints of bodies between
-   0.05 m and 1.75 m above the ground, standing walls. Anything that overlaps the disc at the
-   start is hit at share 0. */
+   first hit among the kinds asked for: the discs for which people keep room, not their
+   torsos; the footprints of bodies between 0.05 m and 1.75 m above the ground; standing walls.
+   Anything that overlaps the disc at the start is hit at share 0. */
 JO_API JoCast jo_world_cast(const JoWorld *world, const double from[2], const double to[2],
                             double radius, uint32_t kinds);
 

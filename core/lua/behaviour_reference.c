@@ -83,6 +83,8 @@ static void print_keys(JoxText *out, const char *owner, const char *title, const
 
 /* Returns a value in a parameter's range that is not its default. */
 static double get_sample_value(const JoxParameterInfo *p) {
+    if (p == &jox_parameters[JOX_PARAM_breadth])
+        return 0.5; /* more than the depth that the default radius gives */
     double value = p->value + 0.25 * ((p->value < 1.0 ? 1.0 : p->value));
     return value > p->greatest ? p->greatest : value;
 }

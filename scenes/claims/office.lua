@@ -94,7 +94,7 @@ return claim {
     { "impulse", unit = "N s", what = "momentum exchanged, sum of sizes", reported = true },
     { "hits", what = "people hit by bodies that fly or fall", reported = true },
     { "left", what = "people who got out, of 1200", reported = true },
-    { "overlap", what = "99th percentile of overlap, share of a diameter", reported = true },
+    { "overlap", what = "99th percentile of overlap, share of a depth", reported = true },
   },
   pictures = { office = { "density.png", "exit.png", "pieces.png" } },
 }

@@ -16,7 +16,7 @@ local expect = {
     reported = true },
   { "density_own", unit = "1/m2", what = "greatest density of the whole run by the measure of all other pages, R = 1 m "
     .. "in exp(-d2 / R2), within walls", source = "not comparable with 7.4", reported = true },
-  { "overlap", what = "99th percentile of overlap, share of a diameter", source = "ours", band = { 0, 0.05 } },
+  { "overlap", what = "99th percentile of overlap, share of a depth", source = "ours", band = { 0, 0.05 } },
   { "mean", unit = "m/s", what = "mean of the regions", source = "0.74; band ours", band = { 0.7, 0.8 } },
   { "first", unit = "m/s", what = "the slowest of the others above R1", source = "R1 is slowest: > 0", band = { 0 } },
   { "second", unit = "m/s", what = "the slowest of R2 to R6 above R7", source = "R7 is second: > 0", band = { 0 } },

@@ -67,7 +67,7 @@ return claim {
     { "lapse", unit = "s", what = "longest time that nobody came through, with pushing",
       source = "jams resolve; band ours", band = { 0, 5 } },
     { "lapse_fine", unit = "s", what = "the same, dt 0.02 s", source = "band ours", band = { 0, 5 } },
-    { "overlap", what = "99th percentile of overlap, share of a diameter", source = "band ours", band = { 0, 0.25 } },
+    { "overlap", what = "99th percentile of overlap, share of a depth", source = "band ours", band = { 0, 0.25 } },
     { "lapse_still", unit = "s", what = "longest time that nobody came through, without pushing", reported = true },
     { "failing", what = "share of agent-steps whose linear program has no solution", reported = true },
     { "through", what = "people through both in 180 s, with pushing", reported = true },
