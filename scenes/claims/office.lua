@@ -7,15 +7,18 @@ local function count(pieces, name, column, least)
   return sum
 end
 
--- People whom boxes hit that fly faster than 3 m/s, each once in 3 s.
+local AMONG_PEOPLE = 18 -- s: the first of the scene's boxes that fly among people; those before are thrown at shelves
+
+-- People whom the boxes hit that fly among them, faster than 3 m/s. Hits of a person by a box are one within 3 s.
 local function struck(acts, pieces)
-  local boxes, seen, sum = {}, {}, 0
+  local boxes, last, sum = {}, {}, 0
   for i = 1, pieces.n do boxes[pieces.body[i]] = tostring(pieces.name[i]):sub(1, 3) == "box" end
   for i = 1, acts.n do
-    if acts.what[i] == "hit" and boxes[acts.body[i]] and acts.body_speed[i] > 3 then
-      local hit = acts.person[i] .. " " .. acts.body[i] .. " " .. acts.time[i] // 3
-      sum = sum + (seen[hit] and 0 or 1)
-      seen[hit] = true
+    local time = acts.time[i]
+    if acts.what[i] == "hit" and boxes[acts.body[i]] and acts.body_speed[i] > 3 and time >= AMONG_PEOPLE then
+      local pair = acts.person[i] .. " " .. acts.body[i]
+      if time > (last[pair] or -3) + 3 then sum = sum + 1 end
+      last[pair] = time
     end
   end
   return sum
