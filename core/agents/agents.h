@@ -27,7 +27,8 @@ enum { JOX_AGENTS_PADDING = 16 }; /* whole packets may be read past the last age
     ROW(X, STATE, FREE, ext, "external")          /* given by callers and events for one step */   \
     ROW(X, STATE, BRACED, inferred, "resistance") /* filtered, eq. 8 and 9 */                      \
     ROW(X, SCRATCH, BRACED, push, "push")         /* pushes received, eq. 5 */                     \
-    ROW(X, SCRATCH, CONTACT, contact, "contact")  /* with agents, walls and bodies, eq. 6, 7 */
+    ROW(X, SCRATCH, CONTACT, contact, "contact")  /* with agents, walls and bodies, eq. 6, 7 */    \
+    ROW(X, SCRATCH, GROUND, feet, "feet")         /* hold an agent that stands, sideways */
 #define JOX_FORCE_TERM_COLUMNS(X, keep, role, name, label)                                         \
     X(keep, float, name##_x) X(keep, float, name##_y)
 
@@ -36,7 +37,8 @@ typedef enum JoxForceRole {
     JOX_FORCE_FREE = 1,    /* accelerates the agent whole */
     JOX_FORCE_BRACED = 2,  /* feet that brace hold up to `brace` newtons of the sum of these */
     JOX_FORCE_CONTACT = 4, /* the result of the contact solve; may raise the speed limit */
-    JOX_FORCE_ALL = 7
+    JOX_FORCE_GROUND = 8,  /* found by the contact solve as well, but touches nobody */
+    JOX_FORCE_ALL = 15
 } JoxForceRole;
 
 /* X(keep, type, name): meaning. Units: m, m/s, N, s. STATE: carried from step to step, so it is

@@ -58,6 +58,7 @@ bool jox_parameter_acts_in_literal(JoxParameter parameter) {
     case JOX_PARAM_step_back:
     case JOX_PARAM_balance:
     case JOX_PARAM_rise:
+    case JOX_PARAM_stance:
     case JOX_PARAM_breadth:
     case JOX_PARAM_depth:
         return false;

@@ -59,6 +59,17 @@ turned=$(bonds turned "$work/w.json")
 between "angle by which the tight wall turns, degrees" "${turned#-}" 3 180
 "$JOSTLE" run scenes/wall-heavy.yaml --for 60 --quiet --summary "$work/w.json"
 between "displacement of a heavy wall, m" "$(bonds moved "$work/w.json")" 0 0.1
+# A row of people who are pressed from both ends: feet hold it, and without them it buckles.
+aside() {
+    local stance=$1 person sets=(); shift
+    for person in 1 2 3 4 5; do sets+=(--set "groups.p$person.set.stance=$stance"); done
+    "$JOSTLE" run scenes/pressed-row.yaml --quiet "${sets[@]}" --summary "$work/row.json" "$@"
+    grep -o '"peak": [-0-9.e]*' "$work/row.json" | grep -o '[-0-9.e]*$'
+}
+between "how far feet let people of a pressed row aside, m" "$(aside 0.0825)" 0 0.01
+between "  with a step of 0.0125 s, m" "$(aside 0.0825 --dt 0.0125)" 0 0.01
+between "  without feet that hold, m" "$(aside 0)" 0.1 2
+
 # A plank that is thrown up with a spin about its length falls on its side, and has not turned about the vertical.
 cat >"$work/plank.yaml" <<'SCENE'
 jostle: 1

@@ -56,11 +56,12 @@ static void plain_bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 mo
     float size = jox_length(force), mass = jox_param(a, JOX_PARAM_mass, i);
     float most = jox_param(a, JOX_PARAM_max_speed, i);
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
+    JoxV2 solved = jox_sum_terms(a, i, JOX_FORCE_CONTACT | JOX_FORCE_GROUND);
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
     JOX_ASSERT(jox_is_unit(normal));
     float wanted = find_forced_speed(velocity, normal, size, mass, decay, plan.interval);
-    float pressed = jox_dot(contact, normal) / mass, driven = jox_dot(moving, normal) / mass;
+    float pressed = jox_dot(solved, normal) / mass, driven = jox_dot(moving, normal) / mass;
     /* Contacts act within this step only, however long the plan is kept. */
     wanted -= pressed * (plan.interval - step);
     float moved = jox_dot(velocity, normal) + pressed * step + driven * plan.forced;
@@ -97,8 +98,9 @@ static void plain_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
     a->force_x[i] = force.x;
     a->force_y[i] = force.y;
     JoxV2 moving = find_moving_force(a, i);
-    a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass;
-    a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass;
+    const JoxV2 given = jox_add(moving, jox_sum_terms(a, i, JOX_FORCE_CONTACT | JOX_FORCE_GROUND));
+    a->forced_x[i] = a->vx[i] + given.x * dt / mass;
+    a->forced_y[i] = a->vy[i] + given.y * dt / mass;
     if ((force.x == 0.0f && force.y == 0.0f) || !plain_is_felt(f, i, jox_length(force)))
         return;
     const JoxPlanning plan = jox_planning(&f->step.timing, jox_stands(a, i));

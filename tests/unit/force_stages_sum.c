@@ -48,12 +48,13 @@ static void fill_sum_columns(JoxAgents *a, Draws *d) {
         a->push_y[i] = draw_uneven(d, 300.0f);
         a->contact_x[i] = draw_sum(d, 0.0, 1.0) < 0.5f ? 0.0f : draw_uneven(d, 900.0f);
         a->contact_y[i] = a->contact_x[i] == 0.0f ? 0.0f : draw_uneven(d, 900.0f);
+        a->feet_y[i] = draw_sum(d, 0.0, 1.0) < 0.7f ? 0.0f : draw_uneven(d, 60.0f);
         jox_param_set(a, JOX_PARAM_mass, i, draw_sum(d, 40.0, 120.0));
         jox_param_set(a, JOX_PARAM_damping, i, d->number % 2 ? draw_sum(d, 1.0, 4.0) : 2.5f);
         jox_param_set(a, JOX_PARAM_brace, i, draw_sum(d, 0.0, 400.0));
         if (d->number % 3 == 0 && k / JOX_LANES % 2) /* whole packets without any force */
             a->ext_x[i] = a->inferred_x[i] = a->inferred_y[i] = a->push_y[i] = a->contact_x[i] =
-                a->contact_y[i] = 0.0f;
+                a->contact_y[i] = a->feet_y[i] = 0.0f;
     }
 }
 
@@ -123,17 +124,19 @@ static uint32_t compare_sum_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKerne
                           .agents = &a,
                           .neighbours = &near};
     JoxForces *f = jox_forces_create(NULL);
-    float *columns[COLUMNS], saved[3][PEOPLE];
+    float *columns[COLUMNS], saved[4][PEOPLE];
     uint32_t felt = 0;
     jox_forces_set_isa(f, isa);
     /* begin zeroes the forces of the step */
     memcpy(saved[0], a.push_y, sizeof saved[0]);
     memcpy(saved[1], a.contact_x, sizeof saved[1]);
     memcpy(saved[2], a.contact_y, sizeof saved[2]);
+    memcpy(saved[3], a.feet_y, sizeof saved[3]);
     jox_force_begin(f, &step, &(JoxForceInputs){0});
     memcpy(a.push_y, saved[0], sizeof saved[0]);
     memcpy(a.contact_x, saved[1], sizeof saved[1]);
     memcpy(a.contact_y, saved[2], sizeof saved[2]);
+    memcpy(a.feet_y, saved[3], sizeof saved[3]);
     list_sum_columns(f, columns);
     for (uint32_t k = 0; k < COLUMNS; k++) /* left from the last step */
         for (uint32_t i = 0; i < PEOPLE; i++)

@@ -24,6 +24,19 @@ typedef struct JoxContactSolve {
     size_t residual_capacity;
 } JoxContactSolve;
 
+/* Hold of an agent's feet on the ground: an impulse of at most `most` either way along `side`,
+   which keeps the speed along it between 0 and what it was before the step. kg, N s. */
+typedef struct JoxFoothold {
+    uint32_t agent;
+    JoxV2 side; /* unit vector across the chest */
+    float least_speed, most_speed, mass, most, impulse;
+} JoxFoothold;
+typedef struct JoxFeet {
+    JoxFoothold *items; /* ascending agents */
+    uint32_t count;
+    size_t capacity;
+} JoxFeet;
+
 /* Each part belongs to the files named. stages/forces.c creates and frees the whole. */
 struct JoxContacts {
     bool known;              /* they were searched for in this step */
@@ -32,6 +45,7 @@ struct JoxContacts {
     JoxWallContacts walls;   /* layout.c */
     JoxTouches touches;      /* bodies_find.c, bodies_solve.c */
     JoxDrives drives;        /* bodies_driven.c */
+    JoxFeet feet;            /* feet.c */
     JoxContactSolve solve;   /* solve.c, motions_wide.c */
     JoxWallLoads wall_loads; /* wall_load.c */
     JoxContactPlanes planes; /* planes.c */
@@ -55,6 +69,14 @@ typedef float JoxSolvePairsKernel(JoxPair *pairs, uint32_t count, JoxContactMoti
 #define X(name, isa) JoxSolvePairsKernel jox_solve_pairs_##name;
 JOX_ISAS(X)
 #undef X
+/* feet.c: returns whether feet may hold anybody. */
+bool jox_feet_matter(const JoxForces *forces);
+/* feet.c: lists the feet that may hold in this step, once contacts are laid out. */
+void jox_feet_list(JoxForces *forces);
+/* feet.c: solves the feet [begin, end) once; returns the greatest change of an impulse, N s. */
+float jox_feet_solve_once(JoxForces *forces, uint32_t begin, uint32_t end);
+/* feet.c: writes the forces of the feet. */
+void jox_feet_write_forces(JoxForces *forces);
 /* solve.c: solves all impulses. */
 void jox_contacts_solve(JoxForces *forces);
 /* literal_contacts.c: equations 6 and 7 as printed: solves all pairs and touches, each by itself.

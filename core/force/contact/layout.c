@@ -269,7 +269,7 @@ void jox_contacts_lay_out(JoxForces *f) {
     reserve_layout(f, layout.pairs, layout.walls);
     walls->count = walls->group_count = 0;
     pairs->count = pairs->colours = 0;
-    if (layout.pairs || layout.walls || touched)
+    if (layout.pairs || layout.walls || touched || jox_feet_matter(f))
         jox_parallel_for(f->chunks > 1 ? f->step.pool : NULL,
                          STARTS + (f->options.literal ? 0 : f->chunks), 1, lay_out_part, &layout);
     JOX_ASSERT(walls->count == layout.walls);

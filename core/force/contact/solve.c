@@ -20,7 +20,7 @@ static const struct Bearing {
 #undef X
 
 static const float BEARS = 4.0f; /* tolerance of plans, in tolerances of forces */
-enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256, TOUCH_GRAIN = 256 };
+enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256, TOUCH_GRAIN = 256, FEET_GRAIN = 256 };
 
 /* One pass over a part of the contacts. */
 typedef struct Pass {
@@ -92,6 +92,13 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
     pass->residuals[pass->chunk + begin / WALL_GRAIN] = most;
 }
 
+static void solve_feet(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const Pass *pass = context;
+    pass->residuals[pass->chunk + begin / FEET_GRAIN] =
+        jox_feet_solve_once(pass->forces, begin, end);
+}
+
 /* Solves for plans the touches of agents whose first touch is in [begin, end): bodies keep the
    motion that forces gave them. */
 static void bear_touches(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -137,7 +144,10 @@ static float solve_once(JoxForces *f, bool bears) {
     jox_parallel_for(f->step.pool, walls->group_count, WALL_GRAIN, solve_walls, &pass);
     pass.chunk += count_chunks(walls->group_count, WALL_GRAIN);
     float most = bears ? 0.0f : jox_touches_solve_once(f);
-    if (bears) {
+    if (!bears) {
+        jox_parallel_for(f->step.pool, f->contacts->feet.count, FEET_GRAIN, solve_feet, &pass);
+        pass.chunk += count_chunks(f->contacts->feet.count, FEET_GRAIN);
+    } else {
         jox_parallel_for(f->step.pool, f->contacts->touches.count, TOUCH_GRAIN, bear_touches,
                          &pass);
         pass.chunk += count_chunks(f->contacts->touches.count, TOUCH_GRAIN);
@@ -152,7 +162,8 @@ static void apply_first_impulses(JoxForces *f) {
     JoxContactSolve *solve = &f->contacts->solve;
     const JoxPairs *p = &f->contacts->pairs;
     uint32_t chunks = count_chunks(f->contacts->walls.group_count, WALL_GRAIN) +
-                      count_chunks(f->contacts->touches.count, TOUCH_GRAIN);
+                      count_chunks(f->contacts->touches.count, TOUCH_GRAIN) +
+                      count_chunks(f->contacts->feet.count, FEET_GRAIN);
     for (uint32_t c = 0; c < p->colours; c++)
         chunks += count_chunks(p->starts[c + 1] - p->starts[c], PAIR_GRAIN);
     JOX_RESERVE(solve->residuals, solve->residual_capacity, chunks);

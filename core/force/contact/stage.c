@@ -86,12 +86,14 @@ void jox_force_contact(JoxForces *f) {
     jox_contacts_lay_out(f);
     if (f->has_bodies)
         jox_touches_sort(f);
+    jox_feet_list(f);
     f->contacts->known = true;
     if (f->options.literal)
         jox_literal_contacts(f);
-    else if (found->pairs.count || found->walls.count || found->touches.count)
+    else if (found->pairs.count || found->walls.count || found->touches.count || found->feet.count)
         solve_contacts(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, write_contact_forces, f);
+    jox_feet_write_forces(f);
     add_wall_forces(f); /* in literal mode walls do not press */
     JOX_CHECK(jox_contacts_check(f));
     jox_contacts_keep_impulses(f);
@@ -102,6 +104,7 @@ void jox_force_contact(JoxForces *f) {
 void jox_contacts_free(JoxContacts *c) {
     void *owned[] = {c->walls.items,
                      c->walls.groups,
+                     c->feet.items,
                      c->solve.residuals,
                      c->planes.starts,
                      c->planes.people,

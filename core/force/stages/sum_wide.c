@@ -56,9 +56,9 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     const JoxFloats mass = jox_param_lanes(a, JOX_PARAM_mass, i);
     const JoxFloats most = jox_param_lanes(a, JOX_PARAM_max_speed, i);
     const JoxVector velocity = jv_load(a->vx, a->vy, i),
-                    contact = jox_sum_terms_lanes(a, i, JOX_FORCE_CONTACT);
+                    contact = jox_sum_terms_lanes(a, i, JOX_FORCE_CONTACT | JOX_FORCE_GROUND);
     const JoxVector force = jox_sum_terms_lanes(a, i, JOX_FORCE_ALL); /* (10) */
-    const JoxMask touched = has_force(contact);
+    const JoxMask touched = has_force(jox_sum_terms_lanes(a, i, JOX_FORCE_CONTACT));
     const JoxMask stands = jox_stands_lanes(a, i);
     const JoxVector moving = jox_moving_lanes(a, i, stands);
     const JoxVector given = jv_add(moving, contact);
