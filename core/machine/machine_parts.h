@@ -211,6 +211,14 @@ bool jox_heard(const JoxMachineRun *run, uint32_t agent, uint32_t name, double r
 /* sight.c: returns whether a closed wall hides one point from another. People can look over low
    walls, which hide only if `touched`. */
 bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched);
+/* An edge that hid a point; zero-initialised: none. */
+typedef struct JoxHidingEdge {
+    const JoxWalls *walls;
+    uint32_t edge;
+} JoxHidingEdge;
+/* Returns the same of touched walls, for points one beside the other: tests the edge that hid the
+   last one first. */
+bool jox_is_reach_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxHidingEdge *last);
 /* Returns whether a body hides one point from another: a body that reaches above 1.3 m, is at least
    half a metre wide, contains neither point, and is not row `but`. */
 bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t but);

@@ -39,6 +39,23 @@ bool jox_is_hidden_by(const JoxMachineRun *run, uint32_t but, JoxV2 from, JoxV2 
             stopping_edge(run->wall_images, UINT32_MAX, from, to, least_height) >= 0);
 }
 
+bool jox_is_reach_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxHidingEdge *last) {
+    const JoxWalls *lists[] = {run->walls, run->wall_images};
+    if (last->walls) {
+        const JoxWallVertex *v = &last->walls->vertices[last->edge];
+        if (jox_segments_cross(from, to, v->point, last->walls->vertices[v->next].point))
+            return true;
+    }
+    for (int k = 0; k < 2; k++) {
+        const int64_t edge = lists[k] ? stopping_edge(lists[k], UINT32_MAX, from, to, 0.0f) : -1;
+        if (edge < 0)
+            continue;
+        *last = (JoxHidingEdge){lists[k], (uint32_t)edge};
+        return true;
+    }
+    return false;
+}
+
 bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched) {
     return jox_is_hidden_by(run, UINT32_MAX, from, to, touched);
 }

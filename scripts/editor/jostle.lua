@@ -428,7 +428,7 @@ function dodge(a1, a2) end
 ---@return jostle.Steering
 function orbit(...) end
 
---- `queue(place)`: to the end of a queue, along it where walls hide that; an agent that comes within 1 m of the queue takes the next place, and moves up as those before it leave
+--- `queue(place)`: to the end of a queue, along it where walls hide that, and straight where they hide all of it (`field` leads round them); an agent that comes within 1 m of the queue takes the next place, and moves up as those before it leave
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function queue(a1) end

@@ -1,5 +1,5 @@
 /* Tests that people reach exits, queues and places by open ways alone, and not through walls and
- * closed gates. */
+ * closed gates, also where the way winds. */
 #include "unit/gate_ball_scene.h"
 
 /* A hall of 24 x 8 m, which a wall may divide at x = 20. */
@@ -76,7 +76,45 @@ static void nobody_arrives_through_a_wall(void **state) {
     }
 }
 
+/* A queue that winds through five lanes between walls, and ends before them. */
+#define WINDING                                                                                    \
+    "jostle: 1\nplaces:\n"                                                                         \
+    "  counter: {queue: [[0, 0], [6, 0], [6, 1.2], [0, 1.2], [0, 2.4], [6, 2.4], [6, 3.6], "       \
+    "[0, 3.6], [0, 4.8], [9, 4.8]], spacing: 0.5}\n"                                               \
+    "  hall: {polygon: [[8, 0], [14, 0], [14, 8], [8, 8]]}\n"                                      \
+    "walls:\n"                                                                                     \
+    "  - {line: [[6.8, 4.2], [6.8, -0.6], [-0.8, -0.6], [-0.8, 5.4], [6.8, 5.4]]}\n"               \
+    "  - {line: [[-0.8, 0.6], [5.4, 0.6]]}\n  - {line: [[0.6, 1.8], [6.8, 1.8]]}\n"                \
+    "  - {line: [[-0.8, 3], [5.4, 3]]}\n  - {line: [[0.6, 4.2], [6.8, 4.2]]}\n"                    \
+    "groups: {people: {behaviour: own.lua, count: 50, in: hall, spacing: 0.6}}\n"                  \
+    "probes: {served: {visit: [Queue, Service]}}\n"
+#define CUSTOMER                                                                                   \
+    MACHINE_START                                                                                  \
+    "\"Come\", states = {\n"                                                                       \
+    "  Come = { steer = queue \"counter\", { to = \"Queue\", when = joined "                       \
+    "\"counter\" } },\n"                                                                           \
+    "  Queue = { steer = queue \"counter\",\n    { to = \"Service\", when = first_in "             \
+    "\"counter\" & near(\"counter\", 0.5) } },\n"                                                  \
+    "  Service = { steer = queue \"counter\", lasts = 1, { to = \"Gone\", when = "                 \
+    "lasted } },\n  Gone = { removes = true } } }\n"
+
+static void queue_that_winds_behind_walls_is_served_in_order(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(WINDING, CUSTOMER);
+    step_scene(scene, 2400);
+    JoFigures *told = jo_scene_figures(scene);
+    const double served = jo_figure(told, "probes.served.passages"),
+                 inversions = jo_figure(told, "probes.served.inversions");
+    print_message("  served %g of 50, share of pairs out of order %g\n", served, inversions);
+    assert_true(served >= 45);
+    assert_true(inversions <= 0.02);
+    jo_free(told);
+    jo_scene_free(scene);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_arrives_through_a_wall)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nobody_arrives_through_a_wall),
+        cmocka_unit_test(queue_that_winds_behind_walls_is_served_in_order)};
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -152,8 +152,9 @@ const JoxWord jox_words[] = {
      "round a place, counter-clockwise. Options: inward, density_near, density_far, far and "
      "beyond set how dense the crowd about it may be", "orbit(\"yard\", { far = 20 })"},
     {"queue", "p", STEER, JOX_STEER_QUEUE, 0, "queue(place)", "",
-     "to the end of a queue, along it where walls hide that; an agent that comes within 1 m of the queue takes the next "
-     "place, and moves up as those before it leave", "queue \"row\""},
+     "to the end of a queue, along it where walls hide that, and straight where they hide all of it (`field` leads round "
+     "them); an agent that comes within 1 m of the queue takes the next place, and moves up as those before it leave",
+     "queue \"row\""},
     {"along", "p", STEER, JOX_STEER_ALONG, 0, "along(place)", "",
      "in the direction of a line, or along a queue to its head", "along \"row\""},
     {"follow", "t?d", STEER, JOX_STEER_FOLLOW, 0, "follow(target [, metres])", "",

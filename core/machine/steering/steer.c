@@ -53,13 +53,21 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
    wall hides that, the first point farther back that it sees. Returns whether it is the spot. */
 static bool find_queue_point(const JoxMachineRun *run, JoxV2 at, const JoxPlace *queue,
                              float behind, JoxV2 *to) {
-    float length = 0.0f, on = behind;
+    JoxHidingEdge last = {0};
+    JoxV2 from = queue->points[0], along = {0.0f, 0.0f}; /* of a part, from its point `k` - 1 */
+    float length = 0.0f, on = behind, begin = 0.0f, end = 0.0f; /* m behind the head */
     for (uint32_t k = 0; k + 1 < queue->count; k++)
         length += jox_length(jox_sub(queue->points[k + 1], queue->points[k]));
     *to = jox_place_queue_point(queue, on);
-    while (on < length && jox_is_hidden(run, at, *to, true)) {
+    for (uint32_t k = 0; on < length && jox_is_reach_hidden(run, at, *to, &last);) {
         on = jox_minf(on + queue->spacing, length);
-        *to = jox_place_queue_point(queue, on);
+        for (; k + 1 < queue->count && (k == 0 || on > end); k++) {
+            from = queue->points[k];
+            along = jox_unit(jox_sub(queue->points[k + 1], from));
+            begin = end;
+            end += jox_length(jox_sub(queue->points[k + 1], from));
+        }
+        *to = jox_add(from, jox_scale(along, on - begin));
     }
     return on == behind;
 }
