@@ -165,7 +165,7 @@ typedef struct JoAgentDef {
 JO_API JoAgentDef jo_default_agent_def(void);
 /* Adds an agent. A null handle, with `error` filled (JO_INPUT), if a field is out of range, if
    the point lies in a solid, or if there is no free spot. If the agent would lie nearer than
-   0.99 radii to a wall, or overlap another agent by more than a quarter of the smaller diameter,
+   0.99 radii to a wall, or its disc overlap that of another by more than a quarter of the smaller,
    it begins on the nearest free spot within 25 m with no wall between. Spots are tested half a
    radius apart: all searches between two steps test 5 million spots together, later searches
    before the next step 1,000 each. */
