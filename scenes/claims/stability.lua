@@ -56,10 +56,11 @@ return claim {
     return out
   end,
   expect = expect,
-  tried = { "People whom the runner pushes ahead of it go less far at 0.05 s, those beside its way as far as at 0.01 s. One "
-    .. "who is pushed alone goes 1.4 m in place of 1.6 m: a push acts for a whole step, so that the other is the faster "
-    .. "by its end and the push ends a tenth of a second sooner. Row upon row that adds up. Turning by will, bearing and "
-    .. "parting of torsos have no part in it: without any one of them it is the same." },
+  tried = { "What depends on the step is what the runner's push does to a row of people: those in its way go 0.46 m at 0.05 s "
+    .. "in place of 0.71 m, those beside it as far. Without the push displacements differ by 3 %, transit times by 0.3 %; "
+    .. "those who are pushed one by one differ by 5 %; people who pass no force on by 14 %. Without what turns, bears or parts "
+    .. "torsos it is the same. It is if a push reaches those who are in reach in the middle of a step, too, but then "
+    .. "transit times differ by 6 %." },
   plots = { { name = "steps", title = "Against the step of 0.01 s", x = "time step (s)", y = "relative difference",
     { "greatest displacement", figures = { { 0.02, "moved_dt020" }, { 0.05, "moved_dt050" } } },
     { "transit time", figures = { { 0.02, "transit_dt020" }, { 0.05, "transit_dt050" } } },
