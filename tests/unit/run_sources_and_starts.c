@@ -281,6 +281,9 @@ static void newcomers_turn_their_chests_out_of_others(void **state) {
             assert_true(jox_torsos_gap(&torsos, a, i, j) > -2e-3f);
     jox_torsos_free(&torsos);
     assert_int_equal(scene->world->state.statistics.born_in_others, 0);
+    apply_input(scene, "spawn people 3.37 0");
+    step_scene(scene, 1);
+    assert_true(a->id[4] == 4 && fabsf(a->chest_x[4]) > 0.95f);
     jo_scene_free(scene);
 
     scene = load_scene_text(COME_IN("[[0, 0, 0], [0.5, 0.16, 0], [0.6, 0, 3]]",

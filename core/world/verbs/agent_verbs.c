@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "world/turn_chests.h"
 #include "world/verbs/verb_functions.h"
 #include "world/world.h"
 
@@ -86,8 +87,11 @@ bool jox_perform_spawn(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
         const JoxV2 at = {(float)entry->numbers[0], (float)entry->numbers[1]};
         uint32_t agent = JOX_NO_INDEX;
         const JoxBirthSpot spot = jox_world_spawn_at(world, g, at, &agent);
-        if (agent != JOX_NO_INDEX)
+        if (agent != JOX_NO_INDEX) {
+            JOX_ASSERT(agent + 1 == world->state.agents.count);
+            jox_world_turn_newcomers(world, agent);
             return true;
+        }
         world->state.statistics.not_placed++;
         jox_world_explain_unplaced(spot, entry->numbers[0], entry->numbers[1], why);
         return false;
