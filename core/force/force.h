@@ -109,6 +109,8 @@ typedef enum { JOX_KEPT_PAIRS, JOX_KEPT_WALLS, JOX_KEPT_TOUCHES } JoxKeptKind;
 typedef struct JoxKeptImpulse {
     uint32_t id, other;
     float impulse; /* N s */
+    float borne,
+        parted; /* N s, by which torsos bear plans and part (jox_force_bear); 0 of bodies */
 } JoxKeptImpulse;
 const JoxKeptImpulse *jox_force_kept_impulses(const JoxForces *forces, JoxKeptKind kind,
                                               size_t *count);

@@ -227,7 +227,7 @@ static bool same_pair(const JoxFoundPair *a, const JoxFoundPair *b) {
            p->normal.y == q->normal.y && p->gap == q->gap && p->target == q->target &&
            p->mass == q->mass && p->slip_mass == q->slip_mass && p->levers[0] == q->levers[0] &&
            p->levers[1] == q->levers[1] && p->slips[0] == q->slips[0] &&
-           p->slips[1] == q->slips[1] && p->again == q->again;
+           p->slips[1] == q->slips[1] && a->again == b->again;
 }
 
 static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
@@ -249,7 +249,7 @@ static void compare_agent(Crowd *c, uint32_t i, Seen *seen) {
     assert_int_equal(f->contacts->found.pair_count[i], plain);
     for (uint32_t k = 0; k < plain; k++) {
         assert_true(same_pair(&found[k], &pairs[k]));
-        seen->second += pairs[k].at.again;
+        seen->second += pairs[k].again;
     }
     const JoxFoundWall *wall =
         (const JoxFoundWall *)f->contacts->found.walls.items + f->contacts->found.first_wall[i];

@@ -213,7 +213,7 @@ static void check_apart(const JoxAgents *a, uint32_t i, uint32_t j, Kind kind,
                         const JoxFoundPair *found, uint32_t count, Seen *seen) {
     const Plain one = get_plain(a, i, i), other = get_plain(a, j, i);
     const double gap = find_gap(&one, &other);
-    const uint32_t nearest = count == 2 && found[0].at.again ? 1 : 0;
+    const uint32_t nearest = count == 2 && found[0].again ? 1 : 0;
     const JoxContactPoint *at = &found[nearest].at;
     if (fabs((double)at->gap - gap) > ROUNDS)
         fail_msg("pair %u, kind %d: gap %.6f, not %.6f", i / 2, (int)kind, (double)at->gap, gap);
@@ -224,7 +224,7 @@ static void check_apart(const JoxAgents *a, uint32_t i, uint32_t j, Kind kind,
     seen->two += count == 2;
     if (count < 2)
         return;
-    assert_true(found[1 - nearest].at.again && !at->again);
+    assert_true(found[1 - nearest].again && !found[nearest].again);
     assert_true(found[1 - nearest].at.gap >= at->gap - 1e-6f && found[1 - nearest].at.gap < 0.051f);
     assert_true(jox_dot(found[0].at.normal, found[1].at.normal) > 0.69f);
 }

@@ -277,7 +277,7 @@ static void heaps_are_the_same_on_all_instruction_sets_and_threads(void **state)
         spins += fabsf(a->spin[i]) > 0.05f;
         contacts += a->contacts[i];
     }
-    assert_true(spins > 10 && contacts > 50);
+    assert_true(spins > 10 && contacts > 30);
     jo_world_free(w);
     for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++)
         for (uint32_t threads = 1; threads <= 4; threads += 3) {

@@ -27,7 +27,7 @@ void jox_touches_start_solve(JoxForces *f) {
             1.0f / ((1.0f + t->lever * t->lever) / jox_param(a, JOX_PARAM_mass, t->agent) + give);
         t->target = jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution,
                                        (float)f->step.timing.dt);
-        t->impulse = jox_find_kept_impulse(kept, &at, a->id[t->agent], t->object);
+        t->impulse = jox_find_kept(kept, &at, a->id[t->agent], t->object)->impulse;
         JOX_ASSERT(t->mass > 0.0f);
     }
     jox_drives_find(f);
@@ -98,7 +98,7 @@ void jox_touches_give_impulses(JoxForces *f) {
     }
     for (uint32_t k = 0; k < touches->count; k++) {
         const JoxTouch *t = &touches->items[k];
-        kept->items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
+        kept->items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse, 0.0f, 0.0f};
         const JoxObject *body = &f->step.objects->rows[t->object];
         const bool moves = body->inverse_mass > 0.0f;
         if (body->kinematic && t->gap + a->contact_radius[t->agent] < 0.0f && t->agent != inside) {

@@ -341,16 +341,14 @@ static inline void jox_add_contacts(JoxFindPacket *p, const JoxContactSelf *self
         JoxFoundPair pair = {
             .other = other[lane], .other_id = a->id[other[lane]], .at = points[0][lane]};
         JOX_ASSERT(jox_is_unit(pair.at.normal));
-        const bool both = second >> lane & 1;
-        points[1][lane].again = true;
-        if (both && own[1][lane] < own[0][lane]) {
-            pair.at = points[1][lane];
-            points[1][lane] = points[0][lane];
-        }
+        const bool both = second >> lane & 1, swapped = both && own[1][lane] < own[0][lane];
+        pair.again = swapped;
+        pair.at = points[swapped][lane];
         jox_insert_pair(p->found[own_lane], p->count[own_lane]++, &pair);
         if (!both)
             continue;
-        pair.at = points[1][lane];
+        pair.again = !swapped;
+        pair.at = points[!swapped][lane];
         jox_insert_pair(p->found[own_lane], p->count[own_lane]++, &pair);
     }
 }

@@ -25,14 +25,15 @@ typedef struct JoxContactPoint {
     float mass, slip_mass; /* kg: what the point opposes to impulses along normal and tangent */
     float gap;             /* m */
     float slips[2];        /* levers along the tangent */
-    bool again;            /* the two touch at another point, too, which comes before this one */
-    float unused;          /* completes the last row */
+    float borne, parted;   /* N s: impulses of the last step (JoxKeptImpulse); layout.c adds them */
 } JoxContactPoint;
 
 /* A contact that an agent was found to have; the normal points to the agent. One of the two agents
    finds a contact between them. */
 typedef struct JoxFoundPair {
-    uint32_t other, other_id;
+    uint32_t other : 31,
+        again : 1; /* again: the two touch at another point, too, which is nearer */
+    uint32_t other_id;
     JoxContactPoint at;
 } JoxFoundPair;
 /* The part of a found pair that its layout needs, in few bytes: the other agent, its colour, and

@@ -13,13 +13,15 @@ static JoxMotionKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
 /* Advances *at through the kept impulses, as contacts come in ascending order of ids. */
-float jox_find_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other) {
+const JoxKeptImpulse *jox_find_kept(const JoxKeptImpulses *kept, size_t *at, uint32_t id,
+                                    uint32_t other) {
+    static const JoxKeptImpulse NONE;
     const JoxKeptImpulse *items = kept->items;
     while (*at < kept->count &&
            (items[*at].id < id || (items[*at].id == id && items[*at].other < other)))
         ++*at;
     bool found = *at < kept->count && items[*at].id == id && items[*at].other == other;
-    return found ? items[(*at)++].impulse : 0.0f;
+    return found ? &items[(*at)++] : &NONE;
 }
 
 static inline const JoxFoundPair *get_found_pairs(const JoxForces *f, uint32_t i) {
@@ -140,11 +142,15 @@ static void place_pairs(void *context, uint32_t begin, uint32_t end, uint32_t wo
             if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
             const uint32_t at = next[slots[k].colour]++, j = found[k].other;
-            pairs->items[at] = (JoxPair){
-                .first = i,
-                .second = j,
-                .impulse = jox_find_kept_impulse(last, &kept, a->id[i], found[k].other_id),
-                .at = found[k].at};
+            const JoxKeptImpulse *was = jox_find_kept(last, &kept, a->id[i], found[k].other_id);
+            JoxPair *pair = &pairs->items[at];
+            *pair = (JoxPair){.first = i,
+                              .second = j,
+                              .again = found[k].again,
+                              .impulse = was->impulse,
+                              .at = found[k].at};
+            pair->at.borne = was->borne;
+            pair->at.parted = was->parted;
             pairs->ends[pairs->end_starts[i] + slots[k].first_end] = (JoxPairEnd){at, j};
             pairs->ends[pairs->end_starts[j] + slots[k].second_end] = (JoxPairEnd){at, i};
         }
@@ -196,14 +202,17 @@ static void lay_out_walls(JoxForces *f) {
         sort_by_edge(found, lists->wall_count[i]);
         for (uint32_t k = 0; k < lists->wall_count[i]; k++) {
             float speed = jox_dot(jox_v2(a->vx[i], a->vy[i]), found[k].normal);
-            JoxWallContact contact = {
-                .agent = i,
-                .edge = found[k].edge,
-                .normal = found[k].normal,
-                .along = found[k].along,
-                .gap = found[k].gap,
-                .target = jox_contact_target(found[k].gap, speed, jox_at(e, i), dt),
-                .impulse = jox_find_kept_impulse(last, &kept, a->id[i], found[k].edge)};
+            const JoxKeptImpulse *was = jox_find_kept(last, &kept, a->id[i], found[k].edge);
+            JoxWallContact contact = {.agent = i,
+                                      .edge = found[k].edge,
+                                      .normal = found[k].normal,
+                                      .along = found[k].along,
+                                      .gap = found[k].gap,
+                                      .target =
+                                          jox_contact_target(found[k].gap, speed, jox_at(e, i), dt),
+                                      .impulse = was->impulse,
+                                      .borne = was->borne,
+                                      .parted = was->parted};
             find_wall_levers(a, &found[k], &contact);
             walls->items[walls->count++] = contact;
         }
@@ -282,11 +291,18 @@ void jox_contacts_lay_out(JoxForces *f) {
     memset(pairs->end_starts, 0, ((size_t)agents + 1) * sizeof *pairs->end_starts);
 }
 
+/* What is kept of the pairs: the impulses of forces, or those of plans. */
+typedef struct Keeping {
+    JoxForces *forces;
+    bool plans;
+} Keeping;
+
 /* Keeps the impulses of the pairs that agents [begin, end) found, in ascending order of ids. */
 static void keep_pair_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
-    JoxForces *f = context;
-    JoxKeptImpulses *kept = &f->contacts->kept[JOX_KEPT_PAIRS];
+    const Keeping *keeping = context;
+    JoxForces *f = keeping->forces;
+    JoxKeptImpulse *items = f->contacts->kept[JOX_KEPT_PAIRS].items;
     JoxFoundContacts *lists = &f->contacts->found;
     JoxPairs *pairs = &f->contacts->pairs;
     const uint32_t *id = f->step.agents->id;
@@ -298,7 +314,13 @@ static void keep_pair_impulses(void *context, uint32_t begin, uint32_t end, uint
             if (slots[k].colour == JOX_NO_COLOUR)
                 continue;
             const uint32_t at = pairs->ends[pairs->end_starts[i] + slots[k].first_end].pair;
-            kept->items[n++] = (JoxKeptImpulse){id[i], found[k].other_id, pairs->items[at].impulse};
+            const JoxPair *pair = &pairs->items[at];
+            if (keeping->plans) {
+                items[n].borne = pair->at.borne;
+                items[n].parted = pair->impulse - pair->at.borne;
+            } else
+                items[n] = (JoxKeptImpulse){id[i], found[k].other_id, pair->impulse, 0.0f, 0.0f};
+            n++;
         }
     }
 }
@@ -312,12 +334,25 @@ void jox_contacts_keep_impulses(JoxForces *f) {
     JOX_RESERVE(of_pairs->items, of_pairs->capacity, pairs->count);
     of_pairs->count = pairs->count;
     if (pairs->count)
-        jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, keep_pair_impulses, f);
+        jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, keep_pair_impulses,
+                         &(Keeping){f, false});
     JOX_RESERVE(of_walls->items, of_walls->capacity, walls->count);
     of_walls->count = walls->count;
     for (uint32_t k = 0; k < walls->count; k++)
         of_walls->items[k] = (JoxKeptImpulse){a->id[walls->items[k].agent], walls->items[k].edge,
-                                              walls->items[k].impulse};
+                                              walls->items[k].impulse, 0.0f, 0.0f};
+}
+
+void jox_contacts_keep_plans(JoxForces *f) {
+    const JoxWallContacts *walls = &f->contacts->walls;
+    JoxKeptImpulse *of_walls = f->contacts->kept[JOX_KEPT_WALLS].items;
+    if (f->contacts->pairs.count)
+        jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, keep_pair_impulses,
+                         &(Keeping){f, true});
+    for (uint32_t k = 0; k < walls->count; k++) {
+        of_walls[k].borne = walls->items[k].borne;
+        of_walls[k].parted = walls->items[k].impulse - walls->items[k].borne;
+    }
 }
 
 void jox_pairs_free(JoxPairs *pairs) {

@@ -12,9 +12,10 @@ enum {
 /* A contact between two agents, of which the first found it. Two agents have two contacts if they
    touch at two points. */
 typedef struct JoxPair {
-    uint32_t first, second;
-    float impulse; /* along the normal: accumulated, not negative, N s */
-    float slip;    /* along the tangent, by friction, N s */
+    uint32_t first;
+    uint32_t second : 31, again : 1; /* again: as in JoxFoundPair */
+    float impulse;                   /* along the normal: accumulated, not negative, N s */
+    float slip;                      /* along the tangent, by friction, N s */
     JoxContactPoint at;
 } JoxPair;
 
@@ -60,6 +61,7 @@ typedef struct JoxWallContact {
     float mass, slip_mass;    /* kg, as in JoxContactPoint */
     float lever, slip_lever;  /* likewise */
     float impulse, slip;      /* N s */
+    float borne, parted;      /* N s, as in JoxContactPoint */
 } JoxWallContact;
 
 /* Returns the impulse of a wall on an agent, N s. */
@@ -87,10 +89,13 @@ void jox_contacts_lay_out(JoxForces *forces);
 /* Keeps the impulses of agents and walls for the next step; jox_touches_give_impulses keeps those
    of bodies. */
 void jox_contacts_keep_impulses(JoxForces *forces);
+/* Keeps, beside them, the impulses by which torsos have borne plans and part. */
+void jox_contacts_keep_plans(JoxForces *forces);
 void jox_pairs_free(JoxPairs *pairs);
 
-/* Returns the kept impulse of a contact, N s; 0 for a new one. Called in ascending order of ids;
+/* Returns the kept impulses of a contact; zeros for a new one. Called in ascending order of ids;
  *at is the place in the list, 0 at first. */
-float jox_find_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other);
+const JoxKeptImpulse *jox_find_kept(const JoxKeptImpulses *kept, size_t *at, uint32_t id,
+                                    uint32_t other);
 
 #endif

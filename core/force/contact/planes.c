@@ -50,7 +50,7 @@ static uint32_t make_people_planes(const JoxForces *f, uint32_t i, JoxContactPla
     for (uint32_t k = pairs->end_starts[i]; k < pairs->end_starts[i + 1]; k++) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
         const uint32_t j = pairs->ends[k].other;
-        if (p->at.again || !(p->impulse > 0.0f || p->at.target >= 0.0f) || n == JOX_MOST_TOUCHED)
+        if (p->again || !(p->impulse > 0.0f || p->at.target >= 0.0f) || n == JOX_MOST_TOUCHED)
             continue;
         float sign = p->first == i ? 1.0f : -1.0f;
         JoxV2 normal = {sign * p->at.normal.x, sign * p->at.normal.y};

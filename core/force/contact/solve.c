@@ -26,10 +26,20 @@ enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256, TOUCH_GRAIN = 256, FEET_GRAIN = 256 
 typedef struct Pass {
     JoxForces *forces;
     bool bears;       /* the contacts bear plans, which cause no friction */
+    bool parts;       /* torsos that overlap part */
     uint32_t first;   /* first contact of the colour */
     float *residuals; /* per chunk: greatest change of an impulse, N s */
     uint32_t chunk;   /* index in `residuals` of the first chunk of the pass's part */
 } Pass;
+
+/* Returns by how much an impulse that starts a solve differs from that of the solve before: the one
+   that parts adds what it added in the last step. */
+static inline float start_impulse(bool parts, float *impulse, float parted) {
+    const float before = parts ? *impulse : 0.0f;
+    if (parts)
+        *impulse = jox_maxf(0.0f, before + parted);
+    return *impulse - before;
+}
 
 /* Applies the impulses that the contacts of a colour start with. */
 static void apply_colour_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -38,11 +48,12 @@ static void apply_colour_impulses(void *context, uint32_t begin, uint32_t end, u
     JoxForces *f = pass->forces;
     JoxContactSolve *solve = &f->contacts->solve;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
-        const JoxPair *p = &f->contacts->pairs.items[k];
-        if (!(p->impulse > 0.0f))
+        JoxPair *p = &f->contacts->pairs.items[k];
+        const float change = start_impulse(pass->parts, &p->impulse, p->at.parted);
+        if (change == 0.0f)
             continue;
-        jox_add_impulse(&solve->motions[p->first], p->at.normal, p->at.levers[0], p->impulse);
-        jox_add_impulse(&solve->motions[p->second], p->at.normal, p->at.levers[1], -p->impulse);
+        jox_add_impulse(&solve->motions[p->first], p->at.normal, p->at.levers[0], change);
+        jox_add_impulse(&solve->motions[p->second], p->at.normal, p->at.levers[1], -change);
     }
 }
 
@@ -55,12 +66,13 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
                         f->contacts->solve.motions, pass->bears ? 0.0f : f->options.friction);
 }
 
-static void apply_wall_impulses(JoxForces *f) {
+static void apply_wall_impulses(JoxForces *f, bool parts) {
     JoxWallContacts *walls = &f->contacts->walls;
     JoxContactSolve *solve = &f->contacts->solve;
     for (uint32_t k = 0; k < walls->count; k++) {
-        const JoxWallContact *w = &walls->items[k];
-        jox_add_impulse(&solve->motions[w->agent], w->normal, w->lever, w->impulse);
+        JoxWallContact *w = &walls->items[k];
+        const float change = start_impulse(parts, &w->impulse, w->parted);
+        jox_add_impulse(&solve->motions[w->agent], w->normal, w->lever, change);
     }
 }
 
@@ -157,6 +169,17 @@ static float solve_once(JoxForces *f, bool bears) {
     return most;
 }
 
+/* Applies the impulses that contacts with agents and walls start with. */
+static void apply_impulses(JoxForces *f, bool parts) {
+    const JoxPairs *p = &f->contacts->pairs;
+    for (uint32_t c = 0; c < p->colours; c++) {
+        Pass pass = {.forces = f, .parts = parts, .first = p->starts[c]};
+        jox_parallel_for(f->step.pool, p->starts[c + 1] - p->starts[c], PAIR_GRAIN,
+                         apply_colour_impulses, &pass);
+    }
+    apply_wall_impulses(f, parts);
+}
+
 /* Applies the kept impulses of all contacts, which make the solve converge sooner. */
 static void apply_first_impulses(JoxForces *f) {
     JoxContactSolve *solve = &f->contacts->solve;
@@ -167,12 +190,7 @@ static void apply_first_impulses(JoxForces *f) {
     for (uint32_t c = 0; c < p->colours; c++)
         chunks += count_chunks(p->starts[c + 1] - p->starts[c], PAIR_GRAIN);
     JOX_RESERVE(solve->residuals, solve->residual_capacity, chunks);
-    for (uint32_t c = 0; c < p->colours; c++) {
-        Pass pass = {.forces = f, .first = p->starts[c]};
-        jox_parallel_for(f->step.pool, p->starts[c + 1] - p->starts[c], PAIR_GRAIN,
-                         apply_colour_impulses, &pass);
-    }
-    apply_wall_impulses(f);
+    apply_impulses(f, false);
     jox_touches_start_solve(f);
 }
 
@@ -187,12 +205,15 @@ void jox_contacts_solve(JoxForces *f) {
     f->totals.residual = most / (float)f->step.timing.dt;
 }
 
-static void clear_pair_impulses(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* Starts the pairs [begin, end) with the impulses that bore plans in the last step. */
+static void start_bearing_pairs(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
-    JoxPair *items = f->contacts->pairs.items;
-    for (uint32_t k = begin; k < end; k++)
-        items[k].impulse = items[k].slip = 0.0f;
+    for (uint32_t k = begin; k < end; k++) {
+        JoxPair *p = &f->contacts->pairs.items[k];
+        p->impulse = p->at.borne;
+        p->slip = 0.0f;
+    }
 }
 
 /* Runs a kernel of bearing for agents [begin, end). */
@@ -201,12 +222,12 @@ static void start_bearing(void *context, uint32_t begin, uint32_t end, uint32_t 
     JoxForces *f = context;
     BEARING[f->isa].start(f, begin, end);
 }
-static void end_bearing(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void write_borne(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     BEARING[f->isa].end(f, begin, end);
 }
-static void end_parting(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void write_parted(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
     BEARING[f->isa].end_parting(f, begin, end);
@@ -221,28 +242,33 @@ static inline bool raise_target(const JoxForces *f, float gap, float *target) {
     return true;
 }
 
-/* Raises the targets of the pairs [begin, end) that overlap. */
-static void raise_pair_targets(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* Ends bearing for the pairs [begin, end), and raises the targets of those that overlap. */
+static void end_bearing_pairs(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
     bool parts = false;
     for (uint32_t k = begin; k < end; k++) {
-        JoxContactPoint *at = &f->contacts->pairs.items[k].at;
-        parts |= raise_target(f, at->gap, &at->target);
+        JoxPair *p = &f->contacts->pairs.items[k];
+        p->at.borne = p->impulse;
+        parts |= raise_target(f, p->at.gap, &p->at.target);
     }
     f->contacts->solve.residuals[begin / PAIR_GRAIN] = parts ? 1.0f : 0.0f;
 }
 
-/* Raises the targets of contacts that overlap to their parting speeds; returns whether any does. */
-static bool start_parting(JoxForces *f) {
+/* Ends bearing, and raises the targets of contacts that overlap to their parting speeds; returns
+   whether any does. */
+static bool end_bearing(JoxForces *f) {
     JoxWallContacts *walls = &f->contacts->walls;
     const JoxPairs *pairs = &f->contacts->pairs;
     bool parts = jox_touches_start_parting(f);
-    jox_parallel_for(f->step.pool, pairs->count, PAIR_GRAIN, raise_pair_targets, f);
+    jox_parallel_for(f->step.pool, pairs->count, PAIR_GRAIN, end_bearing_pairs, f);
     for (uint32_t k = 0; k < count_chunks(pairs->count, PAIR_GRAIN); k++)
         parts |= f->contacts->solve.residuals[k] > 0.0f;
-    for (uint32_t k = 0; k < walls->count; k++)
-        parts |= raise_target(f, walls->items[k].gap, &walls->items[k].target);
+    for (uint32_t k = 0; k < walls->count; k++) {
+        JoxWallContact *w = &walls->items[k];
+        w->borne = w->impulse;
+        parts |= raise_target(f, w->gap, &w->target);
+    }
     return parts;
 }
 
@@ -266,14 +292,20 @@ void jox_force_bear(JoxForces *f) {
             jox_mem_fill(columns[k], 0, a->count * sizeof *columns[k]);
         return;
     }
-    jox_parallel_for(f->step.pool, pairs->count, PAIR_GRAIN, clear_pair_impulses, f);
-    for (uint32_t k = 0; k < walls->count; k++)
-        walls->items[k].impulse = walls->items[k].slip = 0.0f;
+    jox_parallel_for(f->step.pool, pairs->count, PAIR_GRAIN, start_bearing_pairs, f);
+    for (uint32_t k = 0; k < walls->count; k++) {
+        walls->items[k].impulse = walls->items[k].borne;
+        walls->items[k].slip = 0.0f;
+    }
     jox_touches_start_bearing(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, start_bearing, f);
+    apply_impulses(f, false);
     solve_bearing(f);
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, end_bearing, f);
-    if (start_parting(f))
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, write_borne, f);
+    if (end_bearing(f)) {
+        apply_impulses(f, true);
         solve_bearing(f);
-    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, end_parting, f);
+    }
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, write_parted, f);
+    jox_contacts_keep_plans(f);
 }

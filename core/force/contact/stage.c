@@ -18,7 +18,7 @@ static JoxV2 sum_received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
         const JoxPair *p = &pairs->items[pairs->ends[k].pair];
         const JoxV2 impulse = jox_pair_impulse(p);
         sum = p->first == i ? jox_add(sum, impulse) : jox_sub(sum, impulse);
-        *contacts += !p->at.again && (p->impulse > 0.0f || p->at.target >= 0.0f);
+        *contacts += !p->again && (p->impulse > 0.0f || p->at.target >= 0.0f);
     }
     for (uint32_t k = 0; k < jox_touch_number_of(touches, i); k++) {
         const JoxTouch *touch = &touches->items[touches->first[i] + k];

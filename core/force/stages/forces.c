@@ -118,9 +118,12 @@ void jox_force_begin(JoxForces *f, const JoxStep *step, const JoxForceInputs *in
 
 static void list_kept_impulses(JoxSections *s, const char *name, JoxKeptImpulses *kept) {
     JOX_SECTION_ARRAY(s, name, kept->items, kept->count, kept->capacity);
-    for (size_t k = 0; s->mode == JOX_SECTIONS_RESTORE && k < kept->count; k++)
-        if (!(kept->items[k].impulse >= 0.0f && kept->items[k].impulse < INFINITY))
+    for (size_t k = 0; s->mode == JOX_SECTIONS_RESTORE && k < kept->count; k++) {
+        const JoxKeptImpulse *one = &kept->items[k];
+        const float least = jox_minf(one->impulse, one->borne);
+        if (!(least >= 0.0f && one->impulse + one->borne + fabsf(one->parted) < INFINITY))
             jox_sections_fail(s, name, "an impulse of a contact pulls, or is no number");
+    }
 }
 
 void jox_forces_sections(JoxForces *f, JoxSections *s) {
