@@ -4,7 +4,7 @@ local measure = {}
 -- Ids of the claims on which the constants of the walking law (core/walking.md) were chosen. These claims name them as
 -- their calibration; all other claims on real crowds name them as data from which they were held out.
 measure.walking_law = "the walking law's constants were chosen on seeds 201 to 216 and 301 to 318 of B1 to B4, C1, "
-  .. "F1 to F3, F3b, L1 and W, and touched up once 101 to 110 were seen; four of them for torsos on "
+  .. "F1 to F3, F3b, L1 and W, and touched up once 101 to 110 were seen; seven of them for torsos on "
   .. "101 to 103 of these, F5 and L2"
 
 -- Returns the null of a claim on people who walk by the walking law: they walk by ORCA, the engine's rule for states

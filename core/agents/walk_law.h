@@ -13,7 +13,7 @@
     X(turned, "1/m2", 0, 20, 1.4, "density from which on people turn a shoulder to who crosses")   \
     X(length, "", 0.1, 3, 1.045, "length of way that the person ahead takes up, in R")             \
     X(ahead_share, "", 0, 2, 0.54, "share of the time gap over which people are extrapolated")     \
-    X(ease, "", 0, 1, 0.71, "how gradually people slow down behind others: 0 at once")             \
+    X(ease, "", 0, 1, 0.75, "how gradually people slow down behind others: 0 at once")             \
     X(gap_eager, "", 0, 0.95, 0.07, "share of the time gap that eager people do without")          \
     X(gap_spread, "", 0, 0.9, 0.1, "greatest part by which people's time gaps differ")             \
     X(gap_noise, "", 0, 2, 0.45, "greatest logarithm by which a person's time gap wanders")        \
@@ -21,6 +21,8 @@
     X(crowded_bound, "1/m2", 0, 20, 1.3, "density from which on those grow eager who have a goal") \
     X(eager_normal, "", 0, 1, 0.62, "least eagerness in a normal crowd: calm 0, keen 1")           \
     X(eager_most, "", 0, 1, 0.4, "greatest eagerness in a calm or normal crowd: keen 1")           \
+    X(rivals, "", 0, 16, 6, "neighbours on converging ways, from which on people compete")         \
+    X(rivals_more, "", 0.1, 16, 5, "as many more of these make anybody as eager as keen people")   \
     X(eager_rise, "s", 0.05, 60, 1, "time in which eagerness rises")                               \
     X(eager_fall, "s", 0.05, 60, 10, "time in which eagerness falls")                              \
     X(cross_time, "s", 0.05, 10, 0.35, "time gap kept to people who cross")                        \

@@ -288,8 +288,51 @@ static void time_gaps_depend_on_no_earlier_draw(void **state) {
     free_walk_crowd(&anew);
 }
 
+/* Returns the eagerness of the middle one of 49 calm agents, 0.45 m apart, all bound for one place,
+   after a step in which it rises at once. Their ways turn by `turn` (1/m) towards the middle. */
+static float measure_eagerness(double turn) {
+    enum { ACROSS = 7, ALL = ACROSS * ACROSS };
+    JoxWalkLaw law = jox_walk_law();
+    law.eager_rise = 1e-3;
+    Crowd c = {.nav = jox_nav_create(&law)};
+    JoxAgents *a = &c.agents;
+    for (uint32_t k = 0; k < ALL; k++) {
+        const uint32_t i = jox_agents_add(a);
+        a->x[i] = a->prev_x[i] = 0.45f * (float)(k / ACROSS);
+        a->y[i] = a->prev_y[i] = 0.45f * ((float)(k % ACROSS) - 3.0f);
+        a->bound[i] = 1;
+        jox_param_set(a, JOX_PARAM_time_gap, i, 1.0f);
+        jox_param_set(a, JOX_PARAM_haste, i, 0.0f);
+    }
+    jox_nav_sort(c.nav, a, 0);
+    for (uint32_t i = 0; i < ALL; i++) {
+        const double angle = -turn * (double)a->y[i];
+        a->pref_x[i] = (float)jox_cos(angle);
+        a->pref_y[i] = (float)jox_sin(angle);
+        a->way_left[i] = 10.0f - a->x[i];
+        a->contact_radius[i] = jox_param(a, JOX_PARAM_radius, i);
+    }
+    jox_nav_perceive(c.nav, a, &c.neighbours, NULL);
+    const JoxStep step = make_step(&c, 3, 1.7, NULL);
+    jox_nav_walk(c.nav, &step);
+    const float eager = a->eager[jox_agents_find(a, ALL / 2)];
+    free_walk_crowd(&c);
+    return eager;
+}
+
+/* Six of the eight nearest neighbours stand to either side; the other two are straight ahead and
+   behind. */
+static void converging_ways_make_calm_people_keen(void **state) {
+    (void)state;
+    const float most = (float)jox_walk_law().eager_most, side_by_side = measure_eagerness(0.0);
+    assert_true(fabsf(side_by_side - most) < 1e-4f);
+    assert_true(fabsf(measure_eagerness(-0.5) - most) < 1e-4f);
+    assert_true(measure_eagerness(0.5) > most + 0.05f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(converging_ways_make_calm_people_keen),
         cmocka_unit_test(turned_crowd_chooses_the_same),
         cmocka_unit_test(mirrored_crowd_differs_only_in_passing_on_the_right),
         cmocka_unit_test(coincident_agents_stay_finite),

@@ -20,6 +20,9 @@ static const float jox_walk_sine[JOX_WALK_DIRECTIONS] = {
     -0.70710678f, 0.86602540f, -0.86602540f, 0.96592583f, -0.96592583f};
 
 #define JOX_SAME_WAY 0.5f /* cosine of 60 degrees: headings within it go the same way */
+#define JOX_CONVERGES                                                                              \
+    0.05f /* sine of 3 degrees: ways that turn together by more wholly converge                    \
+           */
 
 /* Lanes that mind their neighbour as one ahead, to be followed, or as one crossing, to be passed;
    in neither set: not at all. */
@@ -99,16 +102,67 @@ static inline JoxFloats jox_cross_width(const JoxWalk *w, uint32_t first, JoxFlo
     return (float)w->law->width_cross * (one + (chest - one) * turned);
 }
 
+/* Returns how many neighbours of `lanes` (bits) are rivals: bound for the same place, on ways that
+   converge with the agents'. A way counts by its turn towards the agent's line, at most 1; one that
+   diverges counts against, so that small differences of parallel ways cancel out. Neighbours who
+   are not bound for the same place count against, too: who makes way for others does not compete.
+ */
+static inline JoxFloats jox_count_rivals(const JoxWalk *w, uint32_t first, uint32_t lanes) {
+    const JoxAgents *a = w->step.agents;
+    const JoxNeighbours *n = w->step.neighbours;
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f), against = jf_set(-1.0f);
+    const JoxVector own = {jf_load(a->aim_x + first), jf_load(a->aim_y + first)};
+    const JoxVector at = jv_load(a->x, a->y, first);
+    const JoxInts none = ji_set(0), bound = ji_load(a->bound + first);
+    const JoxInts counts = ji_select(jm_of_bits(lanes), ji_load_bytes(n->count + first), none);
+    JoxFloats rivals = zero;
+    JoxMask there;
+    for (uint32_t k = 0; jm_bits(there = ji_less(ji_set((int32_t)k), counts)); k++) {
+        const JoxInts others =
+            ji_select(there, ji_load(n->index + jox_neighbour_at(n, first, k)), none);
+        JoxFloats motion[4], heading[4];
+        jf_records(&n->motions[0].x, others, motion);
+        jf_records(&w->nav->headings[0].aim_x, others, heading);
+        JoxVector offset = {motion[0] - at.x, motion[1] - at.y};
+        if (a->period.x > 0.0f || a->period.y > 0.0f) {
+            offset.x = jf_wrap(offset.x, a->period.x);
+            offset.y = jf_wrap(offset.y, a->period.y);
+        }
+        const JoxMask is_right = jf_lt(jv_det(own, offset), zero);
+        const JoxFloats left = jv_det(own, (JoxVector){heading[0], heading[1]});
+        const JoxFloats turn = jf_select(is_right, left, zero - left) * (1.0f / JOX_CONVERGES);
+        const JoxMask alike = ji_equal(bound, jf_bits(heading[3]));
+        const JoxFloats counts_for = jf_max(against, jf_min(one, turn));
+        rivals += jf_select(there, jf_select(alike, counts_for, against), zero);
+    }
+    return rivals;
+}
+
+/* Returns how much agents compete in a crowd of this density (1/m2), 0 to 1, by their rivals; 0 of
+   those who are bound for no place, and where it would not make them eager. */
+static inline JoxFloats jox_rivalry(const JoxWalk *w, uint32_t first, uint32_t walkers,
+                                    JoxFloats density) {
+    const JoxWalkLaw *law = w->law;
+    const JoxMask is_bound = ji_less(ji_set(0), ji_load(w->step.agents->bound + first));
+    const JoxMask dense = jf_lt(jf_set((float)law->crowded_bound), density);
+    const uint32_t lanes = walkers & jm_bits(jm_and(is_bound, dense));
+    if (!lanes)
+        return jf_set(0.0f);
+    const JoxFloats rivals = jox_count_rivals(w, first, lanes) - (float)law->rivals;
+    return jox_share_lanes(rivals * (1.0f / (float)law->rivals_more));
+}
+
 /* Returns the eagerness that a crowd of this density (1/m2) would give agents, 0 to 1, within the
-   bounds of their haste. Agents bound for a place compete for it: they grow eager sooner. */
-static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first, JoxFloats density) {
+   bounds of their haste, which rivals raise. Agents bound for a place grow eager sooner. */
+static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first, JoxFloats density,
+                                             JoxFloats rivalry) {
     const JoxFloats one = jf_set(1.0f), normal = jf_set((float)w->law->eager_normal);
     const JoxFloats haste = jox_param_lanes(w->step.agents, JOX_PARAM_haste, first);
     const JoxFloats twice = 2.0f * haste;
     const JoxFloats most = jf_set((float)w->law->eager_most);
     const JoxFloats keen = jox_share_lanes(twice - one); /* haste beyond normal */
     const JoxFloats least = normal * jox_share_lanes(twice) + (one - normal) * keen;
-    const JoxFloats bound = most + (one - most) * keen;
+    const JoxFloats bound = most + (one - most) * jf_max(keen, rivalry);
     const JoxMask is_bound = ji_less(ji_set(0), ji_load(w->step.agents->bound + first));
     const JoxFloats from =
         jf_select(is_bound, jf_set((float)w->law->crowded_bound), jf_set((float)w->law->crowded));
@@ -116,10 +170,13 @@ static inline JoxFloats jox_eagerness_wanted(const JoxWalk *w, uint32_t first, J
     return jf_max(least, jf_min(bound, crowd));
 }
 
-/* Returns the eagerness at the end of the step: it approaches the wanted one. */
-static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first, JoxFloats density) {
+/* Returns the eagerness of `walkers` (bits) at the end of the step: it approaches the wanted
+   one. */
+static inline JoxFloats jox_eagerness(const JoxWalk *w, uint32_t first, uint32_t walkers,
+                                      JoxFloats density) {
     const JoxFloats now = jf_load(w->step.agents->eager + first);
-    const JoxFloats wanted = jox_eagerness_wanted(w, first, density);
+    const JoxFloats rivalry = jox_rivalry(w, first, walkers, density);
+    const JoxFloats wanted = jox_eagerness_wanted(w, first, density, rivalry);
     const JoxFloats rate = jf_select(jf_lt(now, wanted), jf_set(w->rise), jf_set(w->fall));
     return now + (wanted - now) * rate;
 }

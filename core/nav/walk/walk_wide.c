@@ -461,7 +461,7 @@ static void begin_walk_packet(Packet *p, uint32_t first, uint32_t end) {
     const JoxFloats speed = jf_sqrt(jv_dot(preferred, preferred));
     float eager[JOX_WIDTH];
     const JoxFloats density = jox_density_lanes(p->w, first);
-    p->eager = jox_eagerness(p->w, first, density);
+    p->eager = jox_eagerness(p->w, first, walkers, density);
     jf_store(eager, p->eager);
     p->lanes = walkers & ~jm_bits(jf_le(speed, zero));
     for (uint32_t lane = 0; walkers >> lane; lane++)
