@@ -517,7 +517,55 @@ groups:
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, torsos, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+# Which of some spots, in m, people are drawn on: the picture there differs from one without people.
+DRAWN = """
+const v = page.view, gl = v.renderer.getContext();
+const read = (shown) => {
+    v.people.group.visible = shown;
+    v.dirty = true;
+    v.draw(performance.now());
+    return arguments[0].map(([x, y, z]) => {
+        const spot = new Uint8Array(4), s = v.project(x, y, z);
+        gl.readPixels(s[0] * v.ratio, gl.drawingBufferHeight - 1 - s[1] * v.ratio, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, spot);
+        return [...spot];
+    });
+};
+const without = read(false), shown = read(true);
+return shown.map((spot, k) => Math.max(...spot.map((c, i) => Math.abs(c - without[k][i]))) > 20);
+"""
+
+
+def fallen(browser):
+    """people who have fallen are drawn lying, and their panel tells of it"""
+    folder = temporary_copy({"scene.yaml": """jostle: 1
+step: 0.05
+places: {edge: {polygon: [[-1, -1], [1, -1], [1, 1], [-1, 1]]}}
+groups:
+  people: {behaviour: stander.lua, at: [[0, 0], [0, 3]], facing: 0, set: {balance: 0.3, rise: 1000, step_back: 0}}
+events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
+"""})
+    session = Session("run", os.path.join(folder, "scene.yaml"), "--view")
+    try:
+        browser.open(session)
+        browser.run("page.inspect(0); page.panel.show('agent')")
+        browser.wait("return /lies since its fall/.test(document.getElementById('page-agent').textContent)", "the panel tells of no fall")
+        browser.run("page.view.setTop(true)")
+        time.sleep(1)
+        lies, stands = browser.run("return [0, 1].map((slot) => page.crowd.position(slot, 1))")
+        along = [[x + d, y, 0.1] for x, y, *_ in (lies, stands) for d in (0, 0.6, -0.6)]
+        drawn = browser.run(DRAWN, along)
+        browser.picture("fallen")
+        expect(drawn == [True, True, True, True, False, False], f"people are drawn at {drawn} of {along}")
+        browser.run("page.inspect(1)")
+        browser.wait("return page.person && page.person.slot === 1", "nobody else was chosen")
+        expect("lies" not in browser.find("#page-agent").text, "the panel says that one lies who stands")
+        expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+    finally:
+        session.stop()
+        shutil.rmtree(folder)
+
+
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, torsos, fallen, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

@@ -4,7 +4,7 @@ import { say } from "../dom.js";
 
 export const FORCE_COLOURS = {
     push: "#e69f00", contact: "#d55e00", deceleration: "#56b4e9", resistance: "#cc79a7",
-    external: "#f0e442", body: "#009e73",
+    external: "#f0e442", body: "#009e73", feet: "#0072b2",
 };
 const METRES_OF_NEWTON = 1 / 150; // an arrow of 1 m is 150 N
 const NEAR = 36; // CSS pixels from the pointer, within which a name is shown

@@ -85,7 +85,7 @@ uniform float nearer;      // m: people nearer to the camera are drawn as figure
 uniform vec3 eye;
 varying vec4 paint;        // radius and half of the spine in pixels, colour, flags
 varying vec4 nose;         // where it looks on the screen, its look, and the radius of its head in pixels
-varying vec2 across;       // from the middle to the left end of the torso's axis, in pixels
+varying vec2 across;       // from the middle to the left end of the torso's axis, or to the head of one who lies, in pixels
 const float HEIGHT = 1.7;
 void main() {
     Person p = decode();
@@ -98,7 +98,8 @@ void main() {
     paint = vec4(r, spine, p.colour, p.flags);
     vec2 seen = (viewMatrix * vec4(p.ahead, 0.0, 0.0)).xy;
     nose = vec4(seen.x, -seen.y, look / 255.0, 0.5 * r + 0.25 * p.half_axis * metre);
-    across = p.half_axis * metre * vec2(1.0, -1.0) * (viewMatrix * vec4(-p.chest.y, p.chest.x, 0.0, 0.0)).xy;
+    vec2 axis = p.lies ? (0.5 * HEIGHT - p.surface) * p.ahead : p.half_axis * vec2(-p.chest.y, p.chest.x);
+    across = metre * vec2(1.0, -1.0) * (viewMatrix * vec4(axis, 0.0, 0.0)).xy;
     gl_PointSize = 2.0 * (r + spine + length(across));
     if (!p.here || distance(middle, eye) < nearer) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }`;
@@ -119,7 +120,7 @@ void main() {
         float shoulder = max(0.0, spine - 0.8 * r);
         vec2 side = at - across * clamp(dot(at, across) / max(dot(across, across), 1e-6), -1.0, 1.0);
         float body = length(vec2(side.x, side.y - clamp(side.y, -shoulder, spine))) / r;
-        vec2 middle = vec2(0.0, -(spine + 0.4 * r * tall));
+        vec2 middle = floor(paint.w / 8.0) > 30.5 ? across : vec2(0.0, -(spine + 0.4 * r * tall)); // lies
         float head = distance(at, middle) / nose.w;
         if (body > 1.0 && head > 1.0) discard;
         vec3 top = hair(nose.z);

@@ -54,6 +54,7 @@ export class AgentPage {
             ["speed", amount(speed, "m/s")],
             ["radius, mass", `${figure(agent.radius)} m, ${figure(agent.mass)} kg`],
             ...torsoRows(agent.torso),
+            ...(agent.fallen ? [["lies since its fall", `for ${amount(agent.fallen, "s")}`]] : []),
             ["compression", amount(message.compression, "N/m")],
             ["load from one side", amount(message.load, "N")],
         ]));
