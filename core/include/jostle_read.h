@@ -95,13 +95,14 @@ typedef struct JoSaidEvent {
     uint32_t agent, signal; /* id; number of the signal (jo_world_signal_name) */
     float x, y;             /* position of the agent, m */
 } JoSaidEvent;
-/* Kind of an agent's action: it kicked or threw a body, or took hold of another agent. */
-typedef enum JoDone { JO_DONE_KICK, JO_DONE_GRASP } JoDone;
-/* An agent acted on a body or on another agent. */
+/* Kind of an agent's action: it kicked or threw a body, or took hold of another agent; it fell, or
+   got up again. */
+typedef enum JoDone { JO_DONE_KICK, JO_DONE_GRASP, JO_DONE_FALL, JO_DONE_RISE } JoDone;
+/* An agent acted on a body or on another agent, or fell or got up. */
 typedef struct JoActionEvent {
     uint32_t agent;
     uint32_t kind;  /* JoDone */
-    uint32_t other; /* slot of the body; id of the agent */
+    uint32_t other; /* slot of the body; id of the agent; 0 of a fall or of getting up */
     float x, y;     /* m: position of the agent at that time */
 } JoActionEvent;
 

@@ -67,6 +67,8 @@ static void add_inspected_agent(const JoScene *scene, uint32_t i, JoxJson *json)
     add_rounded(json, "radius", (double)jox_param(a, JOX_PARAM_radius, i));
     add_rounded(json, "mass", (double)jox_param(a, JOX_PARAM_mass, i));
     add_torso(world, i, json);
+    if (a->fallen[i] > 0.0f)
+        add_rounded(json, "fallen", (double)a->fallen[i]); /* s */
     jox_json_end(json);
 }
 

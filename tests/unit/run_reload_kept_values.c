@@ -59,6 +59,39 @@ static void renamed_state_keeps_its_people_and_time(void **state) {
     jo_scene_free(scene);
 }
 
+/* People lie on while their behaviour is replaced, and get up by the new one's `rise`. */
+static void fallen_people_lie_on(void **state) {
+    (void)state;
+#define FALLING(rise)                                                                              \
+    MACHINE_START "\"Up\", defaults = { balance = 0.5, rise = " rise " }, states = {\n"            \
+                  "  Up = { steer = hold, { to = \"Down\", when = fallen } },\n"                   \
+                  "  Down = { steer = hold, { to = \"Up\", when = ~fallen } } } }\n"
+    JoScene *scene =
+        load_scene_text("jostle: 1\nstep: 0.05\n"
+                        "groups: {people: {behaviour: own.lua, at: [[0, 0], [0, 3]]}}\n",
+                        FALLING("60"));
+    JoWorld *world = scene->world;
+    const JoxAgents *a = &world->state.agents;
+    const uint32_t i = jox_agents_find(a, 0);
+    for (int n = 0; n < 10; n++) {
+        jo_agent_apply_force(world, jo_world_agent_of(world, 0), n < 2 ? 2000.0 : 0.0, 0.0);
+        step_scene(scene, 1);
+    }
+    const float lain = a->fallen[i];
+    assert_true(lain > 0.0f && a->fallen[1 - i] == 0.0f);
+    assert_string_equal(read_state_name(scene, i), "Down");
+    assert_true(reload_behaviour(scene, 0, FALLING("1")));
+    assert_true(a->fallen[i] == lain);
+    assert_string_equal(read_state_name(scene, i), "Down");
+    step_scene(scene, 4);
+    assert_true(a->fallen[i] > lain);
+    step_scene(scene, 20);
+    assert_true(a->fallen[i] == 0.0f);
+    assert_string_equal(read_state_name(scene, i), "Up");
+    jo_scene_free(scene);
+#undef FALLING
+}
+
 static double read_own_number(const JoScene *scene, uint32_t agent, const char *name) {
     const JoxMachine *m =
         scene->world->model.machines.items[scene->world->state.agents.machine[agent]];
@@ -290,6 +323,7 @@ static void removed_parameter_falls_back_to_its_default(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(renamed_state_keeps_its_people_and_time),
+        cmocka_unit_test(fallen_people_lie_on),
         cmocka_unit_test(renamed_memory_and_own_values_keep_their_numbers),
         cmocka_unit_test(removing_a_state_with_people_is_refused),
         cmocka_unit_test(memory_is_kept_by_name_and_type),

@@ -122,6 +122,28 @@ static void fallen_gets_up(void **state) {
     jo_world_free(w);
 }
 
+/* A program hears of a fall, and of getting up, once each. */
+static void falls_are_told(void **state) {
+    (void)state;
+    JoWorld *w = make_world(0.05);
+    JoAgent one = add_agent(w, 0, 0);
+    int falls = 0, rises = 0;
+    add_agent(w, 0, 3);
+    for (int step = 0; step < 140; step++) {
+        jo_agent_apply_force(w, one, step < 2 ? 2000 : 0, 0);
+        jo_world_step(w, 1);
+        const JoEvents e = jo_world_events(w);
+        for (uint32_t k = 0; k < e.action_count; k++) {
+            assert_int_equal(e.actions[k].agent, 0);
+            falls += e.actions[k].kind == JO_DONE_FALL && lies(w, one);
+            rises += e.actions[k].kind == JO_DONE_RISE && !lies(w, one);
+        }
+    }
+    assert_int_equal(falls, 1);
+    assert_int_equal(rises, 1);
+    jo_world_free(w);
+}
+
 /* An agent that is pressed onto one that lies falls, too, as its feet are stopped; one that stands
    holds it up. */
 static void pressed_agent_falls_onto_the_fallen(void **state) {
@@ -220,6 +242,7 @@ int main(void) {
         cmocka_unit_test(nobody_falls_by_default),
         cmocka_unit_test(own_motion_throws_nobody),
         cmocka_unit_test(fallen_gets_up),
+        cmocka_unit_test(falls_are_told),
         cmocka_unit_test(pressed_agent_falls_onto_the_fallen),
         cmocka_unit_test(walkers_step_round_the_fallen),
         cmocka_unit_test(falls_are_reproducible),

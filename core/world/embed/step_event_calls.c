@@ -83,7 +83,7 @@ static void read_touches(const JoWorld *w, JoxStepEvents *h) {
     h->touching_capacity = spare_capacity;
 }
 
-/* ---- agents that entered, left, kicked and grasped ---- */
+/* ---- agents that entered, left, kicked, grasped, fell and got up ---- */
 
 static void add_action(JoxStepEvents *h, const JoxAgents *a, uint32_t i, JoDone kind,
                        uint32_t other) {
@@ -100,22 +100,25 @@ static void read_presence(const JoWorld *w, JoxStepEvents *h) {
     JOX_RESERVE(h->seeing, h->seeing_capacity, a->count);
     JOX_RESERVE(h->entered, h->entered_capacity, a->count);
     JOX_RESERVE(h->left, h->left_capacity, h->seen_count);
-    JOX_RESERVE(h->actions, h->action_capacity, 2 * a->count); /* at most both in one step */
+    JOX_RESERVE(h->actions, h->action_capacity, 3 * a->count); /* at most so many in one step */
     h->entered_count = h->left_count = h->action_count = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         const uint32_t i = a->by_rank[r];
-        const JoxSeenAgent now = {a->id[i], a->group[i], a->grasped[i], a->x[i], a->y[i]};
-        uint32_t held = 0;
+        const JoxSeenAgent now = {a->id[i], a->group[i], a->grasped[i],
+                                  a->x[i],  a->y[i],     a->fallen[i] > 0.0f};
+        JoxSeenAgent was = {0};
         while (before < h->seen_count && h->seen[before].id < now.id)
             h->left[h->left_count++] = make_presence(&h->seen[before++]);
         if (before < h->seen_count && h->seen[before].id == now.id)
-            held = h->seen[before++].grasped;
+            was = h->seen[before++];
         else
             h->entered[h->entered_count++] = make_presence(&now);
         if (a->kicked[i])
             add_action(h, a, i, JO_DONE_KICK, a->kicked[i] - 1);
-        if (now.grasped && now.grasped != held)
+        if (now.grasped && now.grasped != was.grasped)
             add_action(h, a, i, JO_DONE_GRASP, now.grasped - 1);
+        if (now.lies != was.lies)
+            add_action(h, a, i, now.lies ? JO_DONE_FALL : JO_DONE_RISE, 0);
         h->seeing[r] = now;
     }
     while (before < h->seen_count)

@@ -13,6 +13,7 @@
 typedef struct JoxSeenAgent {
     uint32_t id, group, grasped; /* grasped: id + 1 of the agent that it holds, or 0 */
     float x, y;
+    bool lies;
 } JoxSeenAgent;
 typedef struct JoxSeenTouch {
     uint32_t agent, kind, other;
