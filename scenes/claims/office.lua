@@ -8,16 +8,18 @@ local function count(pieces, name, column, least)
 end
 
 local AMONG_PEOPLE = 18 -- s: the first of the scene's boxes that fly among people; those before are thrown at shelves
+local THROWN_FROM = 1.6 -- m: height at which these begin, also where somebody stands
 
--- People whom the boxes hit that fly among them, faster than 3 m/s. Hits of a person by a box are one within 3 s.
+-- People whom the boxes hit that fly among them, faster than 3 m/s. Hits of a person by a box are one within 3 s. Nobody can
+-- avoid a box in the step in which it begins.
 local function struck(acts, pieces)
   local boxes, last, sum = {}, {}, 0
   for i = 1, pieces.n do boxes[pieces.body[i]] = tostring(pieces.name[i]):sub(1, 3) == "box" end
   for i = 1, acts.n do
     local time = acts.time[i]
     if acts.what[i] == "hit" and boxes[acts.body[i]] and acts.body_speed[i] > 3 and time >= AMONG_PEOPLE then
-      local pair = acts.person[i] .. " " .. acts.body[i]
-      if time > (last[pair] or -3) + 3 then sum = sum + 1 end
+      local pair, begins = acts.person[i] .. " " .. acts.body[i], math.abs(acts.body_z[i] - THROWN_FROM) < 1e-3
+      if time > (last[pair] or -3) + 3 and not begins then sum = sum + 1 end
       last[pair] = time
     end
   end
