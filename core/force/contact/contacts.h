@@ -62,10 +62,10 @@ typedef void JoxMotionKernel(JoxForces *forces, uint32_t begin, uint32_t end);
 JOX_ISAS(X)
 #undef X
 /* solve_wide.c: solves contacts once whose agents are all different; their motions are below
-   `motions`. `friction`: 0 leaves slips alone. Returns the greatest change of an impulse, N s. One
-   function for each instruction set. */
+   `motions`. `friction`: 0 leaves slips alone. `relaxation`: factor of corrections. Returns the
+   greatest change of an impulse, N s. One function for each instruction set. */
 typedef float JoxSolvePairsKernel(JoxPair *pairs, uint32_t count, JoxContactMotion *motions,
-                                  float friction);
+                                  float friction, float relaxation);
 #define X(name, isa) JoxSolvePairsKernel jox_solve_pairs_##name;
 JOX_ISAS(X)
 #undef X

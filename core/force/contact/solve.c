@@ -20,6 +20,9 @@ static const struct Bearing {
 #undef X
 
 static const float BEARS = 4.0f; /* tolerance of plans, in tolerances of forces */
+/* Factor of the corrections of plans (successive over-relaxation, D. M. Young 1954): in as many
+   passes they come about as far through a crowd as with four times the passes at 1. */
+static const float BEARS_RELAXATION = 1.3f;
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256, TOUCH_GRAIN = 256, FEET_GRAIN = 256 };
 
 /* One pass over a part of the contacts. */
@@ -61,9 +64,9 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
     (void)worker;
     const Pass *pass = context;
     const JoxForces *f = pass->forces;
-    pass->residuals[pass->chunk + begin / PAIR_GRAIN] =
-        KERNELS[f->isa](f->contacts->pairs.items + pass->first + begin, end - begin,
-                        f->contacts->solve.motions, pass->bears ? 0.0f : f->options.friction);
+    pass->residuals[pass->chunk + begin / PAIR_GRAIN] = KERNELS[f->isa](
+        f->contacts->pairs.items + pass->first + begin, end - begin, f->contacts->solve.motions,
+        pass->bears ? 0.0f : f->options.friction, pass->bears ? BEARS_RELAXATION : 1.0f);
 }
 
 static void apply_wall_impulses(JoxForces *f, bool parts) {
@@ -83,12 +86,13 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = pass->forces;
     JoxWallContacts *walls = &f->contacts->walls;
     JoxContactSolve *solve = &f->contacts->solve;
+    const float relaxation = pass->bears ? BEARS_RELAXATION : 1.0f;
     float most = 0.0f;
     for (uint32_t k = walls->groups[begin]; k < walls->groups[end]; k++) {
         JoxWallContact *w = &walls->items[k];
         JoxContactMotion *motion = &solve->motions[w->agent];
         float before = w->impulse, speed = jox_speed_along(motion, w->normal, w->lever);
-        w->impulse = jox_maxf(0.0f, before + (w->target - speed) * w->mass);
+        w->impulse = jox_maxf(0.0f, before + relaxation * (w->target - speed) * w->mass);
         float change = w->impulse - before;
         most = jox_maxf(most, fabsf(change));
         jox_add_impulse(motion, w->normal, w->lever, change);

@@ -77,7 +77,7 @@ static inline JoxFloats solve_slips(Packet *p, JoxVector normal, JoxFloats slip_
 
 /* Solves the contacts of a packet once: each impulse becomes what its target asks for at the
    present velocities, but never pulls. Returns by how much impulses changed. */
-static inline JoxFloats solve_packet(Packet *p, float friction) {
+static inline JoxFloats solve_packet(Packet *p, float friction, float relaxation) {
     const JoxFloats zero = jf_set(0.0f);
     JoxFloats normals[4], masses[4];
     load_row(p, NORMALS, normals);
@@ -86,7 +86,7 @@ static inline JoxFloats solve_packet(Packet *p, float friction) {
     const JoxFloats speed = find_speed(p->motions[0], normal, normals[2]) -
                             find_speed(p->motions[1], normal, normals[3]);
     const JoxFloats before = p->impulses[2];
-    const JoxFloats after = jf_max(zero, before + (masses[0] - speed) * masses[1]);
+    const JoxFloats after = jf_max(zero, before + relaxation * (masses[0] - speed) * masses[1]);
     const JoxFloats change = after - before;
     p->impulses[2] = after;
     add_impulse(p->motions[0], normal, normals[2], change);
@@ -97,7 +97,7 @@ static inline JoxFloats solve_packet(Packet *p, float friction) {
 }
 
 float JOX_WIDE(jox_solve_pairs)(JoxPair *pairs, uint32_t count, JoxContactMotion *motions,
-                                float friction) {
+                                float friction, float relaxation) {
     JoxPair empty = {0};
     JoxContactMotion rest = {0};
     JoxFloats most = jf_set(0.0f);
@@ -107,7 +107,7 @@ float JOX_WIDE(jox_solve_pairs)(JoxPair *pairs, uint32_t count, JoxContactMotion
             load_packet(&p, pairs + k, count - k, motions, &empty, &rest);
         else
             load_packet(&p, pairs + k, JOX_WIDTH, motions, &empty, &rest);
-        most = jf_max(most, solve_packet(&p, friction));
+        most = jf_max(most, solve_packet(&p, friction, relaxation));
         jf_put_rows(p.pairs, p.impulses);
         for (int end = 0; end < 2; end++)
             jf_put_rows(p.ends[end], p.motions[end]);
