@@ -21,8 +21,8 @@
     X(crowded_bound, "1/m2", 0, 20, 1.3, "density from which on those grow eager who have a goal") \
     X(eager_normal, "", 0, 1, 0.62, "least eagerness in a normal crowd: calm 0, keen 1")           \
     X(eager_most, "", 0, 1, 0.4, "greatest eagerness in a calm or normal crowd: keen 1")           \
-    X(rivals, "", 0, 16, 6, "neighbours on converging ways, from which on people compete")         \
-    X(rivals_more, "", 0.1, 16, 5, "as many more of these make anybody as eager as keen people")   \
+    X(rivals, "", 0, 16, 4.5, "neighbours on converging ways, from which on people compete")       \
+    X(rivals_more, "", 0.1, 16, 3, "as many more of these make anybody as eager as keen people")   \
     X(eager_rise, "s", 0.05, 60, 1, "time in which eagerness rises")                               \
     X(eager_fall, "s", 0.05, 60, 10, "time in which eagerness falls")                              \
     X(cross_time, "s", 0.05, 10, 0.35, "time gap kept to people who cross")                        \

@@ -78,7 +78,7 @@ return claim {
   expect = expect,
   plots = { { name = "flow", title = "Specific flow at exits and round bends", x = "width (m)", y = "flow (1/(m s))",
     { "exits", figures = through }, { "bends", figures = round } } },
-  tried = { "Exits in thin walls pass 2.0 to 2.4 per metre and second: people who come from all sides compete, fan out behind "
+  tried = { "Exits in thin walls pass 2.0 to 2.3 per metre and second: people who come from all sides compete, fan out behind "
     .. "the exit, and each soon has free space ahead. Openings as short pass as many of real crowds that are calm (F3, F3b, B3: "
     .. "1.9 to 2.4). Without rivals (walking.rivals = 16) 1.9 to 2.1 pass; a greater cost of turning (0.8 for 0.48) takes 2 to "
     .. "9 % off, and counting less on the speed of those ahead (ahead_share 0.2 for 0.54) nothing at exits wider than 0.8 m." },

@@ -31,7 +31,7 @@ return claim {
   },
   tried = { "Constants were chosen with keen people here, who pass 8.1 per second, 3.4 per square metre in the opening and 5.4 "
     .. "before it. Calm people who do not compete with those beside them (walking.rivals = 16) pass 5.4 per second; if they grow "
-    .. "as eager as keen ones with fewer rivals (rivals = 5.5) they pass 6.6, and all figures are in band, but then the "
-    .. "corridors of F3 let too many in and out." },
+    .. "as eager as keen ones with fewer rivals (rivals_more = 2) they pass 6.8, and all figures are in band, but then "
+    .. "the corridors of F3 let too many in and out." },
   pictures = { opening = { "line.png", "paths.png" } },
 }

@@ -103,10 +103,10 @@ static inline JoxFloats jox_cross_width(const JoxWalk *w, uint32_t first, JoxFlo
 }
 
 /* Returns how many neighbours of `lanes` (bits) are rivals: bound for the same place, on ways that
-   converge with the agents'. A way counts by its turn towards the agent's line, at most 1; one that
-   diverges counts against, so that small differences of parallel ways cancel out. Neighbours who
-   are not bound for the same place count against, too: who makes way for others does not compete.
- */
+   converge with the agents'. A neighbour beside the agent whose way turns towards the agent's line
+   counts 1, less by the sine of its direction where it is ahead or behind. One whose way parts
+   counts against, so that small differences of parallel ways cancel out; so do neighbours who are
+   not bound for the same place: who makes way for others does not compete. */
 static inline JoxFloats jox_count_rivals(const JoxWalk *w, uint32_t first, uint32_t lanes) {
     const JoxAgents *a = w->step.agents;
     const JoxNeighbours *n = w->step.neighbours;
@@ -128,12 +128,13 @@ static inline JoxFloats jox_count_rivals(const JoxWalk *w, uint32_t first, uint3
             offset.x = jf_wrap(offset.x, a->period.x);
             offset.y = jf_wrap(offset.y, a->period.y);
         }
-        const JoxMask is_right = jf_lt(jv_det(own, offset), zero);
+        const JoxFloats far2 = jf_max(jv_dot(offset, offset), jf_set(1e-6f));
+        const JoxFloats aside = jv_det(own, offset) / jf_sqrt(far2);
         const JoxFloats left = jv_det(own, (JoxVector){heading[0], heading[1]});
-        const JoxFloats turn = jf_select(is_right, left, zero - left) * (1.0f / JOX_CONVERGES);
+        const JoxFloats turn = jf_max(against, jf_min(one, left * (1.0f / JOX_CONVERGES)));
         const JoxMask alike = ji_equal(bound, jf_bits(heading[3]));
-        const JoxFloats counts_for = jf_max(against, jf_min(one, turn));
-        rivals += jf_select(there, jf_select(alike, counts_for, against), zero);
+        const JoxFloats rival = jf_select(alike, zero - turn * aside, against);
+        rivals += jf_select(there, rival, zero);
     }
     return rivals;
 }
