@@ -39,20 +39,22 @@ static bool note_deep_torso(const JoxAgents *a, uint32_t i, const JoxGroup *grou
     return true;
 }
 
-/* Notes a radius that is far from half of a given breadth. Returns whether it is. */
+/* Notes a radius that is far from half of a given breadth, unless it is the least there is. Returns
+   whether it does. */
 static bool note_far_radius(const JoxAgents *a, uint32_t i, const JoxGroup *group,
                             JoxDiagnostics *diagnostics) {
     const float half = 0.5f * jox_param(a, JOX_PARAM_breadth, i),
-                radius = jox_param(a, JOX_PARAM_radius, i);
+                radius = jox_param(a, JOX_PARAM_radius, i),
+                least = (float)jox_parameters[JOX_PARAM_radius].least;
     char text[200], hint[80];
-    if (!(half > 0.0f && (radius > FAR * half || half > FAR * radius)))
+    if (!(half > 0.0f && (radius > jox_maxf(FAR * half, least) || half > FAR * radius)))
         return false;
     snprintf(text, sizeof text,
              "people of group '%.60s' keep room for a disc of %.2f m in radius as they walk, and "
              "their shoulders reach %.2f m",
              group->name, (double)radius, (double)half);
-    snprintf(hint, sizeof hint, "radius: %.2g goes with a breadth of %.2g", 0.9 * (double)half,
-             2.0 * (double)half);
+    snprintf(hint, sizeof hint, "radius: %.2g goes with a breadth of %.2g",
+             (double)jox_maxf(0.9f * half, least), 2.0 * (double)half);
     note_at_group(group, "torso-and-radius", hint, text, diagnostics);
     return true;
 }

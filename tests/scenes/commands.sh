@@ -367,6 +367,7 @@ expect "a shorter run gives no hints" 0 "1 person" "$JOSTLE" run "$work/hinted.y
 ! grep -q '^Hints' "$work/out"; verdict "  nor their heading" $?
 cat >"$work/torsos.yaml" <<'END'
 jostle: 1
+step: 0.01
 duration: 1
 bounds: [[0, 0], [20, 10]]
 periodic: both
@@ -377,16 +378,18 @@ groups:
   apart: {behaviour: stander.lua, at: [[14, 5], [14, 5.33]], set: {breadth: 0.45, depth: 0.25}}
   behind: {behaviour: stander.lua, at: [[11, 5], [11, 5.33]], facing: 90, set: {breadth: 0.45, depth: 0.25}}
   stout: {behaviour: stander.lua, at: [[17, 5]], set: {depth: 0.6}}
+  tiny: {behaviour: stander.lua, at: [[17, 2]], set: {breadth: 0.03, depth: 0.02}}
+  least: {behaviour: stander.lua, at: [[14, 2]], set: {breadth: 0.02, depth: 0.02, radius: 0.02}}
   seam: {behaviour: stander.lua, at: [[19.92, 2], [0.08, 2]], set: {breadth: 0.29, depth: 0.25, radius: 0.1}}
   corner: {behaviour: stander.lua, at: [[0.06, 0.06], [19.94, 9.94]], set: {breadth: 0.29, depth: 0.25, radius: 0.1}}
 END
 "$JOSTLE" check "$work/torsos.yaml" 2>&1 | tr -s '\n ' ' ' >"$work/out"
 unsaid=0
 for said in "of group 'roomy' keep room for a disc of 0.50 m" "of group 'deep' have a breadth of 0.25 m and a depth of 0.45 m" \
-    "of group 'stout' have a breadth of 0.45 m and a depth of 0.60 m" \
+    "of group 'stout' have a breadth of 0.45 m and a depth of 0.60 m" "radius: 0.02 goes with a breadth of 0.03" \
     "2 of the 2 people of group 'beside' begin in others, up to 0.09 m deep" \
     "2 of the 2 people of group 'seam' begin in others, up to 0.09 m deep" \
-    "2 of the 2 people of group 'corner' begin in others, up to 0.08 m deep" "nothing wrong, 6 notes"; do
+    "2 of the 2 people of group 'corner' begin in others, up to 0.08 m deep" "nothing wrong, 7 notes"; do
     grep -qF "$said" "$work/out" || { unsaid=1; echo "# not said: $said"; }
 done
 verdict "notes on torsos name odd measures, and who begins in others however they turn" $unsaid
