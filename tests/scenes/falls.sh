@@ -11,7 +11,7 @@ between "  and many of the 220 lie at a time" "$(falls_in most_fallen)" 40 220
 between "with a balance of 0 nobody falls" "$(falls_in falls --set groups.people.set.balance=0)" 0 0
 between "without forces of others only those fall who were thrown" "$(falls_in falls --set forces.enabled=false)" 1 20
 between "where nobody is thrown nobody falls" "$(falls_in falls --set events.0.at=1000)" 0 0
-"$JOSTLE" run scenes/crowd-collapse.yaml --for 6 2>&1 | tr '\n' ' ' | grep -qE 'There were [0-9]+ falls, [0-9]+ people that lay at a time'
+"$JOSTLE" run scenes/crowd-collapse.yaml --for 6 2>&1 | tr '\n' ' ' | grep -qE 'There were [0-9]+ falls, [0-9]+ people who lay at the same time'
 verdict "the last lines count falls" $?
 "$JOSTLE" run scenes/crowd-collapse.yaml --quiet --for 6 --record "$work/c.sqlite" --report "$work/report" --no-half-step 2>/dev/null
 between "a recording tells who lies" "$(sqlite3 "$work/c.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE fallen > 0")" 40 220

@@ -76,7 +76,7 @@ static void say_events(const JoScene *scene, JoxText *out) {
         {s->kicks, "kick"},
         {s->throws, "throw"},
         {s->falls, "fall|falls"},
-        {s->most_fallen, "person that lay at a time|people that lay at a time"},
+        {s->most_fallen, "person who lay at the same time|people who lay at the same time"},
         {s->dropped, "body dropped for want of room|bodies dropped for want of room"},
         {s->people_lost, "person lost|people lost"},
         {s->bodies_lost, "body lost|bodies lost"},
