@@ -120,7 +120,9 @@ static bool read_section_head(JoxSections *s, const char *name, size_t size, uin
     }
     memcpy(&head, s->at, sizeof head);
     if (head.name != hash_section_name(s, name)) {
-        jox_sections_fail(s, name, "the state has another section in this place");
+        jox_sections_fail(
+            s, name,
+            "the state has another section in this place: it is of another version, or damaged");
         return false;
     }
     s->at += sizeof head;

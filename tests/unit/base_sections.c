@@ -146,7 +146,8 @@ static void another_format_is_refused(void **state) {
     s = jox_sections_restore(text.data, text.length);
     jox_sections_module(&s, "thing");
     JOX_SECTION(&s, "time", b.tick);
-    assert_string_equal(s.wrong, "thing.time: the state has another section in this place");
+    assert_string_equal(s.wrong, "thing.time: the state has another section in this place: it is "
+                                 "of another version, or damaged");
     s = jox_sections_restore(text.data, text.length);
     jox_sections_module(&s, "thing");
     JOX_SECTION(&s, "tick", b.tick);
