@@ -103,12 +103,13 @@ typedef struct JoActionEvent {
     uint32_t agent;
     uint32_t kind;  /* JoDone */
     uint32_t other; /* slot of the body; id of the agent; 0 of a fall or of getting up */
-    float x, y;     /* m: position of the agent at that time */
+    float x, y;     /* m: present position of the agent */
 } JoActionEvent;
 
-/* Events of the last step, in ascending order of agent id, then of the other's id; `entered` and
-   `left` cover the time since events were last read. The arrays are valid until the next call on
-   the world. */
+/* Events of the last step, in ascending order of agent id, then of the other's id. `entered` and
+   `left`, and of `actions` all but kicks, cover the time since events were last read, and compare
+   its ends: of one who fell and got up between them nothing is told. The arrays are valid until the
+   next call on the world. */
 typedef struct JoEvents {
     const JoTransitionEvent *transitions;
     const JoTouchEvent *touches;
