@@ -87,7 +87,7 @@ typedef enum JoxForceRole {
     X(STATE, float, compression) /* sum of |f.n| of contacts over circumference, N/m */            \
     /* greatest push from any one direction, N: the most, over directions d, of sum max(f.d, 0) */ \
     X(STATE, float, load)                                                                          \
-    X(SCRATCH, float, last_ext_x) /* external force of the last step, N, for display */            \
+    X(SCRATCH, float, last_ext_x) /* external force of the last substep, N */                      \
     X(SCRATCH, float, last_ext_y)                                                                  \
     X(SCRATCH, uint32_t, index_drop) /* index when velocities were chosen, minus present index */  \
     X(SCRATCH, float, forced_x)      /* velocity that the forces yield by the end of the step */   \

@@ -51,12 +51,14 @@ void jox_stage_prefer(const JoxPreferStage *s) {
         jox_nav_walk(s->nav, step);
 }
 
-/* Zeroes the external force, which is given for one step; keeps it in `last` for display. */
-static void use_up_external(float *ext, float *last, uint32_t count) {
+/* Keeps the external force of the substep in `last`, for its moves and for display; zeroes the
+   force, which is given for one step, in the `final` substep. */
+static void use_up_external(float *ext, float *last, uint32_t count, bool final) {
     const size_t size = count * sizeof *ext;
     if (size && memcmp(last, ext, size) != 0)
         memcpy(last, ext, size);
-    jox_mem_fill(ext, 0, size);
+    if (final)
+        jox_mem_fill(ext, 0, size);
 }
 
 void jox_stage_push(const JoxPushStage *s) {
@@ -76,10 +78,8 @@ void jox_stage_push(const JoxPushStage *s) {
     }
     jox_force_sum(s->forces_of);
     jox_inspect_after_push(s->inspection, a, s->forces_of);
-    if (!s->substep->last)
-        return;
-    use_up_external(a->ext_x, a->last_ext_x, a->count);
-    use_up_external(a->ext_y, a->last_ext_y, a->count);
+    use_up_external(a->ext_x, a->last_ext_x, a->count, s->substep->last);
+    use_up_external(a->ext_y, a->last_ext_y, a->count, s->substep->last);
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
