@@ -38,7 +38,8 @@
     X(balance, "m", 0, 2, 0,                                                                       \
       "longest step by which an agent that forces throw regains its balance; 0: it never falls")   \
     X(stance, "m", 0, 1, 0,                                                                        \
-      "how far to either side of an agent that stands its feet are; they hold it against forces")  \
+      "how far to either side of an agent that stands its feet are; they hold it against forces "  \
+      "from the side")                                                                             \
     X(rise, "s", 0, 1e6, 5, "time that an agent lies after a fall, until it gets up")
 
 typedef enum JoxParameter {

@@ -146,7 +146,7 @@ function Target:incoming(metres) end
 ---@field haste? number|jostle.Number|jostle.Drawn motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness; 0 to 1, default 0.5
 ---@field step_back? number|jostle.Number|jostle.Drawn speed at which an agent that stands steps back to where it stood before it was moved, m/s; 0 to 2, default 0.11
 ---@field balance? number|jostle.Number|jostle.Drawn longest step by which an agent that forces throw regains its balance; 0: it never falls, m; 0 to 2, default 0
----@field stance? number|jostle.Number|jostle.Drawn how far to either side of an agent that stands its feet are; they hold it against forces, m; 0 to 1, default 0
+---@field stance? number|jostle.Number|jostle.Drawn how far to either side of an agent that stands its feet are; they hold it against forces from the side, m; 0 to 1, default 0
 ---@field rise? number|jostle.Number|jostle.Drawn time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
 
 ---@class jostle.Transition
