@@ -166,9 +166,10 @@ JO_API JoAgentDef jo_default_agent_def(void);
 /* Adds an agent. A null handle, with `error` filled (JO_INPUT), if a field is out of range, if
    the point lies in a solid, or if there is no free spot. If the agent would lie nearer than
    0.99 radii to a wall, or its disc overlap that of another by more than a quarter of the smaller,
-   it begins on the nearest free spot within 25 m with no wall between. Spots are tested half a
-   radius apart: all searches between two steps test 5 million spots together, later searches
-   before the next step 1,000 each. */
+   it begins on the nearest free spot within 25 m with no wall between. Its torso may begin in
+   another: its chest points to +x, and is not turned out of others as that of a scene's people is.
+   Spots are tested half a radius apart: all searches between two steps test 5 million spots
+   together, later searches before the next step 1,000 each. */
 JO_API JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error);
 /* Removes an agent at once; a body that it carries falls. In the world of a scene the call is
    recorded in the input log, as all calls of jostle_act.h are. Does nothing for a stale handle. */
