@@ -39,21 +39,27 @@ bool jox_is_hidden_by(const JoxMachineRun *run, uint32_t but, JoxV2 from, JoxV2 
             stopping_edge(run->wall_images, UINT32_MAX, from, to, least_height) >= 0);
 }
 
-bool jox_is_reach_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxHidingEdge *last) {
+/* Returns an edge of the walls or of their images that stops a touch; none: its walls are NULL. */
+static JoxHidingEdge find_stopping_edge(const JoxMachineRun *run, JoxV2 from, JoxV2 to) {
     const JoxWalls *lists[] = {run->walls, run->wall_images};
+    for (int k = 0; k < 2; k++) {
+        const int64_t edge = lists[k] ? stopping_edge(lists[k], UINT32_MAX, from, to, 0.0f) : -1;
+        if (edge >= 0)
+            return (JoxHidingEdge){lists[k], (uint32_t)edge};
+    }
+    return (JoxHidingEdge){NULL, 0};
+}
+
+bool jox_is_reach_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxHidingEdge *last) {
     if (last->walls) {
         const JoxWallVertex *v = &last->walls->vertices[last->edge];
         if (jox_segments_cross(from, to, v->point, last->walls->vertices[v->next].point))
             return true;
     }
-    for (int k = 0; k < 2; k++) {
-        const int64_t edge = lists[k] ? stopping_edge(lists[k], UINT32_MAX, from, to, 0.0f) : -1;
-        if (edge < 0)
-            continue;
-        *last = (JoxHidingEdge){lists[k], (uint32_t)edge};
-        return true;
-    }
-    return false;
+    const JoxHidingEdge found = find_stopping_edge(run, from, to);
+    if (found.walls)
+        *last = found;
+    return found.walls;
 }
 
 bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched) {
@@ -61,15 +67,10 @@ bool jox_is_hidden(const JoxMachineRun *run, JoxV2 from, JoxV2 to, bool touched)
 }
 
 bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *normal) {
-    const JoxWalls *lists[] = {run->walls, run->wall_images};
-    for (int k = 0; k < 2; k++) {
-        const int64_t edge = lists[k] ? stopping_edge(lists[k], UINT32_MAX, from, to, 0.0f) : -1;
-        if (edge < 0)
-            continue;
-        *normal = jox_left(lists[k]->vertices[edge].direction);
-        return true;
-    }
-    return false;
+    const JoxHidingEdge found = find_stopping_edge(run, from, to);
+    if (found.walls)
+        *normal = jox_left(found.walls->vertices[found.edge].direction);
+    return found.walls;
 }
 
 /* ---- bodies ---- */

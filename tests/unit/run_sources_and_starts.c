@@ -261,7 +261,7 @@ static void agent_waits_while_its_start_is_occupied(void **state) {
     "jostle: 1\ngroups: {people: {behaviour: own.lua, facing: 90, starts: " starts ", set: {" set  \
     "}}}\n"
 
-/* Who comes in beside others turns its chest as far as it must; who is in others all the same is
+/* Newcomers beside others turn their chests as far as they must; those in others all the same are
    counted. */
 static void newcomers_turn_their_chests_out_of_others(void **state) {
     (void)state;

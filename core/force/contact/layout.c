@@ -291,7 +291,7 @@ void jox_contacts_lay_out(JoxForces *f) {
     memset(pairs->end_starts, 0, ((size_t)agents + 1) * sizeof *pairs->end_starts);
 }
 
-/* What is kept of the pairs: the impulses of forces, or those of plans. */
+/* Impulses of the pairs to be kept: those of forces, or of plans. */
 typedef struct Keeping {
     JoxForces *forces;
     bool plans;

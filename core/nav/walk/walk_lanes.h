@@ -20,9 +20,8 @@ static const float jox_walk_sine[JOX_WALK_DIRECTIONS] = {
     -0.70710678f, 0.86602540f, -0.86602540f, 0.96592583f, -0.96592583f};
 
 #define JOX_SAME_WAY 0.5f /* cosine of 60 degrees: headings within it go the same way */
-#define JOX_CONVERGES                                                                              \
-    0.05f /* sine of 3 degrees: ways that turn together by more wholly converge                    \
-           */
+/* Sine of 3 degrees: ways that turn together by more converge wholly. */
+#define JOX_CONVERGES 0.05f
 
 /* Lanes that mind their neighbour as one ahead, to be followed, or as one crossing, to be passed;
    in neither set: not at all. */
