@@ -102,7 +102,9 @@ static void print_settings(const JoSettings *settings) {
     for (uint32_t s = 0; s < settings->count; s++)
         print_setting(&settings->items[s]);
     if (settings->count > 1)
-        puts("  the last one counts");
+        puts(settings->items[settings->count - 1].extends
+                 ? "  the last one counts, and what it extends with it"
+                 : "  the last one counts");
 }
 
 static int why(const JoSceneDef *def, const char *path) {

@@ -194,6 +194,7 @@ typedef struct JoSetting {
     const char *where; /* for jo_agent_why: "defaults", "state Go", "groups.people", "to Hit" (a
                           transition); else "" */
     double time;       /* s: time in the run at which it was set; NAN: before the run, or unknown */
+    bool extends;      /* a function of a mod that extends what stands before it (before, ...) */
 } JoSetting;
 /* Receives one setting; its texts are valid within the call, and NULL stands for "". */
 typedef void JoSetVisit(void *context, const JoSetting *setting);

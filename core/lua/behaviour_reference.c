@@ -191,6 +191,12 @@ static void print_word_definition(JoxText *out, const JoxWord *word) {
                         "---@param behaviour string\n---@return fun(sheet: table): any\nfunction "
                         "%s(behaviour) end\n",
                         word->name);
+    } else if (!strcmp(word->name, "before") || !strcmp(word->name, "afterwards") ||
+               !strcmp(word->name, "around")) {
+        jox_text_printf(
+            out, "---@param f fun(me: jostle.Me%s)%s\n---@return any\nfunction %s(f) end\n",
+            !strcmp(word->name, "around") ? ", previous: fun(me: jostle.Me): any, any" : "",
+            !strcmp(word->name, "around") ? ": any, any" : "", word->name);
     } else if (word->takes) {
         jox_text_printf(out, "---@return %s\nfunction %s(...) end\n", get_word_class(word),
                         word->name);

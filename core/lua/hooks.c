@@ -1,23 +1,14 @@
-/* Calls plain functions of behaviours, for one agent at a time on the stepping thread; measures
-   their time and reports their failures. The machines of a run call it through JoxMachineRun.call.
- */
+/* State of the plain functions of behaviours: reports of failures, writes into neighbours' memory,
+   costs. hook_calls.c calls them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/clock.h"
 #include "base/mem.h"
 #include "lua/language/script.h"
 #include "lua/loader.h"
-
-enum { TIMED = 16 }; /* number of first calls that are timed; of later ones, one in as many is */
-
-/* Fibonacci hashing times one number in 16, spread evenly over every remainder. Timing each 16th
-   call would always hit the same agent if 16 agents are in a state. */
-bool jox_lua_is_timed(uint64_t call) {
-    return call < TIMED || call * UINT64_C(0x9e3779b97f4a7c15) >> 60 == 0;
-}
+#include "lua/read_table.h"
 
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
     JOX_ASSERT(!machines || machines->agents);
@@ -77,8 +68,8 @@ static void begin_failure_second(JoxLua *lua, const JoxScript *script, JoxHook *
 
 /* Reports a failure in full if its message is new; else counts it for a report once a second of
    simulated time. Suspends the function at JOX_MOST_FAILURES in a second. */
-static void report_hook_failure(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why,
-                                int line) {
+void jox_hook_report_failure(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why,
+                             int line) {
     JOX_ASSERT(why && line >= 0);
     const JoxMachineRun *machines = lua->machines;
     char text[2600];
@@ -110,86 +101,6 @@ static void report_hook_failure(JoxLua *lua, JoxScript *script, JoxHook *hook, c
              script->machine->name, hook->where, machines->agents->id[script->agent],
              machines->tick, (unsigned long long)machines->seed);
     report_lines(lua, text);
-}
-
-/* Reads the result of `when` or `steer`; returns NULL, or what is wrong with it. */
-static const char *read_result(lua_State *L, JoxHookKind kind, double result[2]) {
-    if (kind == JOX_HOOK_WHEN) {
-        if (lua_type(L, -2) != LUA_TBOOLEAN && lua_type(L, -2) != LUA_TNIL)
-            return "a `when` function must return true or false";
-        result[0] = lua_toboolean(L, -2);
-    } else if (kind == JOX_HOOK_STEER) {
-        if (lua_type(L, -2) != LUA_TNUMBER || lua_type(L, -1) != LUA_TNUMBER)
-            return "a `steer` function must return two numbers, the velocity in m/s";
-        result[0] = lua_tonumber(L, -2);
-        result[1] = lua_tonumber(L, -1);
-        if (!(fabs(result[0]) <= 100.0 && fabs(result[1]) <= 100.0))
-            return "a `steer` function must return a velocity of at most 100 m/s";
-    }
-    return NULL;
-}
-
-/* Returns the line of a function that failed as a whole, not at one of its lines. */
-static int find_function_line(JoxScript *script, const lua_Debug *where) {
-    const int source = jox_vm_source(&script->vm, where->short_src);
-    script->vm.failed_source = source > 0 ? (size_t)source : 0;
-    script->vm.traceback[0] = 0;
-    return where->linedefined;
-}
-
-bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxHookKind kind,
-                  uint32_t agent, double result[2]) {
-    JoxLua *lua = context;
-    JoxScript *script = machine->vm >= 0 ? lua->scripts[machine->vm] : NULL;
-    if (!script || (uint32_t)number >= script->hook_count || script->hooks[number].suspended)
-        return false;
-    JoxHook *hook = &script->hooks[number];
-    lua_State *L = script->vm.L;
-    const bool first = hook->calls < TIMED, timed = jox_lua_is_timed(hook->calls);
-    const double begun = timed ? jox_clock_thread() : 0.0;
-    hook->calls++;
-    script->machine = machine;
-    script->agent = agent;
-    script->draws = script->read_count = 0;
-    script->vm.run++;
-    lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
-    lua_rawgeti(L, LUA_REGISTRYINDEX, script->me);
-    *(uint32_t *)lua_touserdata(L, -1) = script->vm.run;
-    const char *why = NULL;
-    int line = 0;
-    bool good = jox_vm_call(&script->vm, 1, 2, lua->group.limits.hook_instructions, &why, &line);
-    char name[64], changed[200];
-    lua_Debug where;
-    if (good) {
-        why = read_result(L, kind, result);
-        good = !why;
-        if (why) {
-            lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
-            lua_getinfo(L, ">S", &where);
-            line = find_function_line(script, &where);
-        }
-        lua_settop(L, 0);
-    }
-    if (jox_upvalues_restore(L, &script->upvalues, hook->first_upvalue, hook->upvalue_count, name,
-                             &where)) {
-        line = find_function_line(script, &where);
-        snprintf(
-            changed, sizeof changed,
-            "a function changed '%s', a variable from outside of it, and it was set back: what "
-            "an agent remembers belongs in memory",
-            name);
-        why = changed;
-        good = false;
-    }
-    if (timed) {
-        const double took = jox_clock_thread() - begun;
-        *(first ? &hook->first : &hook->seconds) += took;
-        hook->timed += !first;
-        lua->arriving += lua->machines->spawning ? (first ? 1.0 : TIMED) * took : 0.0;
-    }
-    if (!good)
-        report_hook_failure(lua, script, hook, why, line);
-    return good;
 }
 
 /* ---- neighbours' memory ---- */
@@ -285,9 +196,9 @@ void jox_lua_bracket_hooks(void *context, bool begins) {
 /* Returns the time of all calls, s: untimed calls are taken to last as long as timed ones on
    average. */
 static double estimate_hook_time(const JoxHook *hook) {
-    return hook->first + (hook->timed
-                              ? hook->seconds / (double)hook->timed * (double)(hook->calls - TIMED)
-                              : 0.0);
+    return hook->first + (hook->timed ? hook->seconds / (double)hook->timed *
+                                            (double)(hook->calls - JOX_HOOK_TIMED)
+                                      : 0.0);
 }
 
 /* Returns the processor time of a machine's functions, s, estimated from the first 16 calls of each

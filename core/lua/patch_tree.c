@@ -289,6 +289,48 @@ static void *admit_lua_item(void *c, void *node, void *value, const char *path, 
     return pop_node(n, state - 1);
 }
 
+/* Puts what a key has, `now` or NULL, behind the function of a mod that extends it; NULL if the
+   patch's value does not extend. */
+static void *extend_lua_key(void *c, void *now, const JoxPatchPlace *at) {
+    static const char *const FUNCTIONS[] = {"on_enter", "on_exit", "on_take", "when", "steer"};
+    enum {
+        COUNT = sizeof FUNCTIONS / sizeof *FUNCTIONS,
+        MOST_LAYERS = 32 /* Lua nests at most 200 calls of C, some four for each */
+    };
+    JoxLuaNodes *n = c;
+    lua_State *L = n->L;
+    const int top = jox_nodes_push_value(n, at->value) - 1;
+    const JoxNode *change = jox_node_get(L, top + 1);
+    uint32_t known = 0;
+    if (!change || change->kind != JOX_NODE_LAYER) {
+        lua_settop(L, top);
+        return NULL;
+    }
+    while (known < COUNT && strcmp(FUNCTIONS[known], at->key) != 0)
+        known++;
+    if (known == COUNT)
+        report_patch_error(n, at->from, "bad-value",
+                           "before, afterwards and around extend on_enter, on_exit, on_take, when "
+                           "and steer",
+                           "'%s' holds no function that could be extended", at->key);
+    JoxNode *layer = jox_node_push(L, known == COUNT ? JOX_NODE_ERROR : JOX_NODE_LAYER);
+    layer->op = change->op;
+    layer->name = change->name;
+    layer->hook = change->hook;
+    layer->arg = LUA_NOREF;
+    layer->number = 1.0;
+    if (now) {
+        const JoxNode *extended = jox_node_get(L, jox_nodes_push_value(n, now));
+        if (extended && extended->kind == JOX_NODE_LAYER)
+            layer->number = extended->number + 1.0;
+        layer->arg = luaL_ref(L, LUA_REGISTRYINDEX);
+    }
+    if (layer->number > MOST_LAYERS)
+        report_patch_error(n, at->from, "too-many", "Let one function do the work of several",
+                           "over %s functions of mods extend each other here", "32");
+    return pop_node(n, top);
+}
+
 static JoxPosition locate_lua_change(void *c, const JoxPatchPlace *at) {
     const JoxLuaNodes *n = c;
     return jox_outline_at(n->script->vm.sources[n->source], at->from);
@@ -423,6 +465,7 @@ const JoxPatchTree jox_lua_tree = {.kind = get_lua_kind,
                                    .skips = skips_lua_state,
                                    .missing = report_missing_part,
                                    .misused = report_misused_verb,
+                                   .extend = extend_lua_key,
                                    .item_mark = "@",
                                    .verbs = (1u << JOX_PATCH_VERBS) - 1,
                                    .lists_merge = true,

@@ -39,11 +39,16 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
         lua_pop(L, 1);
         return;
     }
-    if (type == LUA_TFUNCTION) {
+    if (jox_read_is_function(L, -1)) {
+        int32_t extends;
         state->steer[0] = (JoxSteerTerm){
-            .kind = JOX_STEER_FUNCTION, .target = -1, .hook = jox_read_add_hook(b, full)};
+            .kind = JOX_STEER_FUNCTION, .target = -1, .hook = jox_read_function(b, full, &extends)};
         state->steer_count = 1;
-        return;
+        if (extends < 0)
+            return;
+        node = jox_node_get(L, -1); /* the steering that it extends */
+        type = lua_type(L, -1);
+        b->script->hooks[extends].steers = type != LUA_TNIL;
     }
     for (JoxNode *t = node; t && t->kind == JOX_NODE_STEER; t = t->next) {
         if (state->steer_count == JOX_MOST_TERMS) {

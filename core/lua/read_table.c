@@ -74,50 +74,6 @@ void jox_read_join(char path[256], const char *prefix, const char *key) {
     snprintf(path, 256, "%.190s%s%.60s", prefix, *prefix ? "." : "", key);
 }
 
-/* Prints a path for people: "states.Circle.2.on_take" is "state Circle > transition 2 > on_take".
- */
-static void print_part_path(const char *path, JoxText *out) {
-    char part[128];
-    for (int depth = 0; *path; depth++) {
-        size_t n = strcspn(path, ".");
-        snprintf(part, sizeof part, "%.*s", (int)n, path);
-        bool number = part[strspn(part, "0123456789")] == 0;
-        if (depth > 0)
-            jox_text_printf(out, "%s%s%s", depth > 1 ? " > " : "",
-                            depth == 1                               ? "state "
-                            : number || (depth == 2 && *part == '@') ? "transition "
-                                                                     : "",
-                            *part == '@' ? part + 1 : part);
-        path += n + (path[n] == '.');
-    }
-}
-
-int32_t jox_read_add_hook(JoxBuild *b, const char *path) { /* pops the function */
-    JoxScript *script = b->script;
-    JoxText where = {0};
-    print_part_path(path, &where);
-    JOX_RESERVE(script->hooks, script->hook_capacity, script->hook_count + 1);
-    script->hooks[script->hook_count] =
-        (JoxHook){.ref = luaL_ref(script->vm.L, LUA_REGISTRYINDEX), .where = where.data};
-    b->machine->hook_count = script->hook_count + 1;
-    return (int32_t)script->hook_count++;
-}
-
-int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key) {
-    lua_State *L = b->script->vm.L;
-    JOX_ASSERT(index > 0 && lua_istable(L, index));
-    char full[256];
-    jox_read_join(full, path, key);
-    int type = jox_read_field(L, index, key);
-    if (type == LUA_TFUNCTION)
-        return jox_read_add_hook(b, full);
-    if (type != LUA_TNIL && !jox_node_get(L, -1))
-        jox_build_error(b, jox_read_at(b, full), "bad-value", "Write: function(me) ... end",
-                        "'%s' must be a function, not %s", key, lua_typename(L, type));
-    lua_pop(L, 1);
-    return -1;
-}
-
 JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *info, bool *is_dist,
                         JoxDist *dist) {
     lua_State *L = b->script->vm.L;
@@ -175,10 +131,13 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     JOX_ASSERT(lua_gettop(L) > 0);
     JoxNode *node = jox_node_get(L, -1);
     int type = lua_type(L, -1);
-    int32_t expression = -1;
-    if (hook && type == LUA_TFUNCTION) {
-        *hook = jox_read_add_hook(b, path);
-        return -1;
+    int32_t expression = -1, extends = -1;
+    if (hook && jox_read_is_function(L, -1)) {
+        *hook = jox_read_function(b, path, &extends);
+        if (extends < 0)
+            return -1;
+        node = jox_node_get(L, -1); /* the condition that it extends; nil: always */
+        type = lua_type(L, -1);
     }
     bool trapped = type != LUA_TNIL && jox_misuse_explains(b, path);
     if (node && node->kind == JOX_NODE_CONDITION) {
@@ -199,7 +158,10 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
                         "this must be a condition, not %s", jox_node_kind(L, -1));
     }
     lua_pop(L, 1);
-    return expression;
+    if (extends < 0)
+        return expression;
+    b->script->hooks[extends].expression = expression;
+    return -1;
 }
 
 int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *key) {

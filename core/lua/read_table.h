@@ -72,9 +72,19 @@ int jox_read_field(lua_State *L, int index, const char *key);
 /* Reports string keys of a table that are not known; other keys too, unless `items`. */
 void jox_read_check(JoxBuild *build, int index, const char *path, const char *const *known,
                     size_t count, bool items);
-/* Adds a hook for the function on top of the stack, popped; returns its number. `path` names it in
-   messages. */
-int32_t jox_read_add_hook(JoxBuild *build, const char *path);
+/* Returns whether a value is a function, or functions of mods that extend what stands there. */
+bool jox_read_is_function(lua_State *L, int index);
+/* Adds hooks for the function on top of the stack, popped, and for all that it extends; returns the
+   number of the one to call. `path` names it in messages. If the lowest one extends no function,
+   *extends is its number and the value that it extends (nil: none) is pushed; else *extends is
+   -1. */
+int32_t jox_read_function(JoxBuild *build, const char *path, int32_t *extends);
+/* Reports a failure of a function at a line of the source that failed last; counts and suspends. */
+void jox_hook_report_failure(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why,
+                             int line);
+/* Returns the registry reference of the function that hook `number`, which extends another one by
+   `around`, is passed to call that. In hook_calls.c. */
+int jox_hook_make_previous(JoxScript *script, int32_t number);
 /* Reads a function under a key; returns its hook number or -1. */
 int32_t jox_read_hook(JoxBuild *build, int index, const char *path, const char *key);
 /* Reads a number, distribution or expression, popped, and checks its range; a distribution goes to

@@ -15,7 +15,7 @@ typedef struct Setting {
     uint32_t first, last; /* tokens of the value */
     const JoxToken *key;
     int32_t mod; /* index of the mod, or -1 for the behaviour itself */
-    bool removes;
+    bool removes, extends;
 } Setting;
 
 /* Prints a value as written, on one line and without comments; cut after `most` bytes. */
@@ -68,18 +68,26 @@ static void visit_place(const Setting *setting, const Settings *to) {
                            .column = setting->key->column,
                            .mod = is_mod ? to->scope->mods[setting->mod].name : NULL,
                            .version = is_mod ? to->scope->mods[setting->mod].version : NULL,
-                           .removes = setting->removes});
+                           .removes = setting->removes,
+                           .extends = setting->extends});
     jox_text_free(&value);
 }
 
-/* Adds the place of a path in a source; false if it is not written there. */
+/* Adds the place of a path in a source, written there by `change` of a mod, or by the behaviour
+   itself, NULL; false if it is not written there. */
 static bool add_written_place(const JoxScript *script, uint32_t source, const char *path,
-                              int32_t mod, bool removes, Settings *to) {
+                              const JoxPatchChange *change, Settings *to) {
     const JoxPath *found = jox_outline_find(script->vm.sources[source], path);
     if (!found || found->key >= script->vm.sources[source]->token_count)
         return false;
     const JoxToken *key = &script->vm.sources[source]->tokens[found->key];
-    to->last = (Setting){script->vm.sources[source], found->first, found->last, key, mod, removes};
+    to->last = (Setting){.source = script->vm.sources[source],
+                         .first = found->first,
+                         .last = found->last,
+                         .key = key,
+                         .mod = change ? change->mod : -1,
+                         .removes = change && change->removes,
+                         .extends = change && change->extends};
     if (to->visit)
         visit_place(&to->last, to);
     return true;
@@ -98,11 +106,15 @@ static bool add_followed_places(const JoxScript *script, const char *path, Setti
     for (char *dot; (dot = strrchr(around, '.'));) {
         *dot = 0;
         if ((found.source != 0 || strcmp(around, "states") != 0) &&
-            add_written_place(script, 0, around, -1, false, to))
+            add_written_place(script, 0, around, NULL, to))
             break;
     }
     const JoxSource *source = script->vm.sources[found.source];
-    to->last = (Setting){source, found.first, found.last, &source->tokens[found.key], -1, false};
+    to->last = (Setting){.source = source,
+                         .first = found.first,
+                         .last = found.last,
+                         .key = &source->tokens[found.key],
+                         .mod = -1};
     if (to->visit)
         visit_place(&to->last, to);
     return true;
@@ -136,8 +148,8 @@ static int add_all_places(const JoxScript *script, const JoxMachine *machine, co
                  strstr(canonical, script->changes.items[o].path) == canonical;
     use_transition_number(machine, canonical, own);
     if (!named)
-        count += add_written_place(script, 0, own, -1, false, to) ||
-                 add_followed_places(script, own, to);
+        count +=
+            add_written_place(script, 0, own, NULL, to) || add_followed_places(script, own, to);
     for (size_t o = 0; o < script->changes.count; o++) {
         const JoxPatchChange *change = &script->changes.items[o];
         char path[512];
@@ -147,7 +159,7 @@ static int add_all_places(const JoxScript *script, const JoxMachine *machine, co
         rest = change->removes ? "" : rest; /* the whole part was removed */
         snprintf(path, sizeof path, "%.250s%s%.250s", change->from,
                  *rest && *change->from ? "." : "", rest);
-        count += add_written_place(script, change->source, path, change->mod, change->removes, to);
+        count += add_written_place(script, change->source, path, change, to);
     }
     return count;
 }

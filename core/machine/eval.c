@@ -240,3 +240,10 @@ double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxV
     }
     return 0.0;
 }
+
+double jox_machines_expression(const JoxMachineRun *run, const JoxMachine *machine,
+                               int32_t expression, uint32_t agent) {
+    const JoxValue value = {.kind = JOX_VALUE_EXPRESSION, .index = expression};
+    JOX_ASSERT(expression >= 0 && (uint32_t)expression < machine->expression_count);
+    return jox_value(run, machine, &value, agent);
+}

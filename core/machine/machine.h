@@ -240,7 +240,7 @@ typedef struct JoxState {
     uint32_t first_transition; /* number of its first transition, counted over all states; assigned
                                   likewise */
     JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */
-    JoxSteerTerm steer[JOX_MOST_TERMS];
+    JoxSteerTerm steer[JOX_MOST_TERMS]; /* behind a FUNCTION: terms of the steering it extends */
     uint32_t steer_count;
     JoxTransition *transitions;
     uint32_t transition_count;

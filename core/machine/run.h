@@ -329,6 +329,10 @@ void jox_machines_ask_routes(JoxMachineRun *run);
 void jox_machines_record_writer(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote);
 /* Frees the record of an agent that is no longer watched. */
 void jox_watched_end(JoxWatched *watched);
+/* Returns the value of an expression of a machine for one agent; conditions are 0 or 1. On the
+   stepping thread. */
+double jox_machines_expression(const JoxMachineRun *run, const JoxMachine *machine,
+                               int32_t expression, uint32_t agent);
 /* Appends a transition as text: time, agent, states, and the condition with present values. */
 void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxText *out);
 /* Lists the state of the machines. Call it after jox_agents_sections: restoring checks the agents'

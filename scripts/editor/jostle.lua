@@ -540,6 +540,21 @@ function replace(behaviour) end
 ---@type any
 none = nil
 
+--- `before(function)`: in a patch, for on_enter, on_exit, on_take, when or steer: runs a function(me) before what stands there, a function or not, which goes on to work and alone gives the result
+---@param f fun(me: jostle.Me)
+---@return any
+function before(f) end
+
+--- `afterwards(function)`: in a patch: as `before`, but runs the function after what stands there
+---@param f fun(me: jostle.Me)
+---@return any
+function afterwards(f) end
+
+--- `around(function)`: in a patch: calls function(me, previous) in place of what stands there; previous(me) calls that, and returns true or false for `when`, the velocity as two numbers in m/s for `steer`
+---@param f fun(me: jostle.Me, previous: fun(me: jostle.Me): any, any): any, any
+---@return any
+function around(f) end
+
 --- `settings.NAME`: in a mod: the value of a setting, a plain number
 ---@type table<string, jostle.Number>
 settings = {}

@@ -16,10 +16,11 @@ const char *const jox_patch_verbs[JOX_PATCH_VERBS] = {
 
 /* ---- the list of changes ---- */
 
-/* Warns if another mod, which this one does not depend on, has set an overlapping path. */
+/* Warns if another mod, which this one does not depend on, has set an overlapping path that this
+   one does not extend. */
 static void report_conflict(const JoxPatchChanges *changes, const JoxPatchChange *mine,
                             const JoxMod *mods, JoxDiagnostics *diagnostics) {
-    for (uint32_t c = 0; c + 1 < changes->count; c++) {
+    for (uint32_t c = 0; c + 1 < changes->count && !mine->extends; c++) {
         const JoxPatchChange *other = &changes->items[c];
         if (other->mod < 0 || other->mod == mine->mod ||
             !jox_mod_overlaps(other->path, mine->path) || (mods[mine->mod].after >> other->mod & 1))
@@ -91,14 +92,37 @@ bool jox_patch_is_target(const char *target, const char *path, const JoxMod *mod
 
 /* ---- merging ---- */
 
+/* Returns the change by which the patch sets a path. */
+static JoxPatchChange describe_change(const JoxPatch *p, const char *path,
+                                      const JoxPatchPlace *at) {
+    return (JoxPatchChange){.path = (char *)path,
+                            .from = (char *)at->from,
+                            .source = p->source,
+                            .mod = p->mod,
+                            .position = p->tree->position(p->tree->context, at),
+                            .value = at->value};
+}
+
 /* Appends to the list that the patch sets or removes a path. */
 static void keep_change(const JoxPatch *p, const char *path, const JoxPatchPlace *at,
                         bool removes) {
+    JoxPatchChange change = describe_change(p, path, at);
+    change.removes = removes;
+    jox_patch_keep(p->changes, change, p->mods, p->diagnostics);
+}
+
+/* Extends a key of a copy, if the patch's value does that; false if it replaces what is there. */
+static bool extend_key(const JoxPatch *p, void *copy, const char *path, const JoxPatchPlace *at,
+                       void *now) {
     const JoxPatchTree *t = p->tree;
-    jox_patch_keep(p->changes,
-                   (JoxPatchChange){(char *)path, (char *)at->from, p->source, p->mod, removes,
-                                    t->position(t->context, at), at->value},
-                   p->mods, p->diagnostics);
+    void *wider = t->extend ? t->extend(t->context, now, at) : NULL;
+    if (!wider)
+        return false;
+    JoxPatchChange change = describe_change(p, path, at);
+    change.extends = true;
+    t->set(t->context, copy, at->key, at, wider);
+    jox_patch_keep(p->changes, change, p->mods, p->diagnostics);
+    return true;
 }
 
 /* Writes the path of an item: "PREFIX.MARKid". */
@@ -135,7 +159,7 @@ static void merge_key(const JoxPatch *p, void *copy, const char *path, const Jox
         void *inner = t->copy(t->context, now);
         inner = merge_into(p, inner, at->value, path, at->from, depth + 1);
         t->set(t->context, copy, at->key, NULL, inner);
-    } else {
+    } else if (!extend_key(p, copy, path, at, now)) {
         t->set(t->context, copy, at->key, at, at->value);
         keep_change(p, path, at, false);
     }

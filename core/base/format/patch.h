@@ -20,6 +20,7 @@ typedef struct JoxPatchChange {
     uint32_t source; /* number of that file */
     int32_t mod;     /* index of the mod; -1: the patched file itself */
     bool removes;    /* the path is removed */
+    bool extends;    /* what stood there goes on to work (JoxPatchTree.extend) */
     JoxPosition position;
     const void *value; /* node that sets it, in the tree's memory */
 } JoxPatchChange;
@@ -108,6 +109,9 @@ typedef struct JoxPatchTree {
     /* Report a key or item that does not exist, or a verb whose value has the wrong kind. */
     void (*missing)(void *c, void *node, const char *name, const JoxPatchPlace *at, bool item);
     void (*misused)(void *c, JoxPatchVerb verb, const JoxPatchPlace *at);
+    /* Returns the node that a key gets if `at->value` extends what is there, `now` or NULL, and
+       does not replace it; NULL if it replaces it. NULL: no value extends another. */
+    void *(*extend)(void *c, void *now, const JoxPatchPlace *at);
     const char *item_mark; /* prefix of ids in paths */
     unsigned verbs;        /* bit set of the JoxPatchVerb that the tree has */
     bool keys_are_ids;     /* in a patch of a list, keys other than verbs are ids of items */

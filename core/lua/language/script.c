@@ -9,6 +9,7 @@ static int open_language(lua_State *L) {
     lua_newtable(L);
     jox_words_add(L);
     jox_values_add(L);
+    jox_layers_add(L);
     jox_script_set_words(L);
     jox_me_open(jox_script_of(L));
     jox_environment_open(L);

@@ -67,6 +67,8 @@ typedef enum {
     JOX_NODE_PATCH,   /* in a mod: a table that changes another file's machine */
     JOX_NODE_REPLACE, /* in a mod: a table that replaces another file's machine */
     JOX_NODE_NONE,    /* in a patch: removes a key */
+    JOX_NODE_LAYER,   /* in a patch: a function that extends the one before it; `op` is its JoxLayer
+                       */
     JOX_NODE_ERROR    /* stands for a value whose error is already reported */
 } JoxNodeKind;
 
@@ -149,10 +151,27 @@ typedef struct JoxRequired {
 
 /* ---- scripts ---- */
 
+enum {
+    JOX_HOOK_TIMED = 16 /* first calls that are timed; of later ones, one in as many is */
+};
+
+/* How a function of a mod extends the function that stood before it. */
+typedef enum JoxLayer {
+    JOX_LAYER_ALONE, /* it stands in its place, or is the behaviour's own */
+    JOX_LAYER_BEFORE,
+    JOX_LAYER_AFTER,
+    JOX_LAYER_AROUND /* it is passed the former function, and calls it or does not */
+} JoxLayer;
+
 /* A plain function of the behaviour, run for one agent at a time while the crowd runs. */
 typedef struct JoxHook {
-    int ref;                               /* registry reference */
-    char *where;                           /* "state Circle > transition 2 (to Exit) > on_take" */
+    int ref; /* registry reference */
+    JoxLayer layer;
+    int32_t previous;   /* hook that it extends; -1: none, but see the next two */
+    int32_t expression; /* extends a compiled condition: its expression; else -1 */
+    bool steers;        /* extends a compiled steering, whose velocity the agent has */
+    int previous_ref;   /* AROUND: registry reference of the function that it is passed */
+    char *where;        /* "state Circle > transition 2 (to Exit) > on_take" */
     uint32_t first_upvalue, upvalue_count; /* items of JoxScript.upvalues that it could change */
     uint64_t calls, failures, timed;
     double first;             /* s, sum over the first calls, which are all timed */
@@ -202,7 +221,11 @@ typedef struct JoxScript {
     } read[16];          /* latest reads of neighbours' memory by the running function, as a ring */
     uint32_t read_count; /* number of all such reads */
     uint32_t draws;      /* random numbers drawn by the running function */
-    uint32_t agent;      /* index of the agent that the function runs for */
+    JoxHookKind kind;    /* what the running function is called for */
+    int32_t running;     /* innermost hook that runs */
+    double nested;       /* time of hooks within the running one, s, if that is measured */
+    bool measured;
+    uint32_t agent; /* index of the agent that the function runs for */
 } JoxScript;
 static_assert(offsetof(JoxScript, vm) == 0, "jox_script_of casts");
 
@@ -294,6 +317,10 @@ extern const luaL_Reg jox_operators[];
 /* Add the words of words.c and of values.c to the table on top of the stack. */
 void jox_words_add(lua_State *L);
 void jox_values_add(lua_State *L);
+/* Adds `before`, `afterwards` and `around`, by which patches extend functions. In layers.c. */
+void jox_layers_add(lua_State *L);
+/* Returns the word that makes a layer: "before". */
+const char *jox_layer_word(JoxLayer layer);
 /* Makes the environment of scripts. */
 void jox_environment_open(lua_State *L);
 /* The function `require` of scripts. */

@@ -205,6 +205,18 @@ const JoxWord jox_words[] = {
      "replace \"stander\" { name = \"stander\", start = \"Stand\", states = { Stand = {} } }"},
     {"none", NULL, 0, 0, 0, "none", "", "in a patch: removes a key or a state",
      "patch \"stander\" { defaults = { perception = none } }"},
+    {"before", "*", 0, 0, 0, "before(function)", "",
+     "in a patch, for on_enter, on_exit, on_take, when or steer: runs a function(me) before what stands "
+     "there, a function or not, which goes on to work and alone gives the result",
+     "patch \"stander\" { states = { Stand = { on_enter = before(function(me) me.speed = 1 end) } } }"},
+    {"afterwards", "*", 0, 0, 0, "afterwards(function)", "",
+     "in a patch: as `before`, but runs the function after what stands there",
+     "patch \"stander\" { states = { Stand = { on_exit = afterwards(function(me) me.speed = 1 end) } } }"},
+    {"around", "*", 0, 0, 0, "around(function)", "",
+     "in a patch: calls function(me, previous) in place of what stands there; previous(me) calls that, and "
+     "returns true or false for `when`, the velocity as two numbers in m/s for `steer`",
+     "patch \"stander\" { states = { Stand = { steer = around(function(me, previous) "
+     "local x, y = previous(me) return 2 * x, 2 * y end) } } }"},
     {"settings", NULL, 0, 0, 0, "settings.NAME", "",
      "in a mod: the value of a setting, a plain number", "patch \"stander\" { defaults = { perception = settings.reach } }"},
     {"require", "*", 0, 0, 0, "require \"name\"", "",

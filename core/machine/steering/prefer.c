@@ -32,7 +32,7 @@ static void face_target(const JoxMachineRun *run, const JoxState *state, uint32_
 }
 
 static bool steers_by_function(const JoxState *state) {
-    return state->steer_count == 1 && state->steer[0].kind == JOX_STEER_FUNCTION;
+    return state->steer_count > 0 && state->steer[0].kind == JOX_STEER_FUNCTION;
 }
 
 /* Evaluates the weight of a term for a batch. */
@@ -124,7 +124,7 @@ static void sum_terms(const Prefer *p, const JoxMachine *machine, const JoxState
     memset(s->sum_x, 0, sizeof s->sum_x);
     memset(s->sum_y, 0, sizeof s->sum_y);
     for (int evades = 0; evades < 2; evades++)
-        for (uint32_t t = 0; t < state->steer_count; t++) {
+        for (uint32_t t = steers_by_function(state); t < state->steer_count; t++) {
             const JoxSteerTerm *term = &state->steer[t];
             if ((term->kind == JOX_STEER_EVADE) != evades)
                 continue;
@@ -165,7 +165,7 @@ static void prefer_batch(const Prefer *p, const JoxBatchRange *batch, JoxRegiste
         if (a->bound[s.index[n]])
             a->bound[s.index[n]] = 0;
     }
-    if (steers_by_function(state))
+    if (steers_by_function(state) && state->steer_count == 1)
         return;
     sum_terms(p, machine, state, registers, &s);
     p->kernels->finish(&s);

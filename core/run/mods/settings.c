@@ -28,6 +28,7 @@ void jox_settings_add(void *context, const JoSetting *from) {
                       .line = from->line,
                       .column = from->column,
                       .removes = from->removes,
+                      .extends = from->extends,
                       .time = from->where ? from->time : (double)NAN};
     jox_pack_text(pack, ITEMS, &to->where, from->where ? from->where : "");
     jox_pack_text(pack, ITEMS, &to->value, from->value ? from->value : "");
