@@ -129,6 +129,14 @@ static void add_agent_parameters(JoScene *scene, uint32_t i, const JoxWatched *w
     jox_json_end(json);
 }
 
+/* Adds whom memory holds, as text. */
+static void add_somebody(const JoScene *scene, const char *name, double who, JoxJson *json) {
+    JoxText text = {0};
+    jox_who_print(&scene->world->machines, who, &text);
+    jox_json_string(json, name, text.data);
+    jox_text_free(&text);
+}
+
 static void add_memory_values(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = find_agent_machine(scene, i);
@@ -140,6 +148,8 @@ static void add_memory_values(const JoScene *scene, uint32_t i, JoxJson *json) {
             continue;
         if (slot->kind == JOX_MEMORY_BOOLEAN)
             jox_json_bool(json, slot->name, value != 0.0);
+        else if (slot->kind == JOX_MEMORY_SOMEBODY)
+            add_somebody(scene, slot->name, value, json);
         else
             add_rounded(json, slot->name, value);
     }

@@ -15,7 +15,7 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(slot >= 0 && (uint32_t)slot < b->machine->memory_count);
     JoxNode *node = jox_node_get(L, -1);
-    *assign = (struct JoxAssign){.slot = slot};
+    *assign = (struct JoxAssign){.slot = slot, .target = -1};
     if (b->machine->memory[slot].kind == JOX_MEMORY_NUMBER) {
         bool is_dist;
         JoxDist dist;
@@ -40,6 +40,21 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
                             "this memory is true or false, or set to a condition");
         lua_pop(L, 1);
     }
+}
+
+/* Reads whom a slot of memory is set to, under a key of the table at `table`. */
+static void read_assign_somebody(JoxBuild *b, int table, const char *path, const char *key,
+                                 int32_t slot, struct JoxAssign *assign) {
+    char full[256];
+    *assign = (struct JoxAssign){.slot = slot, .target = jox_read_target(b, table, path, key)};
+    if (assign->target < 0)
+        return;
+    const JoxTargetKind kind = b->machine->targets[assign->target].kind;
+    jox_read_join(full, path, key);
+    if (kind == JOX_TARGET_HOME || kind == JOX_TARGET_LAST_SEEN)
+        jox_build_error(b, jox_read_at(b, full), "bad-value",
+                        "Remember a person, a body or a place, and steer to the point itself",
+                        "memory '%s' holds somebody, and a point is not", key);
 }
 
 /* Returns the number of a team, which the scene need not have; 0 with an error. */
@@ -100,8 +115,15 @@ static void read_set_action(JoxBuild *b, int index, const char *path, JoxActions
             lua_pop(L, 1);
             continue;
         }
+        struct JoxAssign *assign = &actions->set[actions->set_count++];
+        const int32_t slot = jox_read_memory(b, names[m]);
         jox_read_join(part, full, names[m]);
-        read_assign(b, part, jox_read_memory(b, names[m]), &actions->set[actions->set_count++]);
+        if (b->machine->memory[slot].kind != JOX_MEMORY_SOMEBODY) {
+            read_assign(b, part, slot, assign);
+            continue;
+        }
+        lua_pop(L, 1);
+        read_assign_somebody(b, table, full, names[m], slot, assign);
     }
     names[script->memory_count] = "team";
     names[script->memory_count + 1] = "tags";
@@ -281,15 +303,6 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
 
 /* ---- counts ---- */
 
-/* Returns a hidden slot of memory for the counter of slot `of`; `role` says what it holds. */
-static int32_t add_hidden_slot(JoxBuild *b, const char *role, uint32_t of) {
-    JoxText identity = {0};
-    jox_text_printf(&identity, "%s%s", role, b->machine->memory[of].name);
-    const int32_t slot = jox_build_memory(b, "");
-    b->machine->memory[slot].identity = identity.data;
-    return slot;
-}
-
 /* Reads the value on top of the stack as what is counted into a slot of memory; pops nothing. */
 static void add_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
     JOX_ASSERT(slot < b->machine->memory_count);
@@ -299,8 +312,8 @@ static void add_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t st
         JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
         JoxCounter counter = {
             .target = jox_build_target(b, node->target), .value = (int32_t)slot, .state = state};
-        counter.angle = add_hidden_slot(b, JOX_IDENTITY_ANGLE, slot);
-        counter.begun = add_hidden_slot(b, JOX_IDENTITY_BEGUN, slot);
+        counter.angle = jox_build_hidden(b, JOX_IDENTITY_ANGLE, (int32_t)slot, JOX_MEMORY_NUMBER);
+        counter.begun = jox_build_hidden(b, JOX_IDENTITY_BEGUN, (int32_t)slot, JOX_MEMORY_NUMBER);
         m->counters[m->counter_count++] = counter;
     } else if (!node || node->kind != JOX_NODE_ERROR) {
         jox_build_error(b, jox_read_at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",

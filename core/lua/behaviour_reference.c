@@ -340,7 +340,7 @@ void jox_lua_luacheck(JoxText *out) {
 
 /* ---- examples ---- */
 
-static const char MEMORY[] = "local mine = memory { laps = 0, touched = false }\n";
+static const char MEMORY[] = "local mine = memory { laps = 0, touched = false, prey = nobody }\n";
 
 /* Prints a behaviour with an example in its machine, in a state, or in a transition. */
 static void print_example(JoxText *out, const char *top, const char *state,
@@ -348,9 +348,11 @@ static void print_example(JoxText *out, const char *top, const char *state,
     jox_text_printf(
         out,
         "%sreturn machine {\n  name = \"example\", version = 1, start = \"Start\",%s%s\n"
-        "  states = {\n    Start = { { to = \"Trial\", when = after(0.2) } },\n"
+        "  states = {\n    Start = { { to = \"Trial\", when = after(0.2), set = { prey = nearest "
+        "\"people\" } } },\n"
         "    Trial = { %s\n      { to = \"Next\"%s } },\n"
-        "    Next = { steer = hold, set = { laps = mine.laps, touched = false } },\n  },\n}\n",
+        "    Next = { steer = hold, set = { laps = mine.laps, touched = false, prey = nobody } },\n"
+        "  },\n}\n",
         MEMORY,
         strstr(top, "public") || strstr(top, "counts") || strstr(state, "counts")
             ? ""

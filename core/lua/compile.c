@@ -53,6 +53,15 @@ int32_t jox_build_memory(JoxBuild *build, const char *name) {
     return (int32_t)m->memory_count++;
 }
 
+int32_t jox_build_hidden(JoxBuild *build, const char *role, int32_t of, JoxMemoryKind kind) {
+    JoxText identity = {0};
+    jox_text_printf(&identity, "%s%s", role, build->machine->memory[of].name);
+    const int32_t slot = jox_build_memory(build, "");
+    build->machine->memory[slot].identity = identity.data;
+    build->machine->memory[slot].kind = kind;
+    return slot;
+}
+
 int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
     JOX_ASSERT(*name);
     JoxMachine *m = build->machine;
@@ -98,7 +107,9 @@ static JoxAgentFilter build_target_filter(JoxBuild *build, const JoxNodeFilter *
                            .greatest = filter->greatest,
                            .flies = filter->flies,
                            .fallen = filter->fallen,
-                           .comes = (float)filter->comes};
+                           .comes = (float)filter->comes,
+                           .within = (float)filter->within,
+                           .ahead = (float)filter->ahead};
     if (filter->state)
         made.state = add_name_at(build, filter->state, JOX_NAME_STATE, &filter->state_at);
     if (filter->machine)
@@ -112,7 +123,51 @@ static bool is_same_filter(const JoxAgentFilter *a, const JoxAgentFilter *b) {
     return a->some == b->some && a->state == b->state && a->machine == b->machine &&
            a->memory == b->memory && a->group == b->group && a->least == b->least &&
            a->greatest == b->greatest && a->flies == b->flies && a->fallen == b->fallen &&
-           a->comes == b->comes;
+           a->comes == b->comes && a->within == b->within && a->ahead == b->ahead;
+}
+
+/* Returns the sighting of a slot of memory that holds somebody, added on first use. */
+static int32_t add_sighting(JoxBuild *build, int32_t memory) {
+    JoxMachine *m = build->machine;
+    for (uint32_t s = 0; s < m->sighting_count; s++)
+        if (m->sightings[s].memory == memory)
+            return (int32_t)s;
+    JOX_RESERVE(m->sightings, build->sighting_capacity, m->sighting_count + 1);
+    const JoxSighting sighting = {
+        memory, jox_build_hidden(build, JOX_IDENTITY_SEEN, memory, JOX_MEMORY_SOMEBODY),
+        jox_build_hidden(build, JOX_IDENTITY_SEEN_X, memory, JOX_MEMORY_NUMBER),
+        jox_build_hidden(build, JOX_IDENTITY_SEEN_Y, memory, JOX_MEMORY_NUMBER)};
+    m->sightings[m->sighting_count] = sighting;
+    return (int32_t)m->sighting_count++;
+}
+
+/* Returns 1 + the compiled score of a target; 0 if it has none. */
+static int32_t build_score(JoxBuild *build, const JoxNode *node) {
+    if (node->kind != JOX_NODE_TARGET || !node->score)
+        return 0;
+    if (build->scores) {
+        jox_build_error(build, node->position, "too-complex", "Remember one of them with `set`",
+                        "`best` cannot stand in the score of another one");
+        return 0;
+    }
+    build->scores = true;
+    const int32_t score = jox_build_expression(build, node->score, node->position);
+    build->scores = false;
+    return 1 + score;
+}
+
+/* Returns the text by which messages name a target; the caller frees it. */
+static char *name_target(const JoxNode *node) {
+    JoxText text = {0};
+    if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MEMORY)
+        jox_text_printf(&text, "mine.%s", node->name);
+    else if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_LAST_SEEN)
+        jox_text_printf(&text, "last_seen(mine.%s)", node->name);
+    else if (node->kind == JOX_NODE_TARGET && node->score)
+        jox_text_printf(&text, "best(%s)", node->name);
+    else
+        jox_text_add(&text, node->name);
+    return text.data;
 }
 
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
@@ -122,9 +177,18 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     static const JoxNodeFilter ANY;
     JoxTarget target = {
         node->target_kind, node->target_arg, NULL,
-        build_target_filter(build, node->kind == JOX_NODE_TARGET ? &node->filter : &ANY)};
+        build_target_filter(build, node->kind == JOX_NODE_TARGET ? &node->filter : &ANY), 0};
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_HOME)
         add_home_memory(build);
+    if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_OTHER && !build->scores)
+        jox_build_error(build, node->position, "bad-value",
+                        "Example: best(\"people\", other.speed)",
+                        "`other` is the candidate in the score of `best`, and nothing else");
+    if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MEMORY)
+        target.arg = jox_build_memory(build, node->name);
+    if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_LAST_SEEN)
+        target.arg = add_sighting(build, jox_build_memory(build, node->name));
+    target.score = build_score(build, node);
     bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
     if (node->kind == JOX_NODE_OWN || own_set) {
         int32_t slot = jox_build_own_at(build, node);
@@ -138,13 +202,15 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
         target.kind = own_set ? JOX_TARGET_ONE_OF_OWN : JOX_TARGET_OWN_PLACE;
         target.arg = slot;
     }
+    target.name = name_target(node);
     for (uint32_t i = 0; i < m->target_count; i++)
         if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&
-            strcmp(m->targets[i].name, node->name) == 0 &&
-            is_same_filter(&m->targets[i].filter, &target.filter))
+            strcmp(m->targets[i].name, target.name) == 0 && m->targets[i].score == target.score &&
+            is_same_filter(&m->targets[i].filter, &target.filter)) {
+            jox_free(target.name);
             return (int16_t)i;
+        }
     JOX_RESERVE(m->targets, build->target_capacity, m->target_count + 1);
-    target.name = jox_strdup(node->name);
     m->targets[m->target_count] = target;
     return (int16_t)m->target_count++;
 }
@@ -206,7 +272,7 @@ int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition p
     JoxMachine *m = build->machine;
     if (node->kind == JOX_NODE_ERROR)
         return -1;
-    if (node->compiled > 0) /* used in several places, compiled once */
+    if (node->compiled > 0 && !build->scores) /* used in several places, compiled once */
         return node->compiled - 1;
     Code code = {.build = build};
     emit_expression(&code, node, 0, 0);
@@ -218,6 +284,7 @@ int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition p
     }
     JOX_RESERVE(m->expressions, build->expression_capacity, m->expression_count + 1);
     m->expressions[m->expression_count] = (JoxExpression){code.items, (uint32_t)code.count};
-    ((JoxNode *)node)->compiled = (int32_t)m->expression_count + 1;
+    if (!build->scores) /* a score may name `other`, which has no meaning elsewhere */
+        ((JoxNode *)node)->compiled = (int32_t)m->expression_count + 1;
     return (int32_t)m->expression_count++;
 }

@@ -160,8 +160,7 @@ static void check_distances(JoxBuild *b, const JoxState *state, const char *path
             if ((in->op != JOX_OP_NEAR && in->op != JOX_OP_HEARD) || asked->op != JOX_OP_CONST ||
                 !(asked->number > most && asked->number < JOX_MOST_WEIGHT))
                 continue;
-            if (in->op == JOX_OP_NEAR && (m->targets[in->target].kind < JOX_TARGET_NEAREST ||
-                                          m->targets[in->target].kind == JOX_TARGET_HOME))
+            if (in->op == JOX_OP_NEAR && !jox_target_kind_moves(m->targets[in->target].kind))
                 continue;
             snprintf(item, sizeof item, "%u", t + 1);
             jox_read_join(full, path, item);

@@ -13,7 +13,8 @@ typedef struct JoxBuild {
     JoxMachine *machine;
     struct JoxKinds *kinds; /* kinds of the script's expressions, made on first use */
     size_t expression_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
-        state_capacity, name_capacity;
+        state_capacity, name_capacity, sighting_capacity;
+    bool scores; /* the score of a target is being compiled, in which `other` has a meaning */
 } JoxBuild;
 /* Returns the index of a target in the machine, added on first use; -1 for an error node. */
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node);
@@ -25,6 +26,8 @@ int32_t jox_build_own(JoxBuild *build, const char *name);
 int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node);
 /* Returns the slot of memory, added on first use; a name of "" adds a new one. */
 int32_t jox_build_memory(JoxBuild *build, const char *name);
+/* Adds a hidden slot of memory for slot `of`; `role` is the prefix of its identity. Returns it. */
+int32_t jox_build_hidden(JoxBuild *build, const char *role, int32_t of, JoxMemoryKind kind);
 /* Compiles an expression; returns its index, or -1 with an error at `position`. */
 int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition position);
 /* Reports an error in the machine. */

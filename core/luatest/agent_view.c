@@ -12,6 +12,21 @@ void jox_test_set_number(lua_State *L, const char *name, double value) {
     lua_setfield(L, -2, name);
 }
 
+/* Pushes whom memory holds: the id of an agent, the name of a place, "body N", or nil. */
+static void push_somebody(lua_State *L, const JoxMachineRun *machines, double who) {
+    const uint32_t i = jox_who_agent(machines, who);
+    JoxText text = {0};
+    if (i != JOX_NO_INDEX) {
+        lua_pushinteger(L, machines->agents->id[i]);
+    } else if (!jox_who_exists(machines, who)) {
+        lua_pushnil(L);
+    } else {
+        jox_who_print(machines, who, &text);
+        lua_pushstring(L, text.data);
+    }
+    jox_text_free(&text);
+}
+
 void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
     const JoxAgents *a = machines->agents;
     lua_newtable(L);
@@ -25,6 +40,9 @@ void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i
                 continue;
             if (m->memory[s].kind == JOX_MEMORY_BOOLEAN) {
                 lua_pushboolean(L, value != 0.0);
+                lua_setfield(L, -2, m->memory[s].name);
+            } else if (m->memory[s].kind == JOX_MEMORY_SOMEBODY) {
+                push_somebody(L, machines, value);
                 lua_setfield(L, -2, m->memory[s].name);
             } else {
                 jox_test_set_number(L, m->memory[s].name, value);

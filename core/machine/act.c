@@ -183,6 +183,7 @@ static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     run->kicks[run->kick_count++] = (JoxImpulse){
         .object = (uint32_t)ball.object, .impulse = impulse, .point = object->position};
     a->kicked[i] = a->parting[i] = jox_reference(ball.object);
+    jox_throwers_note(run, object->id, a->id[i]);
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }
 
@@ -246,6 +247,7 @@ static void throw_body(JoxMachineRun *run, const JoxMachine *machine, const JoxS
                             .agent_id = a->id[i],
                             .velocity = {way.x, way.y, jox_clampf(rise, -20.0f, 20.0f)}});
     a->kicked[i] = jox_reference(row);
+    jox_throwers_note(run, run->objects->rows[row].id, a->id[i]);
 }
 
 /* Lists all agents whose state satisfies `matches` in scratch->list, by id. */

@@ -20,9 +20,9 @@ const char *jox_name_before(const JoxMachine *old, const JoxMachine *next, JoxPa
 static const char *find_old_identity(const JoxMachine *old, const JoxMachine *next, uint32_t slot,
                                      char buffer[256]) {
     const char *is = jox_memory_identity(&next->memory[slot]);
-    const bool counter = *is == *JOX_IDENTITY_ANGLE || *is == *JOX_IDENTITY_BEGUN;
-    const char *before = jox_name_before(old, next, JOX_PART_MEMORY, is + counter);
-    if (!counter || strlen(before) > 250)
+    const char *owner = jox_identity_owner(is);
+    const char *before = jox_name_before(old, next, JOX_PART_MEMORY, owner ? owner : is);
+    if (!owner || strlen(before) > 250)
         return before;
     snprintf(buffer, 256, "%c%s", *is, before);
     return buffer;
@@ -84,7 +84,7 @@ static void drop_oldest(JoxMachine *machine) {
 static const char *find_replacing_name(const JoxMachine *old, const JoxMachine *next,
                                        const JoxMemorySlot *slot) {
     const char *is = jox_memory_identity(slot);
-    const char *name = is + (*is == *JOX_IDENTITY_ANGLE || *is == *JOX_IDENTITY_BEGUN);
+    const char *name = jox_identity_owner(is) ? jox_identity_owner(is) : is;
     const char *before = jox_name_before(old, next, JOX_PART_MEMORY, name);
     return slot->dormant && strcmp(before, name) != 0 ? before : NULL;
 }
@@ -102,14 +102,18 @@ void jox_dormant_keep(const JoxMachine *old, JoxMachine *next) {
 
 /* ---- messages ---- */
 
-/* Returns whether the slot is memory of the behaviour's author, not of a counter or a post. */
+/* Returns whether the slot is memory of the behaviour's author, not a hidden one or a post. */
 static bool is_named_by_author(const JoxMemorySlot *slot) {
     const char *identity = jox_memory_identity(slot);
-    return *identity > '\2' && strcmp(identity, "home x") != 0 && strcmp(identity, "home y") != 0;
+    return *identity && !jox_identity_owner(identity) && strcmp(identity, "home x") != 0 &&
+           strcmp(identity, "home y") != 0;
 }
 
 static const char *describe_kind(const JoxMemorySlot *slot) {
-    return slot->kind == JOX_MEMORY_BOOLEAN ? "true or false" : "a number";
+    static const char *const KINDS[] = {[JOX_MEMORY_NUMBER] = "a number",
+                                        [JOX_MEMORY_BOOLEAN] = "true or false",
+                                        [JOX_MEMORY_SOMEBODY] = "somebody"};
+    return KINDS[slot->kind];
 }
 
 /* Returns the slot of the new version that has the name of `slot` but another kind, or -1. */

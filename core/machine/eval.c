@@ -111,6 +111,12 @@ static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spo
     return spot->found && jox_pass_distance(offset, jox_v2(spot->vx, spot->vy)) < (float)reach;
 }
 
+/* Returns whether both targets are the same person, body or place. */
+static bool is_same_target(const JoxMachineRun *run, uint32_t i, const JoxInstruction *in) {
+    const double who = jox_target_who(run, i, in->target);
+    return who != JOX_NOBODY && who == jox_target_who(run, i, in->place);
+}
+
 /* Evaluates a word about the agent's surroundings; `a` is the first input. */
 static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
                                 const JoxInstruction *in, double a) {
@@ -162,6 +168,12 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
         return jox_neighbours_of(run, i, in->target);
     case JOX_OP_THEIRS:
         return jox_target_memory(run, i, in->target, machine->names[in->name].number);
+    case JOX_OP_OF:
+        return jox_target_measure(run, i, in->target, (JoxNow)in->arg);
+    case JOX_OP_EXISTS:
+        return jox_target_who(run, i, in->target) != JOX_NOBODY;
+    case JOX_OP_SAME:
+        return is_same_target(run, i, in);
     case JOX_OP_QUEUED:
         place = jox_target_place(run, i, in->place);
         return place < 0 ? 0.0 : run->scratch->place_queue[place];
@@ -186,10 +198,9 @@ static bool are_gates_open(const JoxMachineRun *run, const char *gate) {
     return any;
 }
 
-static void execute_instruction(const JoxMachineRun *run, const JoxMachine *machine,
-                                const JoxInstruction *in, const uint32_t *agents, uint32_t count,
-                                JoxRegisters r) {
-    double *to = r[in->to];
+/* Evaluates a word about the surroundings for `count` agents; `a` is its first input for each. */
+static void eval_word(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
+                      const uint32_t *agents, uint32_t count, const double *a, double *to) {
     if (in->op == JOX_OP_INSIDE) {
         eval_inside(run, machine, in, agents, count, to);
     } else if (in->op == JOX_OP_CROSSES) {
@@ -198,9 +209,9 @@ static void execute_instruction(const JoxMachineRun *run, const JoxMachine *mach
         const double open = are_gates_open(run, machine->names[in->name].text);
         for (uint32_t n = 0; n < count; n++)
             to[n] = open;
-    } else if (!KERNELS[run->isa](run, in, agents, count, r)) {
+    } else {
         for (uint32_t n = 0; n < count; n++)
-            to[n] = eval_surroundings(run, machine, agents[n], in, r[in->a][n]);
+            to[n] = eval_surroundings(run, machine, agents[n], in, a[n]);
     }
 }
 
@@ -211,12 +222,35 @@ bool jox_holds_for_nobody(const double *values, uint32_t count) {
     return n == count;
 }
 
+void jox_eval_scores(const JoxMachineRun *run, uint32_t agent, const JoxExpression *score,
+                     const JoxSpot *candidates, uint32_t count, JoxRegisters registers) {
+    JOX_ASSERT(count <= JOX_BATCH);
+    const JoxMachine *machine = jox_machine_of(run, agent);
+    uint32_t agents[JOX_BATCH];
+    for (uint32_t n = 0; n < count; n++)
+        agents[n] = agent;
+    for (uint32_t k = 0; k < score->count; k++) {
+        const JoxInstruction *in = &score->code[k];
+        if (KERNELS[run->isa](run, in, agents, count, registers))
+            continue;
+        for (uint32_t n = 0; n < count; n++) {
+            double one[1];
+            jox_target_consider(&candidates[n]);
+            eval_word(run, machine, in, &agent, 1, &registers[in->a][n], one);
+            registers[in->to][n] = one[0];
+        }
+    }
+    jox_target_consider(NULL);
+}
+
 void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,
               const uint32_t *agents, uint32_t count, JoxRegisters registers) {
     JOX_ASSERT(count <= JOX_BATCH);
     const JoxInstruction *code = expression->code;
     for (uint32_t i = 0; i < expression->count; i++) {
-        execute_instruction(run, machine, &code[i], agents, count, registers);
+        const JoxInstruction *in = &code[i];
+        if (!KERNELS[run->isa](run, in, agents, count, registers))
+            eval_word(run, machine, in, agents, count, registers[in->a], registers[in->to]);
         while (code[i].skip && jox_holds_for_nobody(registers[code[i].to], count))
             i += code[i].skip; /* an AND: its result is its left side's, 0 for all */
     }

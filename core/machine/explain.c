@@ -64,6 +64,10 @@ static bool print_infix(const JoxInstruction *in, const Written *registers, Writ
 static void print_filter(const JoxMachine *machine, const JoxAgentFilter *filter, JoxText *out) {
     if (filter->flies)
         jox_text_add(out, ":flying()");
+    if (filter->within > 0.0f)
+        jox_text_printf(out, ":within(%.6g)", (double)filter->within);
+    if (filter->ahead > 0.0f)
+        jox_text_printf(out, ":ahead(%.6g)", (double)filter->ahead);
     if (filter->comes > 0.0f)
         jox_text_printf(out, ":incoming(%.6g)", (double)filter->comes);
     if (!filter->some)
@@ -87,6 +91,10 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
                        const Written *registers, JoxText *out) {
     const uint8_t inputs[] = {in->a, in->b, in->c};
     const char *before = "(";
+    if (in->op == JOX_OP_OF) {
+        jox_text_printf(out, "%s.%s", machine->targets[in->target].name, NOWS[in->arg]);
+        return;
+    }
     for (const char *c = OPS[in->op]; *c; c++)
         jox_text_printf(out, "%c", *c >= 'A' && *c <= 'Z' ? *c - 'A' + 'a' : *c);
     const int16_t targets[] = {in->target, in->place};
@@ -112,7 +120,7 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
 
 static bool is_condition(JoxOp op) {
     return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS &&
-           op != JOX_OP_QUEUED;
+           op != JOX_OP_OF && op != JOX_OP_QUEUED;
 }
 
 /* Prints the result of an instruction, which is `value` for the agent. */

@@ -129,6 +129,7 @@ void jox_machine_free(JoxMachine *m) {
     jox_free(m->own);
     jox_free(m->memory);
     jox_free(m->counters);
+    jox_free(m->sightings);
     jox_free(m->renamed);
     for (uint32_t f = 0; f < m->file_count; f++)
         jox_free(m->files[f]);

@@ -79,9 +79,11 @@ typedef enum JoxNow {
    target exists within perception. HAS: the agent holds target, a body or an agent. HEARD: another
    agent within perception, and within a metres, gave the signal `name` in the last step.
    NEIGHBOURS: number of neighbours that match target. THEIRS: memory `name` of the agent that is
-   the target, if its machine makes that public; else 0. SHUT: a gate at place is closed, and the
-   agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the gates called `name` are
-   open. Agents behind a wall are not seen, heard or touched. */
+   the target, if its machine makes that public; else 0. OF: what is measured of the target, a
+   JoxNow in `arg`; 0 if there is none. EXISTS: target is in the world, seen or not. SAME: target
+   and `place`, a second target, are the same person, body or place. SHUT: a gate at place is
+   closed, and the agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the gates
+   called `name` are open. Agents behind a wall are not seen, heard or touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -91,7 +93,7 @@ typedef enum JoxNow {
     X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(JOINED) X(AFTER)      \
     X(LASTED) X(STUCK) X(TOUCHES) X(FALLEN) X(GROUNDED) X(KICKED) X(HIT_BY)     \
     X(INCOMING) X(SEES)                                                         \
-    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(SHUT)                             \
+    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(OF) X(EXISTS) X(SAME) X(SHUT)     \
     X(QUEUED) X(OPEN)
 /* clang-format on */
 
@@ -128,8 +130,35 @@ typedef enum JoxTargetKind {
     JOX_TARGET_OPPONENT,   /* nearest seen agent of another team */
     JOX_TARGET_TEAMMATE,   /* nearest seen agent of the same team */
     JOX_TARGET_ANYONE,     /* nearest seen agent */
-    JOX_TARGET_HOME        /* the agent's own post: the position at which it entered the world */
+    JOX_TARGET_MEMORY,     /* arg: slot of memory that holds somebody */
+    JOX_TARGET_HOLDING,    /* the body that the agent carries, else the agent that it holds on to */
+    JOX_TARGET_STRIKER,    /* the agent that kicked or threw the body which hit this one in the last
+                              step, else the body */
+    JOX_TARGET_OTHER,      /* in the score of a target: the candidate */
+    JOX_TARGET_NOBODY,     /* never there */
+    JOX_TARGET_HOME,       /* the agent's own post: the position at which it entered the world */
+    JOX_TARGET_LAST_SEEN   /* arg: index of a sighting; the point where the agent last saw it */
 } JoxTargetKind;
+
+/* Returns whether a target of this kind is a person or a body, or may be one; others are places and
+   points. */
+static inline bool jox_target_kind_moves(JoxTargetKind kind) {
+    return kind >= JOX_TARGET_NEAREST && kind <= JOX_TARGET_NOBODY;
+}
+/* Returns whether a target of this kind chooses among those that the agent sees. */
+static inline bool jox_target_kind_chooses(JoxTargetKind kind) {
+    return kind >= JOX_TARGET_NEAREST && kind <= JOX_TARGET_ANYONE;
+}
+/* Returns whether a target of this kind is a place, or may be one. */
+static inline bool jox_target_kind_is_place(JoxTargetKind kind) {
+    return kind < JOX_TARGET_NEAREST || kind == JOX_TARGET_MEMORY;
+}
+
+/* Somebody as a number, which memory holds: nobody; 1 + id of an agent; JOX_WHO_BODY + id of a
+   body; JOX_WHO_PLACE + index of a place. Neither ids of agents nor of bodies are used twice. */
+#define JOX_NOBODY 0.0
+#define JOX_WHO_BODY 8589934592.0   /* 2^33 */
+#define JOX_WHO_PLACE 17179869184.0 /* 2^34 */
 
 /* Filter on the agents and bodies that a target accepts. All zero accepts all. */
 typedef struct JoxAgentFilter {
@@ -139,7 +168,10 @@ typedef struct JoxAgentFilter {
     double least, greatest;         /* accepted range of the memory value */
     bool flies;                     /* bodies in the air alone, and no agents */
     bool fallen;                    /* agents that lie after a fall alone */
-    float comes; /* m: what passes within this distance alone (jox_pass_distance); 0: anything */
+    float comes;  /* m: what passes within this distance alone (jox_pass_distance); 0: anything */
+    float within; /* m: what is nearer than this alone; 0: any distance */
+    float ahead;  /* degrees: what lies within this angle of where the agent looks alone; 0: any
+                     direction */
 } JoxAgentFilter;
 
 typedef struct JoxTarget {
@@ -147,6 +179,7 @@ typedef struct JoxTarget {
     int32_t arg;
     char *name; /* as written: place, own, or tag name */
     JoxAgentFilter filter;
+    int32_t score; /* 1 + expression by which the best of those seen is chosen; 0: the nearest */
 } JoxTarget;
 
 typedef enum JoxValueKind {
@@ -212,6 +245,7 @@ typedef struct JoxActions {
     struct JoxAssign {
         int32_t slot; /* memory slot */
         JoxValue value;
+        int16_t target; /* somebody, in place of `value`; -1: none */
     } * set;
     uint32_t set_count;
     int16_t signal; /* name of the signal to give; -1 none */
@@ -286,10 +320,20 @@ typedef struct JoxOwnSlot {
     uint32_t source;                  /* index of that file in the machine's `files` */
 } JoxOwnSlot;
 
-typedef enum { JOX_MEMORY_NUMBER, JOX_MEMORY_BOOLEAN } JoxMemoryKind;
-/* Prefixes that turn the name of a counter's memory into the identities of its two hidden slots. */
+typedef enum {
+    JOX_MEMORY_NUMBER,
+    JOX_MEMORY_BOOLEAN,
+    JOX_MEMORY_SOMEBODY, /* a person, body or place: see JOX_WHO_BODY */
+    JOX_MEMORY_KINDS
+} JoxMemoryKind;
+/* Prefixes that turn the name of memory into the identities of hidden slots: of a counter, turned
+   angle and whether it has begun; of a sighting, who was seen, and where. */
 #define JOX_IDENTITY_ANGLE "\1"
 #define JOX_IDENTITY_BEGUN "\2"
+#define JOX_IDENTITY_SEEN "\3"
+#define JOX_IDENTITY_SEEN_X "\4"
+#define JOX_IDENTITY_SEEN_Y "\5"
+#define JOX_LAST_IDENTITY '\5'
 /* Greatest number of dormant slots of a machine, memory that no name refers to any more; beyond it
    the oldest are dropped. */
 enum { JOX_MOST_DORMANT = 64 };
@@ -312,6 +356,12 @@ typedef struct JoxCounter {
     int32_t value, angle, begun;
     int32_t state; /* state in which it counts; -1: all states */
 } JoxCounter;
+
+/* Where an agent last saw what a slot of memory holds. Uses memory slots `who`, for whom the
+   position is valid, x and y, m. */
+typedef struct JoxSighting {
+    int32_t memory, who, x, y;
+} JoxSighting;
 
 /* Uses of names that all machines of a set share: signals, and names of states, machines and memory
    by which behaviours refer to other agents. */
@@ -370,6 +420,8 @@ typedef struct JoxMachine {
     uint32_t name_number; /* number of its own name in the set; assigned when it is added */
     JoxCounter *counters;
     uint32_t counter_count;
+    JoxSighting *sightings;
+    uint32_t sighting_count;
     JoxName *names;
     uint32_t name_count;
     JoxBelonging *belongings; /* tags and teams that it names */
@@ -404,6 +456,11 @@ int jox_machine_state(const JoxMachine *machine, const char *name);
    identity. */
 static inline const char *jox_memory_identity(const JoxMemorySlot *slot) {
     return *slot->name ? slot->name : slot->identity ? slot->identity : "";
+}
+/* Returns the name of the memory to which a hidden slot belongs, by its identity; NULL if the
+   identity is not that of a hidden slot. */
+static inline const char *jox_identity_owner(const char *identity) {
+    return *identity && *identity <= JOX_LAST_IDENTITY ? identity + 1 : NULL;
 }
 /* Returns the memory slot of a name, or -1; slots without a name are never found. */
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name);

@@ -32,7 +32,10 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT((op != JOX_OP_QUEUED && op != JOX_OP_ARRIVED) || in->place >= 0);
     JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_THEIRS && op != JOX_OP_OPEN) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));
-    JOX_ASSERT((op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS) || in->target >= 0);
+    JOX_ASSERT((op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS && op != JOX_OP_OF) ||
+               in->target >= 0);
+    JOX_ASSERT(op != JOX_OP_OF || (in->arg >= 0 && in->arg < JOX_NOW_COUNT));
+    JOX_ASSERT(op != JOX_OP_SAME || (in->target >= 0 && in->place >= 0));
 }
 
 /* Asserts that an expression reads only registers it has written, and that its last instruction
@@ -62,6 +65,7 @@ static void check_actions(const JoxMachine *m, const JoxActions *actions) {
     JOX_ASSERT(is_index(actions->signal, m->name_count));
     for (uint32_t n = 0; n < actions->set_count; n++) {
         JOX_ASSERT((uint32_t)actions->set[n].slot < m->memory_count);
+        JOX_ASSERT(is_index(actions->set[n].target, m->target_count));
         check_value(m, &actions->set[n].value);
     }
 }
@@ -120,6 +124,10 @@ void jox_machine_check(const JoxMachine *m) {
             (target->kind != JOX_TARGET_OWN_PLACE && target->kind != JOX_TARGET_ONE_OF_OWN) ||
             (uint32_t)target->arg < m->own_count);
         JOX_ASSERT(target->kind != JOX_TARGET_NEAREST || (target->arg >= 0 && target->arg < 64));
+        JOX_ASSERT(target->kind != JOX_TARGET_MEMORY || (uint32_t)target->arg < m->memory_count);
+        JOX_ASSERT(target->kind != JOX_TARGET_LAST_SEEN ||
+                   (uint32_t)target->arg < m->sighting_count);
+        JOX_ASSERT(target->score >= 0 && (uint32_t)target->score <= m->expression_count);
         JOX_ASSERT(target->kind != JOX_TARGET_HOME || (m->home && m->home < m->memory_count));
         const JoxAgentFilter *filter = &target->filter;
         JOX_ASSERT(!filter->some || (is_index(filter->state, m->name_count) &&

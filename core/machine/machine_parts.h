@@ -120,6 +120,36 @@ static inline double *jox_home_position(const JoxMachineRun *run, uint32_t agent
 /* Makes the agent's present position its post. */
 void jox_set_home_post(JoxMachineRun *run, uint32_t agent);
 
+/* somebody.c: what a number that means somebody is at present: the row of a body, the index of a
+   place; -1 if it is something else or is gone. */
+int32_t jox_who_row(const JoxMachineRun *run, double who);
+int32_t jox_who_place(const JoxMachineRun *run, double who);
+/* Returns the body that the agent carries, else the agent that it holds on to. */
+double jox_who_is_held(const JoxMachineRun *run, uint32_t agent);
+/* Returns the agent that threw or kicked the body which struck this one in the last step, else that
+   body. */
+double jox_who_struck(const JoxMachineRun *run, uint32_t agent);
+/* Notes which agent kicked or threw a body, by their ids. */
+void jox_throwers_note(JoxMachineRun *run, uint32_t body, uint32_t agent);
+/* target.c: notes where agents see those whom they remember, for machines that ask for it. */
+void jox_sightings_note(JoxMachineRun *run);
+/* Notes the same for one agent. */
+void jox_sightings_note_agent(const JoxMachineRun *run, uint32_t agent);
+/* Returns who or what a target is for an agent. What it remembers, holds or was struck by it knows
+   out of sight, too, unless the target has a filter. */
+double jox_target_who(const JoxMachineRun *run, uint32_t agent, int32_t index);
+/* Returns the spot of somebody, seen or not. */
+JoxSpot jox_who_spot(const JoxMachineRun *run, uint32_t agent, double who);
+/* Makes a spot the candidate that `other` means in this thread; NULL: none. */
+void jox_target_consider(const JoxSpot *candidate);
+/* Returns what is measured of a target: of a place or body only its position and speed; 0 if it is
+   not there. */
+double jox_target_measure(const JoxMachineRun *run, uint32_t agent, int32_t index, JoxNow what);
+
+/* best_of.c: returns the candidate with the greatest score among those that the agent sees and that
+   match the target; of equal ones agents before bodies, by ascending id. */
+JoxSpot jox_find_best(const JoxMachineRun *run, uint32_t agent, const JoxTarget *target);
+
 /* Resolves target `index` of the agent's machine; index -1 is the agent itself. */
 JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* Returns the place that a target names for this agent, or -1. */
@@ -175,6 +205,10 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Evaluates an expression for `count` agents of one machine; results in registers[0]. */
 void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,
               const uint32_t *agents, uint32_t count, JoxRegisters registers);
+/* Evaluates a score of one agent for `count` candidates, at most JOX_BATCH; results in
+   registers[0]. */
+void jox_eval_scores(const JoxMachineRun *run, uint32_t agent, const JoxExpression *score,
+                     const JoxSpot *candidates, uint32_t count, JoxRegisters registers);
 /* Returns whether all values of a condition are 0. */
 bool jox_holds_for_nobody(const double *values, uint32_t count);
 /* Returns a value for one agent: a constant, an own value, or an expression. */
@@ -226,6 +260,22 @@ bool jox_is_behind_body(const JoxMachineRun *run, JoxV2 from, JoxV2 to, int32_t 
 bool jox_is_hidden_by(const JoxMachineRun *run, uint32_t but, JoxV2 from, JoxV2 to, bool touched);
 /* Finds the first closed wall between two points: true with its unit normal. */
 bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *normal);
+/* Returns whether something at `offset` from agent i, m, moving at `velocity`, m/s, passes the
+   filter's conditions on distance and direction. */
+bool jox_passes_view(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
+                     JoxV2 offset, JoxV2 velocity);
+/* Returns whether agent i has agent j, or body `row`, within perception and in sight. */
+bool jox_sees_agent(const JoxMachineRun *run, uint32_t i, uint32_t j);
+bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row);
+/* Returns whether agent j passes the filter of a target of i's machine. */
+bool jox_passes_filter(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
+                       uint32_t j);
+/* Writes the agents that agent i sees and that match a target, nearest first; returns how many. */
+uint32_t jox_list_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+                         uint32_t found[JOX_SMALL_CROWD]);
+/* Returns whether a body matches a target that chooses by tag, seen or not. */
+bool jox_is_wanted_body(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+                        const JoxObject *object);
 /* Returns whether agent j, which agent i sees, matches a target of i's machine. */
 bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j);
 /* Returns the number of neighbours that match a target. */

@@ -74,6 +74,7 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "announced", state->announced, state->announced_count,
                       state->announced_capacity);
     JOX_SECTION_ARRAY(s, "pending", state->pending, state->pending_count, state->pending_capacity);
+    JOX_SECTION_ARRAY(s, "thrown", state->thrown, state->thrown_count, state->thrown_capacity);
     JOX_SECTION_ARRAY(s, "edits", state->edits, state->edit_count, state->edit_capacity);
     for (uint32_t m = 0; run->hook_sections && m < set->count; m++)
         run->hook_sections(run->call_context, set->built[m], s);

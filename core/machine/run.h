@@ -51,6 +51,11 @@ typedef struct JoxSignal {
     float x, y; /* m */
 } JoxSignal;
 
+/* The agent that kicked or threw a body last. */
+typedef struct JoxThrown {
+    uint32_t body, agent; /* ids */
+} JoxThrown;
+
 /* A body that an agent picks up or lets go. */
 typedef struct JoxGrip {
     uint32_t object, agent_id;
@@ -160,6 +165,9 @@ typedef struct JoxMachineState {
                           spawning */
     uint32_t pending_count;
     size_t pending_capacity;
+    JoxThrown *thrown; /* bodies that agents kicked or threw, the last one last */
+    uint32_t thrown_count;
+    size_t thrown_capacity;
     JoxParameterEdit *edits; /* in the order of setting, at most one per parameter */
     uint32_t edit_count;
     size_t edit_capacity;
@@ -309,6 +317,13 @@ enum { JOX_SMALL_CROWD = 64 };
    how many. */
 uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
                            uint32_t seen[JOX_SMALL_CROWD]);
+/* Returns whether memory that holds somebody (JOX_WHO_BODY in machine.h) means one who is in the
+   world; `who` of an agent is 1 + its id. */
+bool jox_who_exists(const JoxMachineRun *run, double who);
+/* Returns the index of the agent that it means, or JOX_NO_INDEX. */
+uint32_t jox_who_agent(const JoxMachineRun *run, double who);
+/* Appends whom it means: "agent 17", "body 'ball'", "place 'gate'", "nobody". */
+void jox_who_print(const JoxMachineRun *run, double who, JoxText *out);
 /* Gives a signal (by number) that all agents hear in the next think, wherever they are. */
 void jox_machines_announce(JoxMachineRun *run, uint32_t name);
 /* Returns the place that an agent heads for by a distance field in its state and has not reached;

@@ -107,17 +107,18 @@ bool jox_holds_target(const JoxMachineRun *run, uint32_t i, int32_t target) {
         return false;
     const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
     const uint32_t j = jox_agents_find(run->agents, grasped - 1);
-    return j != JOX_NO_INDEX && t->kind >= JOX_TARGET_NEAREST && t->kind != JOX_TARGET_HOME &&
-           jox_is_wanted(run, t, i, j);
+    if (j == JOX_NO_INDEX || !jox_target_kind_moves(t->kind))
+        return false;
+    return jox_target_kind_chooses(t->kind) ? jox_is_wanted(run, t, i, j)
+                                            : jox_target_who(run, i, target) == grasped;
 }
 
 int32_t jox_held_body_row(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JOX_ASSERT(target >= 0 && target < (int32_t)jox_machine_of(run, i)->target_count);
-    const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
     for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
         const JoxObject *object = &run->objects->rows[o];
         if (object->live && object->held && object->holder == run->agents->id[i] &&
-            (t->kind != JOX_TARGET_NEAREST || (object->tags >> t->arg & 1)))
+            jox_target_means(run, i, target, (int32_t)o))
             return (int32_t)o;
     }
     return -1;

@@ -2,6 +2,8 @@
    match a target. */
 #include <math.h>
 
+#include "base/number/elementary.h"
+#include "base/number/pi.h"
 #include "geom/polygon.h"
 #include "geom/wall_grid.h"
 #include "machine/machine_parts.h"
@@ -116,9 +118,9 @@ double jox_public_memory(const JoxMachineRun *run, uint32_t agent, uint32_t name
     return NAN;
 }
 
-/* Returns whether agent j passes the filter of a target; names are those of agent i's machine. */
-static bool passes_filter(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
-                          uint32_t j) {
+/* Names are those of agent i's machine. */
+static bool passes_names(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
+                         uint32_t j) {
     const JoxAgents *a = run->agents;
     const JoxName *names = jox_machine_of(run, i)->names;
     if ((filter->group >= 0 && a->group[j] != filter->group) ||
@@ -156,16 +158,63 @@ static bool is_of_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, 
     }
 }
 
-bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j) {
+bool jox_passes_view(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
+                     JoxV2 offset, JoxV2 velocity) {
+    if (filter->comes > 0.0f && !(jox_pass_distance(offset, velocity) < filter->comes))
+        return false;
+    if (filter->within > 0.0f && !(jox_length2(offset) < filter->within * filter->within))
+        return false;
+    if (filter->ahead == 0.0f)
+        return true;
+    const JoxV2 looks = {run->agents->face_x[i], run->agents->face_y[i]};
+    const float least = (float)jox_cos((double)filter->ahead * JOX_DEGREE);
+    return jox_dot(looks, offset) >= least * jox_length(offset);
+}
+
+bool jox_passes_filter(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
+                       uint32_t j) {
     const JoxAgents *a = run->agents;
-    if (!is_of_kind(a, target, i, j) ||
-        (target->filter.some && !passes_filter(run, &target->filter, i, j)))
-        return false;
-    const JoxV2 offset = jox_offset(a, i, j), from = {a->x[i], a->y[i]}, to = jox_add(from, offset);
-    if (target->filter.comes > 0.0f &&
-        !(jox_pass_distance(offset, jox_v2(a->vx[j], a->vy[j])) < target->filter.comes))
-        return false;
+    return (!filter->some || passes_names(run, filter, i, j)) &&
+           jox_passes_view(run, filter, i, jox_offset(a, i, j), jox_v2(a->vx[j], a->vy[j]));
+}
+
+/* Returns whether agent i sees agent j, however far away it is. */
+static bool has_in_sight(const JoxMachineRun *run, uint32_t i, uint32_t j) {
+    const JoxV2 from = {run->agents->x[i], run->agents->y[i]},
+                to = jox_add(from, jox_offset(run->agents, i, j));
     return !jox_is_hidden(run, from, to, false) && !jox_is_behind_body(run, from, to, -1);
+}
+
+bool jox_sees_agent(const JoxMachineRun *run, uint32_t i, uint32_t j) {
+    const float reach = jox_param(run->agents, JOX_PARAM_perception, i);
+    return jox_length2(jox_offset(run->agents, i, j)) <= reach * reach && has_in_sight(run, i, j);
+}
+
+bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row) {
+    const JoxAgents *a = run->agents;
+    const JoxObject *body = &run->objects->rows[row];
+    const JoxV2 from = {a->x[i], a->y[i]}, to = {body->position.x, body->position.y};
+    const float reach = jox_param(a, JOX_PARAM_perception, i);
+    if (!(jox_length2(jox_sub(to, from)) < reach * reach))
+        return false;
+    return !body->in_band || (!jox_is_hidden(run, from, to, false) &&
+                              !jox_is_behind_body(run, from, to, (int32_t)row));
+}
+
+bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j) {
+    return is_of_kind(run->agents, target, i, j) && jox_passes_filter(run, &target->filter, i, j) &&
+           has_in_sight(run, i, j);
+}
+
+bool jox_is_wanted_body(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+                        const JoxObject *object) {
+    const JoxAgents *a = run->agents;
+    const JoxV2 offset = {object->position.x - a->x[i], object->position.y - a->y[i]};
+    return target->kind == JOX_TARGET_NEAREST && !target->filter.some && object->live &&
+           (object->tags >> target->arg & 1) &&
+           (!target->filter.flies || jox_object_flies(object)) &&
+           jox_passes_view(run, &target->filter, i, offset,
+                           jox_v2(object->velocity.x, object->velocity.y));
 }
 
 /* In a small crowd, adds the agents within perception that are not among the neighbours of agent i,
@@ -197,9 +246,8 @@ static uint32_t add_others(const JoxMachineRun *run, const JoxTarget *target, ui
     return count;
 }
 
-/* Lists the agents that agent i sees and that match a target, nearest first; returns how many. */
-static uint32_t list_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
-                            uint32_t found[JOX_SMALL_CROWD]) {
+uint32_t jox_list_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
+                         uint32_t found[JOX_SMALL_CROWD]) {
     const JoxNeighbours *n = run->neighbours;
     uint32_t count = 0;
     for (uint32_t k = 0; k < n->count[i]; k++) {
@@ -213,10 +261,10 @@ static uint32_t list_wanted(const JoxMachineRun *run, const JoxTarget *target, u
 uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
                            uint32_t seen[JOX_SMALL_CROWD]) {
     const JoxTarget anyone = {.kind = JOX_TARGET_ANYONE};
-    return list_wanted(run, &anyone, agent, seen);
+    return jox_list_wanted(run, &anyone, agent, seen);
 }
 
 uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t target) {
     uint32_t found[JOX_SMALL_CROWD];
-    return list_wanted(run, &jox_machine_of(run, i)->targets[target], i, found);
+    return jox_list_wanted(run, &jox_machine_of(run, i)->targets[target], i, found);
 }

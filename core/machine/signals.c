@@ -85,12 +85,14 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
     JoxAgents *a = run->agents;
     for (uint32_t n = 0; n < actions->set_count; n++) {
         const struct JoxAssign *assign = &actions->set[n];
-        double value = jox_value(run, machine, &assign->value, i);
+        const double value = assign->target >= 0 ? jox_target_who(run, i, assign->target)
+                                                 : jox_value(run, machine, &assign->value, i);
         if (isfinite(value))
             a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = value;
         else
             jox_odd_note(run, i, JOX_ACTION_MEMORY + assign->slot, &assign->value, value);
     }
+    jox_sightings_note_agent(run, i);
     if (run->watched_count)
         jox_watch_actions(run, machine, actions, i);
     if (actions->sets_team)

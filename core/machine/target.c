@@ -11,6 +11,13 @@ static inline int32_t keep_valid_place(const JoxMachineRun *run, int32_t place) 
     return place >= 0 && (uint32_t)place < run->place_count ? place : -1;
 }
 
+/* Returns whom a target that is memory holds. */
+static inline double get_remembered(const JoxMachineRun *run, const JoxTarget *target,
+                                    uint32_t agent) {
+    const JoxAgents *a = run->agents;
+    return a->memory[(size_t)agent * a->memory_stride + (uint32_t)target->arg];
+}
+
 /* Returns the place that a target is for one agent, or -1. */
 static inline int32_t resolve_place(const JoxMachineRun *run, const JoxTarget *target,
                                     uint32_t agent) {
@@ -22,6 +29,8 @@ static inline int32_t resolve_place(const JoxMachineRun *run, const JoxTarget *t
     else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF ||
              target->kind == JOX_TARGET_ONE_OF_OWN)
         place = run->agents->goal[agent];
+    else if (target->kind == JOX_TARGET_MEMORY)
+        place = jox_who_place(run, get_remembered(run, target, agent));
     return keep_valid_place(run, place);
 }
 
@@ -102,26 +111,6 @@ static uint32_t find_nearest_agent(const JoxMachineRun *run, const JoxTarget *ta
     return best;
 }
 
-/* Returns whether a wall or another body hides a body; a body in the air is seen above lower
-   ones. */
-static bool is_out_of_sight(const JoxMachineRun *run, uint32_t i, const JoxObject *object) {
-    const JoxV2 from = {run->agents->x[i], run->agents->y[i]};
-    const JoxV2 to = {object->position.x, object->position.y};
-    return object->in_band &&
-           (jox_is_hidden(run, from, to, false) ||
-            jox_is_behind_body(run, from, to, (int32_t)(object - run->objects->rows)));
-}
-
-/* Returns whether a body bears the tag of a target and passes its filter. */
-static bool is_wanted_body(const JoxTarget *target, const JoxObject *object, JoxV2 offset) {
-    const JoxAgentFilter *filter = &target->filter;
-    return object->live && (object->tags >> target->arg & 1) &&
-           (!filter->flies || jox_object_flies(object)) &&
-           (filter->comes == 0.0f ||
-            jox_pass_distance(offset, jox_v2(object->velocity.x, object->velocity.y)) <
-                filter->comes);
-}
-
 static int32_t find_nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
                                    float *distance2) {
     const JoxAgents *a = run->agents;
@@ -132,8 +121,8 @@ static int32_t find_nearest_object(const JoxMachineRun *run, const JoxTarget *ta
         const JoxObject *object = &run->objects->rows[o];
         const JoxV2 offset = {object->position.x - a->x[i], object->position.y - a->y[i]};
         const float d2 = jox_length2(offset);
-        if (d2 < *distance2 && is_wanted_body(target, object, offset) &&
-            !is_out_of_sight(run, i, object)) {
+        if (d2 < *distance2 && jox_is_wanted_body(run, target, i, object) &&
+            jox_sees_body(run, i, o)) {
             *distance2 = d2;
             best = (int32_t)o;
         }
@@ -141,34 +130,169 @@ static int32_t find_nearest_object(const JoxMachineRun *run, const JoxTarget *ta
     return best;
 }
 
-JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
-    JoxSpot none = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
+static const JoxSpot NO_SPOT = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
+
+/* Returns the spot of a place for an agent: its nearest point. */
+static JoxSpot make_place_spot(const JoxMachineRun *run, uint32_t i, int32_t place) {
+    if (place < 0)
+        return NO_SPOT;
+    const JoxV2 own = {run->agents->x[i], run->agents->y[i]};
+    const JoxV2 p = jox_place_nearest(run->places, (uint32_t)place, own);
+    return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
+}
+
+/* Returns the spot of a point. */
+static JoxSpot make_point_spot(double x, double y) {
+    return (JoxSpot){true, (float)x, (float)y, 0, 0, 0, 0, -1, -1, JOX_NO_INDEX};
+}
+
+JoxSpot jox_who_spot(const JoxMachineRun *run, uint32_t i, double who) {
+    const uint32_t agent = jox_who_agent(run, who);
+    if (agent != JOX_NO_INDEX)
+        return make_agent_spot(run, i, agent);
+    const int32_t row = jox_who_row(run, who);
+    return row >= 0 ? make_object_spot(&run->objects->rows[row], row)
+                    : make_place_spot(run, i, jox_who_place(run, who));
+}
+
+/* The candidate that `other` means in this thread while a score is computed. */
+static _Thread_local const JoxSpot *considered;
+
+void jox_target_consider(const JoxSpot *candidate) {
+    considered = candidate;
+}
+
+static double find_spot_who(const JoxMachineRun *run, const JoxSpot *spot) {
+    if (spot->agent != JOX_NO_INDEX)
+        return 1.0 + run->agents->id[spot->agent];
+    if (spot->object >= 0)
+        return JOX_WHO_BODY + run->objects->rows[spot->object].id;
+    return spot->place >= 0 ? JOX_WHO_PLACE + spot->place : JOX_NOBODY;
+}
+
+/* Returns whom a target means that names somebody and does not choose. */
+static double find_named_who(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
+    switch (target->kind) {
+    case JOX_TARGET_MEMORY:
+        return get_remembered(run, target, i);
+    case JOX_TARGET_HOLDING:
+        return jox_who_is_held(run, i);
+    case JOX_TARGET_STRIKER:
+        return jox_who_struck(run, i);
+    case JOX_TARGET_OTHER:
+        return considered ? find_spot_who(run, considered) : JOX_NOBODY;
+    default:
+        return JOX_NOBODY;
+    }
+}
+
+/* Returns the spot of somebody whom a target names, if the agent sees it and the filter accepts it.
+   What an agent holds it knows unseen. */
+static JoxSpot find_named_spot(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
+    const JoxAgentFilter *filter = &target->filter;
+    const JoxSpot spot = jox_who_spot(run, i, find_named_who(run, target, i));
+    const bool feels = target->kind == JOX_TARGET_HOLDING;
+    if (!spot.found || spot.place >= 0)
+        return spot;
+    if (spot.agent != JOX_NO_INDEX)
+        return !filter->flies && (feels || jox_sees_agent(run, i, spot.agent)) &&
+                       jox_passes_filter(run, filter, i, spot.agent)
+                   ? spot
+                   : NO_SPOT;
+    const JoxV2 offset = {spot.x - run->agents->x[i], spot.y - run->agents->y[i]};
+    return !filter->some &&
+                   (!filter->flies || jox_object_flies(&run->objects->rows[spot.object])) &&
+                   jox_passes_view(run, filter, i, offset, jox_v2(spot.vx, spot.vy)) &&
+                   (feels || jox_sees_body(run, i, (uint32_t)spot.object))
+               ? spot
+               : NO_SPOT;
+}
+
+/* Returns the nearest of those that an agent sees and that match a target. */
+static JoxSpot find_nearest_spot(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
+    float object_d2 = INFINITY;
+    const int32_t object = target->kind == JOX_TARGET_NEAREST && !target->filter.some
+                               ? find_nearest_object(run, target, i, &object_d2)
+                               : -1;
+    const uint32_t other = target->filter.flies ? JOX_NO_INDEX : find_nearest_agent(run, target, i);
+    if (other != JOX_NO_INDEX &&
+        (object < 0 || jox_length2(jox_offset(run->agents, i, other)) < object_d2))
+        return make_agent_spot(run, i, other);
+    return object >= 0 ? make_object_spot(&run->objects->rows[object], object) : NO_SPOT;
+}
+
+/* Returns the point where an agent last saw what it remembers. */
+static JoxSpot find_last_seen(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
     const JoxAgents *a = run->agents;
+    const double *memory = a->memory + (size_t)i * a->memory_stride;
+    const JoxSighting *sighting = &jox_machine_of(run, i)->sightings[target->arg];
+    if (memory[sighting->who] == JOX_NOBODY || memory[sighting->who] != memory[sighting->memory])
+        return NO_SPOT;
+    return make_point_spot(memory[sighting->x], memory[sighting->y]);
+}
+
+JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     if (index < 0)
         return make_agent_spot(run, i, i);
     JOX_ASSERT((uint32_t)index < jox_machine_of(run, i)->target_count);
     const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
-    if (target->kind < JOX_TARGET_NEAREST) {
-        int32_t place = jox_target_place(run, i, index);
-        if (place < 0)
-            return none;
-        JoxV2 p = jox_place_nearest(run->places, (uint32_t)place, (JoxV2){a->x[i], a->y[i]});
-        return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
+    if (jox_target_kind_chooses(target->kind))
+        return target->score ? jox_find_best(run, i, target) : find_nearest_spot(run, target, i);
+    if (jox_target_kind_moves(target->kind))
+        return find_named_spot(run, target, i);
+    if (target->kind == JOX_TARGET_LAST_SEEN)
+        return find_last_seen(run, target, i);
+    if (target->kind == JOX_TARGET_HOME)
+        return make_point_spot(jox_home_position(run, i)[0], jox_home_position(run, i)[1]);
+    return make_place_spot(run, i, jox_target_place(run, i, index));
+}
+
+static bool has_filter(const JoxAgentFilter *filter) {
+    return filter->some || filter->flies || filter->comes > 0.0f || filter->within > 0.0f ||
+           filter->ahead > 0.0f;
+}
+
+double jox_target_who(const JoxMachineRun *run, uint32_t i, int32_t index) {
+    const JoxTarget *target = index < 0 ? NULL : &jox_machine_of(run, i)->targets[index];
+    if (target && jox_target_kind_moves(target->kind) && !jox_target_kind_chooses(target->kind) &&
+        !has_filter(&target->filter)) {
+        const double who = find_named_who(run, target, i);
+        return jox_who_exists(run, who) ? who : JOX_NOBODY;
     }
-    if (target->kind == JOX_TARGET_HOME) {
-        const double *post = jox_home_position(run, i);
-        return (JoxSpot){true, (float)post[0], (float)post[1], 0, 0, 0, 0, -1, -1, JOX_NO_INDEX};
+    const JoxSpot spot = jox_target_find(run, i, index);
+    return spot.found ? find_spot_who(run, &spot) : JOX_NOBODY;
+}
+
+/* Updates where an agent last saw whom it remembers. */
+static void note_sighting(const JoxMachineRun *run, const JoxSighting *sighting, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    double *memory = a->memory + (size_t)i * a->memory_stride;
+    const double who = memory[sighting->memory];
+    if (who == JOX_NOBODY)
+        return;
+    const JoxSpot spot = jox_who_spot(run, i, who);
+    if (!spot.found || (spot.agent != JOX_NO_INDEX && !jox_sees_agent(run, i, spot.agent)) ||
+        (spot.object >= 0 && !jox_sees_body(run, i, (uint32_t)spot.object)))
+        return;
+    memory[sighting->who] = who;
+    memory[sighting->x] = spot.x;
+    memory[sighting->y] = spot.y;
+}
+
+void jox_sightings_note_agent(const JoxMachineRun *run, uint32_t i) {
+    const JoxMachine *machine = jox_machine_of(run, i);
+    for (uint32_t k = 0; k < machine->sighting_count; k++)
+        note_sighting(run, &machine->sightings[k], i);
+}
+
+void jox_sightings_note(JoxMachineRun *run) {
+    const JoxMachineScratch *s = run->scratch;
+    for (uint32_t b = 0; b < s->batch_count; b++) {
+        const JoxBatchRange *batch = &s->batches[b];
+        const JoxMachine *machine = run->set->items[batch->machine];
+        for (uint32_t n = 0; machine->sighting_count && n < batch->count; n++)
+            jox_sightings_note_agent(run, s->grouped[batch->begin + n]);
     }
-    float object_d2 = INFINITY;
-    int32_t object = target->kind == JOX_TARGET_NEAREST && !target->filter.some
-                         ? find_nearest_object(run, target, i, &object_d2)
-                         : -1;
-    const uint32_t other = target->filter.flies ? JOX_NO_INDEX : find_nearest_agent(run, target, i);
-    if (other != JOX_NO_INDEX) {
-        if (object < 0 || jox_length2(jox_offset(a, i, other)) < object_d2)
-            return make_agent_spot(run, i, other);
-    }
-    return object >= 0 ? make_object_spot(&run->objects->rows[object], object) : none;
 }
 
 bool jox_target_means(const JoxMachineRun *run, uint32_t i, int32_t index, int32_t row) {
@@ -176,8 +300,10 @@ bool jox_target_means(const JoxMachineRun *run, uint32_t i, int32_t index, int32
         return false;
     const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
     const JoxObject *object = &run->objects->rows[row];
-    return target->kind == JOX_TARGET_NEAREST && object->live &&
-           (object->tags >> target->arg & 1) != 0;
+    if (target->kind == JOX_TARGET_NEAREST)
+        return object->live && (object->tags >> target->arg & 1) != 0;
+    return object->live && jox_target_kind_moves(target->kind) &&
+           find_named_who(run, target, i) == JOX_WHO_BODY + object->id;
 }
 
 float jox_target_distance(const JoxMachineRun *run, uint32_t i, int32_t index) {
@@ -199,6 +325,32 @@ float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     const float torsos = spot->agent != JOX_NO_INDEX ? jox_torso_gap(a, i, spot->agent)
                                                      : jox_torso_distance(a, i, at) - spot->radius;
     return jox_minf(discs, torsos); /* hands and feet reach to the edge of the disc */
+}
+
+/* Returns one measured quantity of an agent. */
+static double measure_agent(const JoxMachineRun *run, uint32_t i, JoxNow what) {
+    const JoxAgents *a = run->agents;
+    switch (what) {
+#define X(name, word, unit, meaning, value)                                                        \
+    case JOX_NOW_##name:                                                                           \
+        return (value);
+        JOX_MEASURED(X)
+#undef X
+    case JOX_NOW_COUNT:
+        break;
+    }
+    return 0.0;
+}
+
+double jox_target_measure(const JoxMachineRun *run, uint32_t i, int32_t index, JoxNow what) {
+    const JoxSpot spot = jox_target_find(run, i, index);
+    if (!spot.found)
+        return 0.0;
+    if (what == JOX_NOW_x || what == JOX_NOW_y) /* across a joined edge if that is nearer */
+        return what == JOX_NOW_x ? spot.x : spot.y;
+    if (spot.agent != JOX_NO_INDEX)
+        return measure_agent(run, spot.agent, what);
+    return what == JOX_NOW_speed ? jox_length((JoxV2){spot.vx, spot.vy}) : 0.0;
 }
 
 JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t i) {

@@ -289,6 +289,7 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
             run->bracket(run->call_context, true);
         jox_machines_count_places(run);
         jox_arrivals_note(run);
+        jox_sightings_note(run);
         complete_entries(run);
         Think think = {run};
         if (run->agents->count) /* -1: no transition */

@@ -16,9 +16,12 @@ static int32_t find_slot(const JoxMachine *machine, const char *name, bool memor
     return slot < JOX_MOST_GIVEN ? slot : -1;
 }
 
-/* Whether a slot of own values takes a place where the value is a number, or the reverse. */
-static bool has_other_type(const JoxMachine *machine, int32_t slot, const JoxGroupValue *value) {
-    return machine->own[slot].is_place != (value->kind != JOX_SET_NUMBER);
+/* Whether a slot of own values takes a place where the value is a number, or the reverse; or a slot
+   of memory holds somebody, whom no scene can name. */
+static bool has_other_type(const JoxMachine *machine, int32_t slot, const JoxGroupValue *value,
+                           bool memory) {
+    return memory ? machine->memory[slot].kind == JOX_MEMORY_SOMEBODY
+                  : machine->own[slot].is_place != (value->kind != JOX_SET_NUMBER);
 }
 
 /* Finds the slots of values in all machines: an agent may become any of them. A slot of another
@@ -28,7 +31,7 @@ static void link_values(const JoxMachineSet *set, JoxGroupValue *values, uint32_
     for (uint32_t v = 0; v < count; v++)
         for (uint32_t m = 0; m < set->count; m++) {
             int32_t slot = find_slot(set->items[m], values[v].name, memory);
-            if (slot >= 0 && !memory && has_other_type(set->items[m], slot, &values[v]))
+            if (slot >= 0 && has_other_type(set->items[m], slot, &values[v], memory))
                 slot = -1;
             values[v].slots[m] = (uint16_t)(slot + 1);
         }
@@ -36,10 +39,18 @@ static void link_values(const JoxMachineSet *set, JoxGroupValue *values, uint32_
 
 /* Reports each value that a machine has as another type. */
 static void check_types(const JoxMachine *machine, const JoxGroupValue *values, uint32_t count,
-                        JoxSeverity severity, JoxDiagnostics *diagnostics) {
+                        bool memory, JoxSeverity severity, JoxDiagnostics *diagnostics) {
     for (uint32_t v = 0; v < count; v++) {
-        const int32_t slot = find_slot(machine, values[v].name, false);
-        if (slot >= 0 && has_other_type(machine, slot, &values[v]))
+        const int32_t slot = find_slot(machine, values[v].name, memory);
+        if (slot < 0 || !has_other_type(machine, slot, &values[v], memory))
+            continue;
+        if (memory)
+            jox_diag_add(diagnostics, severity, values[v].position, "bad-type",
+                         "The behaviour sets it, as set = { prey = nearest \"people\" }", NULL,
+                         NULL,
+                         "memory '%.60s' of behaviour %s holds somebody, whom a scene cannot name",
+                         values[v].name, machine->name);
+        else
             jox_diag_add(diagnostics, severity, values[v].position, "bad-type", NULL, NULL, NULL,
                          "'%.60s' of behaviour %s is a %s%s", values[v].name, machine->name,
                          machine->own[slot].is_place ? "place" : "number",
@@ -78,8 +89,7 @@ static void check_values(const JoxMachineSet *set, const JoxGroup *group,
         for (uint32_t v = 0; v < count; v++)
             if (find_slot(machine, values[v].name, memory) < 0)
                 report_unknown(machine, &values[v], memory, diagnostics);
-        if (!memory)
-            check_types(machine, values, count, JOX_SEVERITY_ERROR, diagnostics);
+        check_types(machine, values, count, memory, JOX_SEVERITY_ERROR, diagnostics);
     }
 }
 
@@ -136,10 +146,10 @@ void jox_run_check_value_types(const JoxSceneSpec *spec, const JoxMachine *const
             const JoxMachine *machine = find_loaded(machines, count, group->mix[m].behaviour);
             if (!machine)
                 continue;
-            check_types(machine, group->set, group->set_count, severity, diagnostics);
+            check_types(machine, group->set, group->set_count, false, severity, diagnostics);
             for (uint32_t p = 0; p < group->profile_count; p++)
-                check_types(machine, group->profiles[p].set, group->profiles[p].set_count, severity,
-                            diagnostics);
+                check_types(machine, group->profiles[p].set, group->profiles[p].set_count, false,
+                            severity, diagnostics);
         }
     }
 }

@@ -169,8 +169,8 @@ static void write_kept_slots(const JoxMachine *machine, JoxText *out) {
     for (uint32_t s = 0; s < machine->memory_count; s++)
         if (machine->memory[s].dormant && !strpbrk(machine->memory[s].identity, "\t\n"))
             jox_text_printf(out, "memory\t%s\t%d\t%a\t%s\n", machine->path,
-                            machine->memory[s].kind == JOX_MEMORY_BOOLEAN,
-                            machine->memory[s].initial, machine->memory[s].identity);
+                            (int)machine->memory[s].kind, machine->memory[s].initial,
+                            machine->memory[s].identity);
 }
 
 void jox_run_write_kept_names(const JoScene *scene, JoxText *out) {
@@ -220,12 +220,12 @@ static void restore_kept_slot(JoxMachine *machine, char *line) {
         numbers[n] = strtod(value, &value);
         value += *value == ' ';
     }
-    const bool boolean = *number == '1';
+    const int kind = *number - '0';
     if (strcmp(line, "own") == 0)
         restore_own_slot(machine, number, numbers, name);
-    else if (strcmp(line, "memory") == 0 && machine->memory_count < 64 + 3 * JOX_MOST_DORMANT)
-        jox_dormant_add(machine, name, boolean ? JOX_MEMORY_BOOLEAN : JOX_MEMORY_NUMBER,
-                        numbers[0]);
+    else if (strcmp(line, "memory") == 0 && kind >= 0 && kind < JOX_MEMORY_KINDS &&
+             machine->memory_count < 64 + 3 * JOX_MOST_DORMANT)
+        jox_dormant_add(machine, name, (JoxMemoryKind)kind, numbers[0]);
 }
 
 void jox_run_restore_kept_slots(JoxMachine *machine) {

@@ -81,6 +81,22 @@ function Number:incoming(metres) end
 ---@param metres number
 ---@return jostle.Target
 function Target:incoming(metres) end
+--- restricts a target, or `neighbours`, to what is nearer than this distance, m, between centres
+---@param name string
+---@return jostle.Number
+function Number:within(name) end
+--- restricts a target, or `neighbours`, to what is nearer than this distance, m, between centres
+---@param name string
+---@return jostle.Target
+function Target:within(name) end
+--- restricts them to what lies ahead: within this angle, degrees, to either side of where the agent looks
+---@param name string
+---@return jostle.Number
+function Number:ahead(name) end
+--- restricts them to what lies ahead: within this angle, degrees, to either side of where the agent looks
+---@param name string
+---@return jostle.Target
+function Target:ahead(name) end
 
 ---@class jostle.Drawn
 
@@ -119,7 +135,7 @@ function Target:incoming(metres) end
 ---@field throw? table throws the body that it carries, from its own side of walls
 ---@field colour? string colour of agents in this state where people are coloured by state; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes. Default: one is chosen
 ---@field signal? string|table signal that the agent gives on entering, and again after each interval with { name, every = seconds }
----@field set? table values to set on entering: memory = number, condition or true/false; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
+---@field set? table values to set on entering: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
 ---@field counts? table memory that counts while the agent is in this state; see `circuits`
 ---@field on_enter? fun(me: jostle.Me) called when an agent enters the state
 ---@field on_exit? fun(me: jostle.Me) called when an agent leaves the state
@@ -254,6 +270,17 @@ function incoming(a1, a2) end
 ---@param a1 jostle.Target
 ---@return jostle.Condition
 function kicked(a1) end
+
+--- `exists(target)`: there is such a person, body or place. Whom the agent remembers it knows to be in the world out of sight, too, unless the target has a filter; who has left the world does not exist
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function exists(a1) end
+
+--- `same(target, target)`: both targets are the same person, body or place; false if there is none
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function same(a1, a2) end
 
 --- `has(target)`: the agent carries the body (see `take`), or holds on to an agent that the target selects (see `grasp`)
 ---@param a1 jostle.Target
@@ -390,6 +417,28 @@ own = {}
 ---@return jostle.Target
 function nearest(a1) end
 
+--- `best(tag, score)`: of those that `nearest` chooses from, the one with the greatest score, a number in which `other` is the candidate; of equal ones agents before bodies, by ascending id
+---@param a1 string
+---@param a2 number|jostle.Number
+---@return jostle.Target
+function best(a1, a2) end
+
+--- `other`: in the score of `best`: the candidate
+---@type jostle.Target
+other = nil
+
+--- `nobody`: no person, body or place: memory that begins with it holds somebody, as `set = { prey = nearest "people" }`; a target everywhere else, which is not there once that person or body has left the world
+---@type jostle.Target
+nobody = nil
+
+--- `holding`: the body that the agent carries (see `take`), else the agent that it holds on to (see `grasp`)
+---@type jostle.Target
+holding = nil
+
+--- `striker`: the agent that kicked or threw the body which hit this one in the last step; that body, if nobody did
+---@type jostle.Target
+striker = nil
+
 --- `one_of(set)`: a member of a set of places, drawn on entering the state; from then on it is the agent's `goal`
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Target
@@ -398,6 +447,11 @@ function one_of(a1) end
 --- `goal`: the place that `one_of` drew last, or that a function or the scene set
 ---@type jostle.Target
 goal = nil
+
+--- `last_seen(memory)`: the point where the agent last saw whom this memory holds; none before it saw it
+---@param a1 jostle.Target
+---@return jostle.Target
+function last_seen(a1) end
 
 --- `home`: the place where the agent entered the world, or took up its present machine
 ---@type jostle.Target
@@ -517,7 +571,7 @@ function choose(...) end
 ---@return any
 function circuits(a1) end
 
---- `memory { name = value, ... }`: declares the memory of each agent: numbers and booleans, kept through reloads. The result is a table of their values as expressions
+--- `memory { name = value, ... }`: declares the memory of each agent: numbers, booleans, and somebody, which begins as `nobody`; kept through reloads. The result is a table of their values as expressions and targets
 ---@return any
 function memory(...) end
 

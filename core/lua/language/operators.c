@@ -1,6 +1,7 @@
 /* Operators and methods of expressions: arithmetic, & | ~, comparisons, and filters of targets.
    Operators that Lua would evaluate wrongly are refused with the right spelling. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -356,17 +357,36 @@ static int method_fallen(lua_State *L) {
     return 1;
 }
 
+/* Reads the plain number that a filter takes as argument 2 into *to; false with an error pushed. */
+static bool read_filter_number(lua_State *L, const char *word, double *to) {
+    const JoxWordNumber *number = jox_word_number(word, 0);
+    *to = lua_type(L, 2) == LUA_TNUMBER ? lua_tonumber(L, 2) : NAN;
+    if (*to >= number->least && *to <= number->greatest)
+        return true;
+    jox_word_error(L, word + 1, "out-of-range", jox_word_example(word),
+                   "%s takes a plain number from %g to %g %s", word, number->least,
+                   number->greatest, number->unit);
+    return false;
+}
+
 static int method_incoming(lua_State *L) {
-    const JoxWordNumber *metres = jox_word_number(":incoming", 0);
     JoxNodeFilter *filter = push_filtered_target(L, "incoming");
-    if (!filter)
-        return 1;
-    filter->comes = lua_type(L, 2) == LUA_TNUMBER ? lua_tonumber(L, 2) : 0.0;
-    if (!(filter->comes >= metres->least && filter->comes <= metres->greatest))
-        return jox_word_error(L, "incoming", "out-of-range",
-                              "Example: nearest(\"ball\"):incoming(0.6)",
-                              ":incoming takes a plain number from %g to %g %s", metres->least,
-                              metres->greatest, metres->unit);
+    if (filter)
+        read_filter_number(L, ":incoming", &filter->comes);
+    return 1;
+}
+
+static int method_within(lua_State *L) {
+    JoxNodeFilter *filter = push_filtered_target(L, "within");
+    if (filter)
+        read_filter_number(L, ":within", &filter->within);
+    return 1;
+}
+
+static int method_ahead(lua_State *L) {
+    JoxNodeFilter *filter = push_filtered_target(L, "ahead");
+    if (filter)
+        read_filter_number(L, ":ahead", &filter->ahead);
     return 1;
 }
 
@@ -382,13 +402,40 @@ static const luaL_Reg METHODS[] = {{"above", method_above},
                                    {"fallen", method_fallen},
                                    {"flying", method_flying},
                                    {"incoming", method_incoming},
+                                   {"within", method_within},
+                                   {"ahead", method_ahead},
                                    {NULL, NULL}};
+
+/* __index of a target: what is measured of it. `names` has `count` names of methods, and room for
+   those of all that is measured. */
+static int index_target(lua_State *L, const char *name, const char **names, size_t count) {
+    static const char *const MEASURED[] = {
+#define X(name, ...) #name,
+        JOX_MEASURED(X)
+#undef X
+    };
+    for (int i = 0; i < JOX_NOW_COUNT; i++) {
+        names[count++] = MEASURED[i];
+        if (strcmp(MEASURED[i], name) != 0)
+            continue;
+        JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
+        node->op = JOX_OP_OF;
+        node->arg = i;
+        node->target = jox_node_get(L, 1);
+        return 1;
+    }
+    char hint[JOX_HINT], theirs[128];
+    snprintf(theirs, sizeof theirs, "Public memory of an agent is theirs(target, \"%.60s\")", name);
+    const char *near = jox_did_you_mean(name, names, count, hint);
+    return jox_word_error(L, name, "unknown-method", near ? hint : theirs, "a target has no '%s'",
+                          name);
+}
 
 static int meta_index(lua_State *L) {
     if (jox_node_is_error(L, 1))
         return jox_node_push_error(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const char *names[sizeof METHODS / sizeof *METHODS];
+    const char *names[sizeof METHODS / sizeof *METHODS + JOX_NOW_COUNT];
     size_t count = 0;
     for (const luaL_Reg *m = METHODS; m->name; m++) {
         names[count++] = m->name;
@@ -397,6 +444,9 @@ static int meta_index(lua_State *L) {
             return 1;
         }
     }
+    const JoxNode *of = jox_node_get(L, 1);
+    if (of->kind == JOX_NODE_TARGET)
+        return index_target(L, name, names, count);
     char hint[JOX_HINT] = "Numbers have above, below, at_least, at_most and is";
     jox_did_you_mean(name, names, count, hint);
     return jox_word_error(L, name, "unknown-method", hint, "%s has no '%s'", jox_node_kind(L, 1),

@@ -86,7 +86,8 @@ typedef struct JoxNodeFilter {
     int32_t group;
     double least, greatest;
     bool flies, fallen;
-    double comes; /* m; 0: anything */
+    double comes, within; /* m; 0: anything */
+    double ahead;         /* degrees; 0: any direction */
 } JoxNodeFilter;
 
 typedef struct JoxNode JoxNode;
@@ -100,6 +101,7 @@ struct JoxNode {
     int32_t target_arg;
     JoxNode *a, *b, *c; /* operands */
     JoxNode *target, *place;
+    JoxNode *score; /* of a target: the number by which the best one is chosen, or NULL */
     union {
         JoxDist dist;      /* JOX_NODE_DIST */
         JoxSteerTerm term; /* JOX_NODE_STEER: one term, with its target and weight in nodes here */
@@ -330,8 +332,6 @@ size_t jox_word_names(const char **names, size_t capacity);
 /* Reads argument `index` of a word as the letter of the vocabulary says. NULL with an error value
    pushed if it does not fit. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
-/* Returns whether a target of this kind is a body or an agent, which a place is not. */
-bool jox_target_kind_moves(JoxTargetKind kind);
 /* Pushes the value of a word; false with nothing pushed if there is none of that name. */
 bool jox_word_lookup(lua_State *L, const char *name);
 

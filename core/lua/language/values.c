@@ -81,6 +81,18 @@ static const JoxMemorySlot *find_memory(const JoxScript *script, const char *nam
     return NULL;
 }
 
+/* Returns the kind of memory that begins as the value on top of the stack; -1 if none does. */
+static int read_memory_kind(lua_State *L) {
+    const JoxNode *node = jox_node_get(L, -1);
+    if (lua_type(L, -1) == LUA_TNUMBER)
+        return JOX_MEMORY_NUMBER;
+    if (lua_type(L, -1) == LUA_TBOOLEAN)
+        return JOX_MEMORY_BOOLEAN;
+    return node && node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_NOBODY
+               ? JOX_MEMORY_SOMEBODY
+               : -1;
+}
+
 /* memory { laps = 0, touched = false }: declares what each agent remembers. */
 static int make_memory(lua_State *L) {
     JoxScript *script = jox_script_of(L);
@@ -89,17 +101,19 @@ static int make_memory(lua_State *L) {
                               "memory takes a table");
     lua_pushnil(L);
     while (lua_next(L, 1)) {
-        int type = lua_type(L, -1);
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
-        if (lua_type(L, -2) != LUA_TSTRING || (type != LUA_TNUMBER && type != LUA_TBOOLEAN) ||
-            script->memory_count >= 64)
-            return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
-                                  "memory '%s' cannot be a %s", name, luaL_typename(L, -1));
+        const int kind = read_memory_kind(L);
+        if (lua_type(L, -2) != LUA_TSTRING || kind < 0 || script->memory_count >= 64)
+            return jox_word_error(L, name, "bad-memory",
+                                  "Numbers, true or false, and `nobody` can be remembered",
+                                  "memory '%s' cannot be %s%s", name,
+                                  jox_node_get(L, -1) ? "" : "a ", jox_node_kind(L, -1));
         JOX_RESERVE(script->memory, script->memory_capacity, script->memory_count + 1);
-        double value = type == LUA_TNUMBER ? lua_tonumber(L, -1) : lua_toboolean(L, -1);
+        double value = kind == JOX_MEMORY_NUMBER    ? lua_tonumber(L, -1)
+                       : kind == JOX_MEMORY_BOOLEAN ? lua_toboolean(L, -1)
+                                                    : JOX_NOBODY;
         const JoxMemorySlot *known = find_memory(script, name);
-        if (known && known->initial == value &&
-            (known->kind == JOX_MEMORY_NUMBER) == (type == LUA_TNUMBER)) {
+        if (known && known->initial == value && known->kind == (JoxMemoryKind)kind) {
             lua_pop(L, 1); /* another file declares it too */
             continue;
         }
@@ -108,11 +122,10 @@ static int make_memory(lua_State *L) {
                                   "memory '%s' is declared before, and begins otherwise there",
                                   name);
         if (!isfinite(value))
-            return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
+            return jox_word_error(L, name, "bad-memory", NULL,
                                   "memory '%s' must begin with a finite number", name);
-        JoxMemorySlot slot = {.name = jox_strdup(name),
-                              .kind = type == LUA_TNUMBER ? JOX_MEMORY_NUMBER : JOX_MEMORY_BOOLEAN,
-                              .initial = value};
+        JoxMemorySlot slot = {
+            .name = jox_strdup(name), .kind = (JoxMemoryKind)kind, .initial = value};
         uint32_t at =
             script->memory_count++; /* inserted in order of names, as tables have no order */
         for (; at > 0 && strcmp(script->memory[at - 1].name, name) > 0; at--)
@@ -135,9 +148,12 @@ static int memory_index(lua_State *L) {
     for (uint32_t i = 0; i < script->memory_count; i++) {
         names[i] = script->memory[i].name;
         if (strcmp(script->memory[i].name, name) == 0) {
-            bool flag = script->memory[i].kind == JOX_MEMORY_BOOLEAN;
-            JoxNode *node = jox_node_push(L, flag ? JOX_NODE_CONDITION : JOX_NODE_NUMBER);
+            static const JoxNodeKind KINDS[] = {[JOX_MEMORY_NUMBER] = JOX_NODE_NUMBER,
+                                                [JOX_MEMORY_BOOLEAN] = JOX_NODE_CONDITION,
+                                                [JOX_MEMORY_SOMEBODY] = JOX_NODE_TARGET};
+            JoxNode *node = jox_node_push(L, KINDS[script->memory[i].kind]);
             node->op = JOX_OP_MEMORY;
+            node->target_kind = JOX_TARGET_MEMORY;
             node->name = jox_vm_intern(&script->vm, name);
             return 1;
         }

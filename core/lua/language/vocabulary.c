@@ -49,6 +49,11 @@ const JoxWord jox_words[] = {
      "incoming(nearest \"ball\", 0.5)"},
     {"kicked", "m", CONDITION, JOX_OP_KICKED, 0, "kicked(target)", "",
      "the agent kicked or threw the body in the last step", "kicked(nearest \"ball\")"},
+    {"exists", "t", CONDITION, JOX_OP_EXISTS, 0, "exists(target)", "",
+     "there is such a person, body or place. Whom the agent remembers it knows to be in the world out of sight, "
+     "too, unless the target has a filter; who has left the world does not exist", "exists(mine.prey)"},
+    {"same", "tt", CONDITION, JOX_OP_SAME, 0, "same(target, target)", "",
+     "both targets are the same person, body or place; false if there is none", "same(mine.prey, nearest \"people\")"},
     {"has", "m", CONDITION, JOX_OP_HAS, 0, "has(target)", "",
      "the agent carries the body (see `take`), or holds on to an agent that the target selects (see `grasp`)", "has(nearest \"ball\")"},
     {"sees", "t", CONDITION, JOX_OP_SEES, 0, "sees(target)", "",
@@ -107,6 +112,19 @@ const JoxWord jox_words[] = {
      "the nearest body or agent that bears the tag, or the nearest agent of \"anyone\", "
      "\"opponents\" or \"teammates\", that the agent sees: with no wall and no tall body between. "
      "`:in_state` and the like select among agents", "nearest \"ball\""},
+    {"best", "gn", TARGET, JOX_TARGET_NEAREST, 0, "best(tag, score)", "",
+     "of those that `nearest` chooses from, the one with the greatest score, a number in which `other` is the "
+     "candidate; of equal ones agents before bodies, by ascending id", "best(\"people\", other.speed - distance(other))"},
+    {"other", NULL, TARGET, JOX_TARGET_OTHER, 0, "other", "", "in the score of `best`: the candidate",
+     "best(\"people\", theirs(other, \"laps\"))"},
+    {"nobody", NULL, TARGET, JOX_TARGET_NOBODY, 0, "nobody", "",
+     "no person, body or place: memory that begins with it holds somebody, as `set = { prey = nearest \"people\" }`; "
+     "a target everywhere else, which is not there once that person or body has left the world",
+     "nobody"},
+    {"holding", NULL, TARGET, JOX_TARGET_HOLDING, 0, "holding", "",
+     "the body that the agent carries (see `take`), else the agent that it holds on to (see `grasp`)", "holding"},
+    {"striker", NULL, TARGET, JOX_TARGET_STRIKER, 0, "striker", "",
+     "the agent that kicked or threw the body which hit this one in the last step; that body, if nobody did", "striker"},
     {":in_state", "*", TARGET, 0, 0, "of:in_state(name)", "",
      "restricts `nearest` and `neighbours` to agents in a state of this name",
      "nearest(\"people\"):in_state(\"Start\")"},
@@ -129,12 +147,19 @@ const JoxWord jox_words[] = {
      "restricts them to agents and bodies that pass within this distance, m, of where the agent "
      "stands during the next 2 s if they keep their velocity",
      "nearest(\"ball\"):flying():incoming(0.6)"},
+    {":within", "*", TARGET, 0, 0, "of:within(metres)", "",
+     "restricts a target, or `neighbours`, to what is nearer than this distance, m, between centres", "neighbours(\"people\"):within(2)"},
+    {":ahead", "*", TARGET, 0, 0, "of:ahead(degrees)", "",
+     "restricts them to what lies ahead: within this angle, degrees, to either side of where the agent looks",
+     "nearest(\"people\"):ahead(60)"},
     {"one_of", "p", TARGET, JOX_TARGET_ONE_OF, 0, "one_of(set)", "",
      "a member of a set of places, drawn on entering the state; from then on it is the agent's "
      "`goal`",
      "one_of \"ends\""},
     {"goal", NULL, TARGET, JOX_TARGET_GOAL, 0, "goal", "",
      "the place that `one_of` drew last, or that a function or the scene set", "goal"},
+    {"last_seen", "m", TARGET, JOX_TARGET_LAST_SEEN, 0, "last_seen(memory)", "",
+     "the point where the agent last saw whom this memory holds; none before it saw it", "last_seen(mine.prey)"},
     {"home", NULL, TARGET, JOX_TARGET_HOME, 0, "home", "",
      "the place where the agent entered the world, or took up its present machine", "home"},
     /* steering */
@@ -193,8 +218,8 @@ const JoxWord jox_words[] = {
      "for `counts`: net number of counter-clockwise turns about a place since the agent first "
      "crossed its start line; turns back are subtracted", "circuits \"yard\""},
     {"memory", "*", 0, 0, 0, "memory { name = value, ... }", "",
-     "declares the memory of each agent: numbers and booleans, kept through reloads. The result "
-     "is a table of their values as expressions", "memory { laps = 0, touched = false }"},
+     "declares the memory of each agent: numbers, booleans, and somebody, which begins as `nobody`; kept through "
+     "reloads. The result is a table of their values as expressions and targets", "memory { laps = 0, touched = false, prey = nobody }"},
     {"machine", "*", 0, 0, 0, "machine { ... }", "", "the table that a behaviour returns",
      "machine { name = \"m\", start = \"A\", states = { A = {} } }"},
     {"patch", "*", 0, 0, 0, "patch \"behaviour\" { ... }", "",
@@ -236,6 +261,8 @@ const JoxWordNumber jox_word_numbers[] = {
     {"orbit", "beyond", 0, 10000, 50, "m"},
     {"dodge", "metres", 0, 100, 1, "m"},
     {":incoming", "metres", 0.01, 100, NAN, "m"},
+    {":within", "metres", 0.01, 1000, NAN, "m"},
+    {":ahead", "degrees", 1, 179, NAN, "degrees"},
     {"follow", "metres", 0, 1000, 1, "m"},
     {"together", "metres", 0, 1000, 1, "m"},
     {"formation", "metres", 0.1, 100, 0.7, "m"},
@@ -285,7 +312,7 @@ const JoxTableKey jox_table_keys[] = {
      "colour = \"vermilion\"", 0, 0},
     {"state", "signal", "name, or table", "", "signal that the agent gives on entering, and again after each interval with { name, every = seconds }",
      "signal = { \"alarm\", every = 1 }", 0, 0},
-    {"state", "set", "table", "", "values to set on entering: memory = number, condition or true/false; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
+    {"state", "set", "table", "", "values to set on entering: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
      "set = { laps = mine.laps + 1, tags = \"people\" }", 0, 0},
     {"state", "counts", "table", "", "memory that counts while the agent is in this state; see `circuits`", "counts = { laps = circuits \"yard\" }", 0, 0},
     {"state", "on_enter", "function(me)", "", "called when an agent enters the state", "on_enter = function(me) me.laps = 1 end", 0, 0},
@@ -339,6 +366,14 @@ size_t jox_table_key_names(const char *owner, bool parameters, const char **name
     for (int p = 0; parameters && p < JOX_PARAM_COUNT && n < capacity; p++)
         names[n++] = jox_parameters[p].name;
     return n;
+}
+
+const char *jox_word_example(const char *name) {
+    for (size_t i = 0; i < jox_word_count; i++)
+        if (strcmp(jox_words[i].name, name) == 0)
+            return jox_words[i].example;
+    JOX_ASSERT(!"a word with a row");
+    return "";
 }
 
 const JoxWordNumber *jox_word_number(const char *word, uint32_t n) {

@@ -31,6 +31,8 @@ typedef struct JoxWordNumber {
 
 extern const JoxWordNumber jox_word_numbers[];
 extern const size_t jox_word_number_count;
+/* Returns the example of a word. */
+const char *jox_word_example(const char *word);
 /* Returns the n-th number of a word, from 0; NULL past the last. */
 const JoxWordNumber *jox_word_number(const char *word, uint32_t n);
 

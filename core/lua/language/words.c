@@ -44,12 +44,7 @@ static JoxNode *read_place_name(lua_State *L, const char *name) {
 /* Returns whether a value may stand for a place. */
 static bool can_be_place(const JoxNode *node) {
     return node->kind == JOX_NODE_OWN ||
-           (node->kind == JOX_NODE_TARGET && node->target_kind < JOX_TARGET_NEAREST);
-}
-
-/* Returns whether a target of this kind is a body or an agent, which a place is not. */
-bool jox_target_kind_moves(JoxTargetKind kind) {
-    return kind >= JOX_TARGET_NEAREST && kind <= JOX_TARGET_ANYONE;
+           (node->kind == JOX_NODE_TARGET && jox_target_kind_is_place(node->target_kind));
 }
 
 /* Pushes and returns the target for a tag, or for "opponents", "teammates" or "anyone"; NULL with
@@ -217,6 +212,8 @@ static void store_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
         letter += *letter == '?';
         if (*letter == 'p')
             node->place = arguments[i];
+        else if ((*letter == 't' || *letter == 'm') && node->target)
+            node->place = arguments[i]; /* a second target */
         else if (*letter == 't' || *letter == 'm')
             node->target = arguments[i];
         else if (*letter == 's' || *letter == 'w') {
@@ -231,6 +228,17 @@ static void store_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *
         else
             node->c = arguments[i];
     }
+}
+
+/* Checks the argument of last_seen, memory that holds somebody; false with an error pushed. */
+static bool read_sighting(lua_State *L, JoxNode *node, const JoxNode *of) {
+    if (of->target_kind == JOX_TARGET_MEMORY) {
+        node->name = of->name;
+        return true;
+    }
+    jox_word_error(L, "last_seen", "bad-argument", "local mine = memory { prey = nobody }",
+                   "last_seen takes memory that holds somebody");
+    return false;
 }
 
 /* Pushes and returns the value that a word makes of its arguments; NULL with an error pushed if
@@ -256,9 +264,13 @@ static JoxNode *build_word_value(lua_State *L, const JoxWord *word, JoxNode *con
             return NULL;
         }
         node->target_kind =
-            word->op == JOX_TARGET_ONE_OF ? JOX_TARGET_ONE_OF : arguments[0]->target_kind;
+            word->op == JOX_TARGET_NEAREST ? arguments[0]->target_kind : (JoxTargetKind)word->op;
         node->target_arg = arguments[0]->target_arg;
         node->name = arguments[0]->name;
+        if (word->op == JOX_TARGET_LAST_SEEN && !read_sighting(L, node, arguments[0]))
+            return NULL;
+        if (count > 1)
+            node->score = arguments[1]; /* best */
         break;
     case JOX_NODE_STEER:
         node->term.kind = (JoxSteerKind)word->op;

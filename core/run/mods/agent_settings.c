@@ -260,6 +260,14 @@ static void store_present_value(const Search *search, double value, bool truth, 
                                    : number);
 }
 
+/* Stores whom memory holds as text. */
+static void store_somebody(const Search *search, double who) {
+    JoxText text = {0};
+    jox_who_print(&search->scene->world->machines, who, &text);
+    jox_settings_set_value(search->pack, search->head, text.data);
+    jox_text_free(&text);
+}
+
 /* Finds a value of the agent by name and lists what set it; false if there is none. */
 static bool list_value(Search *search, const char *name, double *value) {
     const JoxAgents *a = &search->scene->world->state.agents;
@@ -267,8 +275,11 @@ static bool list_value(Search *search, const char *name, double *value) {
     const int32_t slot = jox_machine_memory(search->machine, name);
     if (slot >= 0) {
         *value = a->memory[(size_t)search->i * a->memory_stride + (uint32_t)slot];
-        store_present_value(search, *value,
-                            search->machine->memory[slot].kind == JOX_MEMORY_BOOLEAN, false);
+        if (search->machine->memory[slot].kind == JOX_MEMORY_SOMEBODY)
+            store_somebody(search, *value);
+        else
+            store_present_value(search, *value,
+                                search->machine->memory[slot].kind == JOX_MEMORY_BOOLEAN, false);
         add_memory(search, (uint32_t)slot);
         return true;
     }

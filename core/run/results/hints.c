@@ -79,8 +79,7 @@ static void add_hint(const Examined *j, JoHintKind kind, const JoxState *from,
 /* ---- transitions that never fired ---- */
 
 static bool is_place(const JoxMachine *m, int16_t target) {
-    return target >= 0 && (m->targets[target].kind < JOX_TARGET_NEAREST ||
-                           m->targets[target].kind == JOX_TARGET_HOME);
+    return target >= 0 && !jox_target_kind_moves(m->targets[target].kind);
 }
 
 /* Returns whether the test of an instruction becomes true in time if the behaviour works as meant,

@@ -193,6 +193,14 @@ bool jox_perform_memory(JoWorld *world, const JoxInputEntry *entry, JoxText *why
             jox_text_printf(why, "%.60s is true or false: 1 or 0, not %g", slot->name, value);
             return false;
         }
+        if (slot->kind == JOX_MEMORY_SOMEBODY && value != JOX_NOBODY &&
+            !jox_who_exists(&world->machines, value)) {
+            jox_text_printf(why,
+                            "%.60s holds somebody: 1 + the id of an agent, or 0 for nobody; %.15g "
+                            "is nobody in the world",
+                            slot->name, value);
+            return false;
+        }
         a->memory[(size_t)i * a->memory_stride + s] = value;
         jox_machines_record_writer(
             &world->machines, i,

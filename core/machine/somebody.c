@@ -1,0 +1,90 @@
+/* Somebody as a number (JOX_WHO_BODY in machine.h): which agent, body or place it means, whom an
+   agent holds, who struck it, and where it last saw whom it remembers. Targets are resolved in
+   target.c. */
+#include "base/mem.h"
+#include "machine/machine_parts.h"
+
+uint32_t jox_who_agent(const JoxMachineRun *run, double who) {
+    if (!(who >= 1.0 && who <= JOX_WHO_BODY))
+        return JOX_NO_INDEX;
+    const uint32_t i = jox_agents_find(run->agents, (uint32_t)(who - 1.0));
+    return i == JOX_NO_INDEX || run->agents->removed[i] ? JOX_NO_INDEX : i;
+}
+
+int32_t jox_who_row(const JoxMachineRun *run, double who) {
+    if (!(who >= JOX_WHO_BODY && who < JOX_WHO_PLACE) || !run->objects)
+        return -1;
+    const uint32_t id = (uint32_t)(who - JOX_WHO_BODY);
+    for (uint32_t o = 0; o < run->objects->count; o++)
+        if (run->objects->rows[o].id == id && run->objects->rows[o].live)
+            return (int32_t)o;
+    return -1;
+}
+
+int32_t jox_who_place(const JoxMachineRun *run, double who) {
+    return who >= JOX_WHO_PLACE && who < JOX_WHO_PLACE + run->place_count
+               ? (int32_t)(who - JOX_WHO_PLACE)
+               : -1;
+}
+
+bool jox_who_exists(const JoxMachineRun *run, double who) {
+    return jox_who_agent(run, who) != JOX_NO_INDEX || jox_who_row(run, who) >= 0 ||
+           jox_who_place(run, who) >= 0;
+}
+
+void jox_who_print(const JoxMachineRun *run, double who, JoxText *out) {
+    const uint32_t i = jox_who_agent(run, who);
+    const int32_t row = jox_who_row(run, who), place = jox_who_place(run, who);
+    if (i != JOX_NO_INDEX)
+        jox_text_printf(out, "agent %u", run->agents->id[i]);
+    else if (row >= 0 && *run->objects->rows[row].name)
+        jox_text_printf(out, "body '%s'", run->objects->rows[row].name);
+    else if (row >= 0)
+        jox_text_printf(out, "body %u", run->objects->rows[row].id);
+    else if (place >= 0)
+        jox_text_printf(out, "place '%s'", run->places[place].name);
+    else
+        jox_text_add(out, "nobody");
+}
+
+/* Returns the row of a body that the agent carries, or -1. */
+static int32_t find_carried_row(const JoxMachineRun *run, uint32_t i) {
+    for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
+        const JoxObject *object = &run->objects->rows[o];
+        if (object->live && object->held && object->holder == run->agents->id[i])
+            return (int32_t)o;
+    }
+    return -1;
+}
+
+double jox_who_is_held(const JoxMachineRun *run, uint32_t i) {
+    const int32_t row = find_carried_row(run, i);
+    return row >= 0 ? JOX_WHO_BODY + run->objects->rows[row].id : run->agents->grasped[i];
+}
+
+/* ---- who struck an agent ---- */
+
+void jox_throwers_note(JoxMachineRun *run, uint32_t body, uint32_t agent) {
+    JoxMachineState *state = run->state;
+    uint32_t kept = 0;
+    for (uint32_t n = 0; n < state->thrown_count; n++) /* forgets bodies that are gone */
+        if (state->thrown[n].body != body &&
+            jox_who_row(run, JOX_WHO_BODY + state->thrown[n].body) >= 0)
+            state->thrown[kept++] = state->thrown[n];
+    JOX_RESERVE(state->thrown, state->thrown_capacity, kept + 1);
+    state->thrown[kept] = (JoxThrown){body, agent};
+    state->thrown_count = kept + 1;
+}
+
+double jox_who_struck(const JoxMachineRun *run, uint32_t i) {
+    const int32_t row = jox_referred(run->agents->struck[i]);
+    if (row < 0 || !run->objects || (uint32_t)row >= run->objects->count)
+        return JOX_NOBODY;
+    const uint32_t body = run->objects->rows[row].id;
+    for (uint32_t n = 0; n < run->state->thrown_count; n++) {
+        const JoxThrown *thrown = &run->state->thrown[n];
+        if (thrown->body == body && jox_who_agent(run, 1.0 + thrown->agent) != JOX_NO_INDEX)
+            return 1.0 + thrown->agent;
+    }
+    return JOX_WHO_BODY + body;
+}
