@@ -32,7 +32,7 @@ SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom geom/field geom/ground agents nav/spots nav nav/near nav/walk nav/orca nav/move force force/push force/support force/contact force/stages body machine machine/steering world/input world/step_events world/routes world world/verbs world/embed scene/format scene/wall_files scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results run/mods live report render validate luatest sweep sweep/compare)
+FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom geom/field geom/ground agents nav/spots nav nav/near nav/walk nav/orca nav/move force force/push force/support force/contact force/stages body machine machine/steering world/input world/step_events world/routes world world/verbs world/embed scene/format scene/wall_files scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results run/why run/mods live report render validate luatest sweep sweep/compare)
 # Folders that are in libjostle-tools alone, not in libjostle: pages, pictures, reports.
 TOOLS   := view picture live report render validate luatest sweep sweep/compare
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))

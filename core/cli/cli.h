@@ -18,6 +18,7 @@
 #define CLI_COMMANDS(X)                                                                            \
     X(run)                                                                                         \
     X(resume)                                                                                      \
+    X(why)                                                                                         \
     X(sweep)                                                                                       \
     X(compare)                                                                                     \
     X(report)                                                                                      \

@@ -49,6 +49,25 @@ JO_API char *jo_scene_closing(const JoScene *scene);
    the slot is empty, and once after the traced agent has left. Does not change the run. */
 JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
 
+/* A question about agents of a scene: why they stay in their states. */
+typedef struct JoWhyDef {
+    bool has_agent; /* about the agent with the id `agent`; else about all whom the next two
+                       fields mean, state by state */
+    uint32_t agent;
+    const char *group; /* agents of this group; NULL: of all */
+    const char *state; /* agents in this state; if nobody is, those whose states lead there, and the
+                          transitions that do; NULL: in any */
+    bool json;         /* answer as a JSON object, else as lines for people */
+    uint32_t cookie;
+} JoWhyDef;
+JO_API JoWhyDef jo_default_why_def(void);
+/* Answers between two steps: how long the agents have been in their states, and for every
+   transition out of them each term of its condition, with its value and its bound, and what there
+   is where it does not hold; the transition that is nearest to firing comes first. The conditions
+   are those that the next step will evaluate; counters of turns are those of the last. Does not
+   change the run. NULL with `error` (JO_USAGE) if there is no such agent, group or state. */
+JO_API char *jo_scene_why(JoScene *scene, const JoWhyDef *def, JoError *error);
+
 /* ---- reports of a run --------------------------------------------------------------------
  *
  * Order of calls: jo_scene_load, jo_scene_report, steps, jo_scene_finish, then, for a page,

@@ -244,3 +244,8 @@ bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLu
                         .suspended = hook->suspended};
     return true;
 }
+
+const char *jox_lua_last_failure(const JoxLua *lua, const JoxMachine *machine, uint32_t n) {
+    const JoxScript *script = jox_lua_script(lua, machine);
+    return script && n < script->hook_count ? script->hooks[n].complaint : NULL;
+}

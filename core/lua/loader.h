@@ -127,6 +127,9 @@ JoxLuaTotal jox_lua_total(const JoxLua *lua, double stepped);
 /* Gives the cost of the machine's n-th function; the strings belong to the machine. False past the
    last function. */
 bool jox_lua_cost(const JoxLua *lua, const JoxMachine *machine, uint32_t n, JoLuaCost *cost);
+/* Returns the message of the last failure of the machine's n-th function that was reported in full;
+   NULL: it has not failed. */
+const char *jox_lua_last_failure(const JoxLua *lua, const JoxMachine *machine, uint32_t n);
 /* Returns whether so large a share of its calls failed that the run did not go as the behaviour
    says. */
 static inline bool jox_lua_is_failing(const JoLuaCost *cost) {

@@ -240,7 +240,7 @@ static void list_uniform_crowd(StateSort *sort) {
         sort->scratch->grouped[i] = i;
 }
 
-void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
+void jox_machines_group_again(JoxMachineRun *run, JoxPool *pool) {
     reserve_scratch(run, pool);
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
@@ -262,7 +262,12 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
         for (uint32_t k = 0; k < run->set->items[m]->state_count; k++)
             add_batches(s, (uint16_t)m, (uint16_t)k, first[sort.bases[m] + k],
                         first[sort.bases[m] + k + 1]);
-    jox_queues_rank(run);
+}
+
+void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
+    jox_machines_group_again(run, pool);
+    if (run->set->count > 0)
+        jox_queues_rank(run);
 }
 
 /* Marks the places whose number of people an expression reads. */

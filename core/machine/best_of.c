@@ -20,7 +20,8 @@ static void choose_best(const JoxMachineRun *run, uint32_t i, const JoxExpressio
             *best = (Best){candidates[n], registers[0][n]};
 }
 
-/* Writes the agents that agent i sees and that match a target, by ascending id; returns how many. */
+/* Writes the agents that agent i sees and that match a target, by ascending id; returns how many.
+ */
 static uint32_t list_agents(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
                             JoxSpot *candidates) {
     const JoxAgents *a = run->agents;

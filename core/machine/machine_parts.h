@@ -238,8 +238,10 @@ void jox_counts_carried_check(const JoxMachineCounts *was, const JoxMachineCount
 
 /* Returns the scratch, which is made on first use. */
 JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run);
-/* Makes the signals of the last step audible. */
+/* Makes the signals of the last step audible; counts who gave them. */
 void jox_machines_listen(JoxMachineRun *run);
+/* Makes them audible for a look between two steps, and leaves them to the next step. */
+void jox_signals_peek(JoxMachineRun *run);
 /* Returns whether another agent within `reach` metres gave the signal. */
 bool jox_heard(const JoxMachineRun *run, uint32_t agent, uint32_t name, double reach);
 /* sight.c: returns whether a closed wall hides one point from another. People can look over low
@@ -278,6 +280,8 @@ bool jox_is_wanted_body(const JoxMachineRun *run, const JoxTarget *target, uint3
                         const JoxObject *object);
 /* Returns whether agent j, which agent i sees, matches a target of i's machine. */
 bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j);
+/* Returns whether agent j is of the kind that a target asks for, seen or not. */
+bool jox_is_of_kind(const JoxAgents *agents, const JoxTarget *target, uint32_t i, uint32_t j);
 /* Returns the number of neighbours that match a target. */
 uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Returns an agent's public memory of the name with this number; NAN if it has none. */
@@ -313,9 +317,13 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
 void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count);
 /* Grows the scratch, groups agents by state into batches, and ranks the queues. */
 void jox_machines_group(JoxMachineRun *run, JoxPool *pool);
+/* The same without the queues, whose ranks are forgotten: it changes no state. */
+void jox_machines_group_again(JoxMachineRun *run, JoxPool *pool);
 /* Ranks agents in queues by turn; those without one get the next rank. In each step one
    agent at most takes its place in a queue: the nearest. */
 void jox_queues_rank(JoxMachineRun *run);
+/* Ranks them for a look between two steps; gives no places, and changes no state. */
+void jox_queues_look(JoxMachineRun *run);
 /* Returns the target whose queue agents of this state stand in, or -1. */
 int16_t jox_queue_target(const JoxState *state);
 void jox_machines_count_places(JoxMachineRun *run);

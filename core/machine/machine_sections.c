@@ -82,6 +82,7 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
     jox_sections_unhashed(s, true);
     for (uint32_t m = 0; m < set->count; m++)
         list_count_sections(&state->counts[m], s);
+    JOX_SECTION_ARRAY(s, "calls", state->calls, state->call_count, state->call_capacity);
     JOX_SECTION(s, "hook_failures", state->hook_failures);
     JOX_SECTION(s, "changes_lost", state->changes_lost);
     jox_sections_unhashed(s, false);

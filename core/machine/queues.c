@@ -34,8 +34,9 @@ static int compare_queue_turns(const void *first, const void *second, const void
     return (a->id[i] > a->id[j]) - (a->id[i] < a->id[j]);
 }
 
-/* Lists the agents that queue, by queue and turn. */
-static uint32_t list_queues(JoxMachineRun *run) {
+/* Lists the agents that queue, by queue and turn. `settles`: those that come to another queue lose
+   their turn; else they are left out. */
+static uint32_t list_queues(JoxMachineRun *run, bool settles) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
     uint32_t count = 0, *list = s->list;
@@ -53,6 +54,8 @@ static uint32_t list_queues(JoxMachineRun *run) {
             uint32_t i = s->grouped[batch->begin + n];
             s->queue[i] = jox_target_place(run, i, target);
             const uint32_t at = jox_reference(s->queue[i]);
+            if (!settles && a->queue_at[i] != at)
+                continue;
             if (a->queue_at[i] != at || !at) { /* without a place there is no turn */
                 a->queue_at[i] = at;
                 a->queued[i] = JOX_NO_TURN;
@@ -128,10 +131,19 @@ static bool exchange_turns(JoxMachineRun *run, const JoxPlace *queue, uint32_t r
     return true;
 }
 
+void jox_queues_look(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    const uint32_t count = list_queues(run, false);
+    for (uint32_t k = 0; k < count; k++) {
+        const bool first = k == 0 || s->queue[s->list[k]] != s->queue[s->list[k - 1]];
+        s->rank[s->list[k]] = first ? 0 : s->rank[s->list[k - 1]] + 1;
+    }
+}
+
 void jox_queues_rank(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
-    const uint32_t count = list_queues(run), *list = s->list;
+    const uint32_t count = list_queues(run, true), *list = s->list;
     for (uint32_t first = 0, end; first < count; first = end) {
         const int32_t place = s->queue[list[first]];
         uint32_t turns = 0;

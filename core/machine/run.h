@@ -56,6 +56,14 @@ typedef struct JoxThrown {
     uint32_t body, agent; /* ids */
 } JoxThrown;
 
+/* How often a signal was given, and by whom last. */
+typedef struct JoxNameCall {
+    uint64_t count;
+    uint32_t tick;     /* at which it was heard */
+    uint32_t agent_id; /* UINT32_MAX: announced to everybody */
+    float x, y;        /* m */
+} JoxNameCall;
+
 /* A body that an agent picks up or lets go. */
 typedef struct JoxGrip {
     uint32_t object, agent_id;
@@ -172,6 +180,9 @@ typedef struct JoxMachineState {
     uint32_t edit_count;
     size_t edit_capacity;
     JoxMachineCounts counts[JOX_MOST_MACHINES]; /* statistics; no step reads them */
+    JoxNameCall *calls; /* statistics, by number of the name, as far as names were called */
+    uint32_t call_count;
+    size_t call_capacity;
     uint64_t hook_failures; /* statistic: calls of hooks that failed since the start */
     uint64_t changes_lost;  /* statistic: writes to memory of other agents that a later write
                                replaced */

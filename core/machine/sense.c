@@ -15,8 +15,8 @@ static bool is_signal_before(const JoxSignal *a, const JoxSignal *b) {
     return a->x != b->x ? a->x < b->x : a->agent_id < b->agent_id;
 }
 
-void jox_machines_listen(JoxMachineRun *run) {
-    JoxMachineState *state = run->state;
+void jox_signals_peek(JoxMachineRun *run) {
+    const JoxMachineState *state = run->state;
     JoxMachineScratch *s = run->scratch;
     JOX_RESERVE(s->heard, s->heard_capacity, state->called_count);
     JOX_RESERVE(s->everywhere, s->everywhere_capacity, state->announced_count);
@@ -26,7 +26,6 @@ void jox_machines_listen(JoxMachineRun *run) {
     s->everywhere_count = state->announced_count;
     if (s->everywhere_count)
         memcpy(s->everywhere, state->announced, s->everywhere_count * sizeof *s->everywhere);
-    state->called_count = state->announced_count = 0;
     for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
         for (uint32_t k = gap; k < count; k++) {
             JoxSignal moving = s->heard[k];
@@ -36,6 +35,31 @@ void jox_machines_listen(JoxMachineRun *run) {
             s->heard[at] = moving;
         }
     JOX_CHECK(jox_heard_check(run));
+}
+
+/* Counts a signal that is heard in this step. */
+static void count_call(const JoxMachineRun *run, uint32_t name, uint32_t agent_id, JoxV2 at) {
+    JoxMachineState *state = run->state;
+    if (name >= state->call_count) {
+        JOX_RESERVE(state->calls, state->call_capacity, run->set->name_count);
+        memset(state->calls + state->call_count, 0,
+               (run->set->name_count - state->call_count) * sizeof *state->calls);
+        state->call_count = run->set->name_count;
+    }
+    state->calls[name] =
+        (JoxNameCall){state->calls[name].count + 1, run->tick, agent_id, at.x, at.y};
+}
+
+void jox_machines_listen(JoxMachineRun *run) {
+    JoxMachineState *state = run->state;
+    jox_signals_peek(run);
+    for (uint32_t n = 0; n < state->called_count; n++) {
+        const JoxSignal *called = &state->called[n];
+        count_call(run, called->name, called->agent_id, (JoxV2){called->x, called->y});
+    }
+    for (uint32_t n = 0; n < state->announced_count; n++)
+        count_call(run, state->announced[n], UINT32_MAX, (JoxV2){0.0f, 0.0f});
+    state->called_count = state->announced_count = 0;
 }
 
 bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach) {

@@ -142,8 +142,7 @@ static bool passes_names(const JoxMachineRun *run, const JoxAgentFilter *filter,
     return value >= filter->least && value <= filter->greatest;
 }
 
-/* Returns whether agent j is of the kind that a target asks for. */
-static bool is_of_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
+bool jox_is_of_kind(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
     switch (target->kind) { /* team 0 means no team: neither teammate nor opponent */
     case JOX_TARGET_NEAREST:
         return (a->tags[j] >> target->arg & 1) != 0;
@@ -202,8 +201,8 @@ bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row) {
 }
 
 bool jox_is_wanted(const JoxMachineRun *run, const JoxTarget *target, uint32_t i, uint32_t j) {
-    return is_of_kind(run->agents, target, i, j) && jox_passes_filter(run, &target->filter, i, j) &&
-           has_in_sight(run, i, j);
+    return jox_is_of_kind(run->agents, target, i, j) &&
+           jox_passes_filter(run, &target->filter, i, j) && has_in_sight(run, i, j);
 }
 
 bool jox_is_wanted_body(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,

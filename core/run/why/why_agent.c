@@ -1,0 +1,100 @@
+/* Collects why agents stay in their states. */
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/why/why.h"
+
+/* Sorts the transitions of a state: nearest to firing first, else in the order of the state. */
+static void sort_by_gap(uint32_t *order, uint32_t count, const JoxWhyGap *gaps) {
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t at = k;
+        for (; at > 0 && jox_why_is_nearer(gaps[k], gaps[order[at - 1]]); at--)
+            order[at] = order[at - 1];
+        order[at] = k;
+    }
+}
+
+void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWhyAgent *out) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->state.agents;
+    const double dt = world->model.def.dt;
+    JOX_ASSERT(agent < a->count && a->machine[agent] != JOX_NO_MACHINE);
+    const JoxMachine *machine = world->machines.set->items[a->machine[agent]];
+    JoxWhyGap gaps[JOX_MOST_TRANSITIONS];
+    *out = (JoxWhyAgent){.agent = agent,
+                         .machine = machine,
+                         .state = &machine->states[a->state[agent]],
+                         .since = a->entered[agent] * dt,
+                         .now = (double)world->state.tick * dt};
+    jox_world_look_at(scene->world, look, agent);
+    for (uint32_t k = 0; k < out->state->transition_count; k++) {
+        jox_why_transition(&world->machines, agent, k, &out->transitions[k]);
+        gaps[k] = out->transitions[k].gap;
+    }
+    sort_by_gap(out->order, out->state->transition_count, gaps);
+}
+
+void jox_why_agent_free(JoxWhyAgent *why) {
+    for (uint32_t k = 0; k < why->state->transition_count; k++)
+        jox_why_free(&why->transitions[k]);
+}
+
+/* ---- many agents in one state ---- */
+
+/* Counts a transition of one agent; keeps its tree if it is the nearest so far, else frees it. */
+static void count_transition(struct JoxWhyCrowdTransition *t, uint32_t agent,
+                             JoxWhyTransition *one) {
+    const bool first = t->nearest == JOX_NO_INDEX;
+    if (first && one->count)
+        t->holders = jox_alloc(one->count, sizeof *t->holders);
+    for (uint32_t k = 0; k < one->count; k++)
+        t->holders[k] += one->terms[k].holds;
+    t->fires += one->fires;
+    t->lost += one->chance == JOX_WHY_LOST;
+    t->held += one->is_function ? one->held_before : one->holds;
+    if (first || jox_why_is_nearer(one->gap, t->shown.gap)) {
+        jox_why_free(&t->shown);
+        t->shown = *one;
+        t->nearest = agent;
+    } else {
+        jox_why_free(one);
+    }
+}
+
+void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agents, uint32_t count,
+                   JoxWhyCrowd *out) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->state.agents;
+    const double dt = world->model.def.dt;
+    JOX_ASSERT(count > 0);
+    const JoxMachine *machine = world->machines.set->items[a->machine[agents[0]]];
+    *out = (JoxWhyCrowd){.machine = machine,
+                         .state = &machine->states[a->state[agents[0]]],
+                         .people = count,
+                         .longest = agents[0]};
+    for (uint32_t k = 0; k < out->state->transition_count; k++)
+        out->transitions[k].nearest = JOX_NO_INDEX;
+    for (uint32_t n = 0; n < count; n++) {
+        const uint32_t i = agents[n];
+        const double since = a->entered[i] * dt;
+        out->longest = a->entered[i] < a->entered[out->longest] ? i : out->longest;
+        out->earliest = n == 0 || since < out->earliest ? since : out->earliest;
+        out->latest = since > out->latest ? since : out->latest;
+        jox_world_look_at(scene->world, look, i);
+        for (uint32_t k = 0; k < out->state->transition_count; k++) {
+            JoxWhyTransition one;
+            jox_why_transition(&world->machines, i, k, &one);
+            count_transition(&out->transitions[k], i, &one);
+        }
+    }
+    JoxWhyGap gaps[JOX_MOST_TRANSITIONS];
+    for (uint32_t k = 0; k < out->state->transition_count; k++)
+        gaps[k] = out->transitions[k].shown.gap;
+    sort_by_gap(out->order, out->state->transition_count, gaps);
+}
+
+void jox_why_crowd_free(JoxWhyCrowd *crowd) {
+    for (uint32_t k = 0; k < crowd->state->transition_count; k++) {
+        jox_free(crowd->transitions[k].holders);
+        jox_why_free(&crowd->transitions[k].shown);
+    }
+}

@@ -1,0 +1,60 @@
+# Why agents stay in their states: the command `why`, of agents, groups and states, from the beginning and from checkpoints.
+. tests/scenes/lib.sh
+mkdir "$work/school"
+cat >"$work/school/pupil.lua" <<'END'
+return machine { name = "pupil", start = "Walk", defaults = { perception = 4 },
+  states = {
+    Walk = { steer = seek "desk",
+      { to = "Lesson", when = near("desk", 3) } },
+    Lesson = { steer = hold,
+      { to = "Break", when = heard "bell" & after(5) },
+      { to = "Hide", when = near(nearest "teacher", 2) } },
+    Break = { steer = hold },
+    Hide = { steer = hold },
+  } }
+END
+cat >"$work/school/school.yaml" <<'END'
+jostle: 1
+duration: 30
+places: {desk: {point: [0, 0]}}
+groups:
+  pupils: {behaviour: pupil.lua, at: [[0, 0], [1, 0], [0, 1], [2, 2], [30, 0], [-28, 0]]}
+  teachers: {behaviour: teacher.lua, tags: [teacher], at: [[60, 0]]}
+END
+echo 'return machine { name = "teacher", start = "Stand", states = { Stand = { steer = hold } } }' >"$work/school/teacher.lua"
+school=$work/school/school.yaml
+expect "an agent is explained: its state and since when" 0 "30.00 s: agent 0 of group pupils (machine pupil) has been in state Lesson for 30.00 s" "$JOSTLE" why "$school" --agent 0 --quiet
+grep -q 'no *heard("bell") *nobody has called it so far' "$work/out"; verdict "  a signal that nobody called" $?
+grep -q 'yes *after(5) *30 s' "$work/out"; verdict "  a term that holds, with its value" $?
+grep -q 'no *near(teacher, 2) *the nearest is agent 6 (in Stand), 60 m away, beyond its perception of 4 m' "$work/out"; verdict "  a target that is not there" $?
+expect "people of a state are counted by term" 0 "0 of 6  heard" "$JOSTLE" why "$school" --state Lesson --at 30 --quiet
+expect "  also at another time" 0 "4 people are in Lesson" "$JOSTLE" why "$school" --state Lesson --at 1 --quiet
+expect "  a state that nobody is in: who could go there" 0 "nobody in Hide; who could go there" "$JOSTLE" why "$school" --state Hide --at 30 --quiet
+expect "people of a group, state by state" 0 "2 people are in Walk" "$JOSTLE" why "$school" --group pupils --at 2 --quiet
+"$JOSTLE" why "$school" --agent 0 --at 3 --json 2>/dev/null | python3 -c '
+import json, sys
+why = json.load(sys.stdin)
+near, far = why["transitions"]
+terms = {t["text"]: t for t in far["when"]["terms"]}
+after = terms["after(5)"]
+assert (why["agent"], why["state"], why["time"], near["to"], near["misses"], far["to"], far["misses"]) == (0, "Lesson", 3, "Hide", 1, "Break", 2)
+assert (after["holds"], after["value"], after["relation"], after["bound"], after["unit"]) == (False, 3, ">=", 5, "s")
+assert near["when"]["text"] == "near(teacher, 2)" and near["line"] == 7 and near["file"].endswith("pupil.lua")
+'
+verdict "--json is an object of transitions and terms" $?
+expect "progress is shown, on stderr" 0 "" bash -c "'$JOSTLE' why '$school' --agent 0 >/dev/null"
+grep -q '30' "$work/out"; verdict "  up to the end" $?
+# From a checkpoint, at its time and later, as from the beginning.
+(cd "$work" && "$OLDPWD/$JOSTLE" run school/school.yaml --quiet --checkpoint 4 --checkpoint-dir kept)
+at=$("$JOSTLE" why --from "$work/kept" --agent 0 --quiet | sed -n '1s/ s: .*//p')
+for answer in "--from $work/kept" "$school"; do (cd "$work" && "$OLDPWD/$JOSTLE" why ${answer#$work/} --group pupils --at 29 --quiet 2>/dev/null) | sed 's/([^)]*pupil.lua/(pupil.lua/'; done >"$work/answers"
+awk '{lines[NR] = $0} END {for (n = 1; n <= NR / 2; n++) if (lines[n] != lines[n + NR / 2]) exit 1; exit NR < 6}' "$work/answers"
+verdict "from a checkpoint (of $at s) the answer is that from the beginning" $?
+expect "  before its time it is refused" 2 "after the 2 s asked about" "$JOSTLE" why --from "$work/kept" --agent 0 --at 2
+expect "  a scene beside it is refused" 2 "--from goes without SCENE" "$JOSTLE" why "$school" --from "$work/kept" --agent 0
+expect "without agent, group or state it is refused" 2 "say about whom: --agent ID, --group NAME or --state NAME" "$JOSTLE" why "$school"
+expect "  and with too many" 2 "--agent excludes --group and --state" "$JOSTLE" why "$school" --agent 1 --group pupils
+expect "an agent that is not there is refused" 2 "there is no agent 7 at 30.00 s: 7 came in so far, the last is agent 6" "$JOSTLE" why "$school" --agent 7 --quiet
+expect "  a state, with the nearest one" 2 "has no state 'Lessn'. Did you mean 'Lesson'?" "$JOSTLE" why "$school" --state Lessn --quiet
+expect "  a group" 2 "has no group 'pupil'. Did you mean 'pupils'?" "$JOSTLE" why "$school" --group pupil --quiet
+expect "a broken scene is refused" 3 "Did you mean 'office'?" "$JOSTLE" why offise --agent 1
