@@ -82,8 +82,11 @@ JoxNumeric jox_numeric_plain(void) {
 }
 
 JoxNumeric jox_numeric_use(JoxNumeric numeric) {
-    const JoxNumeric before = {uselocale(numeric.locale), read_mode()};
-    set_mode(numeric.mode);
+    const JoxNumeric before = {uselocale((locale_t)0), read_mode()};
+    if (before.locale != numeric.locale)
+        uselocale(numeric.locale);
+    if (before.mode != numeric.mode)
+        set_mode(numeric.mode);
     return before;
 }
 

@@ -11,12 +11,13 @@
 #include "lua/loader.h"
 #include "lua/read_table.h"
 
-enum { TIMED = JOX_HOOK_TIMED };
+/* The first calls of a function are timed; of later ones, one in so many. */
+enum { TIMED = JOX_HOOK_TIMED, TIMED_BITS = 6, TIMED_ONE_IN = 1 << TIMED_BITS };
 
-/* Fibonacci hashing times one number in 16, spread evenly over every remainder. Timing each 16th
-   call would always hit the same agent if 16 agents are in a state. */
+/* Fibonacci hashing times one number in 64, spread evenly over every remainder. Timing each 64th
+   call would always hit the same agent if 64 agents are in a state. */
 bool jox_lua_is_timed(uint64_t call) {
-    return call < TIMED || call * UINT64_C(0x9e3779b97f4a7c15) >> 60 == 0;
+    return call < TIMED || call * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TIMED_BITS) == 0;
 }
 
 /* Reads the result of `when` or `steer`; returns NULL, or what is wrong with it. */
@@ -163,6 +164,19 @@ static bool failed_within(JoxScript *script, const JoxHook *hook, int line) {
            line >= where.linedefined && line <= where.lastlinedefined;
 }
 
+/* Sets the variables that one function shares with the code around it back; returns whether one had
+   changed. Most files assign none, which their syntax tree shows. */
+static bool restore_shared(JoxScript *script, const JoxHook *hook, char name[64],
+                           lua_Debug *where) {
+    const JoxUpvalues *all = &script->upvalues;
+    lua_State *L = script->vm.L;
+    if (hook->may_assign)
+        return jox_upvalues_restore(L, all, hook->first_upvalue, hook->upvalue_count, name, where);
+    JOX_ASSERT(
+        !jox_upvalues_restore(L, all, hook->first_upvalue, hook->upvalue_count, name, where));
+    return false;
+}
+
 /* Sets back what a hook, and those that it may have called, changed outside of themselves; returns
    the last one that did and the complaint, or NULL. */
 static JoxHook *restore_upvalues(JoxScript *script, JoxHook *hook, char changed[200], int *line) {
@@ -170,8 +184,7 @@ static JoxHook *restore_upvalues(JoxScript *script, JoxHook *hook, char changed[
     char name[64];
     lua_Debug where;
     for (JoxHook *h = hook; h;) {
-        if (jox_upvalues_restore(script->vm.L, &script->upvalues, h->first_upvalue,
-                                 h->upvalue_count, name, &where)) {
+        if (restore_shared(script, h, name, &where)) {
             *line = find_function_line(script, &where);
             snprintf(changed, 200,
                      "a function changed '%s', a variable from outside of it, and it was set back: "
@@ -197,10 +210,9 @@ static bool call_function(JoxLua *lua, JoxScript *script, int32_t number, double
     script->running = number;
     script->nested = 0.0;
     script->measured = timed;
-    script->vm.run++;
+    jox_me_begin(script);
     lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
     lua_rawgeti(L, LUA_REGISTRYINDEX, script->me);
-    *(uint32_t *)lua_touserdata(L, -1) = script->vm.run;
     if (around)
         lua_rawgeti(L, LUA_REGISTRYINDEX, hook->previous_ref);
     const char *why = NULL;
@@ -228,7 +240,7 @@ static bool call_function(JoxLua *lua, JoxScript *script, int32_t number, double
         const double took = jox_clock_thread() - begun;
         *(first ? &hook->first : &hook->seconds) += took - script->nested;
         hook->timed += !first;
-        lua->arriving += lua->machines->spawning ? (first ? 1.0 : TIMED) * took : 0.0;
+        lua->arriving += lua->machines->spawning ? (first ? 1.0 : TIMED_ONE_IN) * took : 0.0;
     }
     if (failed)
         jox_hook_report_failure(lua, script, failed, why, line);

@@ -202,7 +202,7 @@ static double estimate_hook_time(const JoxHook *hook) {
 }
 
 /* Returns the processor time of a machine's functions, s, estimated from the first 16 calls of each
-   function and one in 16 of the others; *calls is the number of calls. */
+   function and one in 64 of the others; *calls is the number of calls. */
 static double measure_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls) {
     const JoxScript *script = jox_lua_script(lua, machine);
     double seconds = 0.0;

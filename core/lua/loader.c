@@ -70,9 +70,13 @@ static void check_upvalues(lua_State *L, int index, void *context) {
         count++;
     }
     jox_upvalues_add(L, index, &script->upvalues, script->hooks[script->hook_walked].first_upvalue);
-    if (sscanf(about.short_src, "b%d", &number) != 1 || (size_t)number >= script->vm.source_count)
+    bool *may_assign = &script->hooks[script->hook_walked].may_assign;
+    if (sscanf(about.short_src, "b%d", &number) != 1 || (size_t)number >= script->vm.source_count) {
+        *may_assign = true;
         return;
+    }
     JoxSource *source = script->vm.sources[number];
+    *may_assign |= count > 0 && jox_outline_assigns_shared(source);
     const JoxToken *t = jox_outline_assigned(source, about.linedefined, about.lastlinedefined,
                                              names, (size_t)count);
     if (t)
@@ -89,6 +93,8 @@ static int build_protected(lua_State *L) {
     if (!jox_patch_behaviour(script))
         return 0;
     jox_build(script, script->vm.sources[0]);
+    if (script->built)
+        jox_fields_add_memory(script, script->built);
     for (uint32_t h = 0; h < script->hook_count; h++) { /* and freezes everything that they reach */
         script->hook_walked = h;
         script->hooks[h].first_upvalue = script->upvalues.count;

@@ -103,6 +103,35 @@ static void assigned_upvalues_are_found(void **state) {
             fail_msg("%s\n %s", CASES[i].text, t ? "was found" : "was not found");
         if (t && (!jox_token_is(t, CASES[i].name) || t->line != CASES[i].line))
             fail_msg("%s\n gave %.*s in line %d", CASES[i].text, (int)t->length, t->text, t->line);
+        if (t && !jox_outline_assigns_shared(script->vm.sources[0]))
+            fail_msg("%s\n: upvalues would not be set back", CASES[i].text);
+        jox_script_free(script);
+    }
+    jox_lua_free(lua);
+}
+
+/* Upvalues are set back after calls only if a function of the file assigns a variable that is
+   declared outside of it. */
+static void files_that_assign_no_upvalues_are_known(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        bool assigns;
+    } CASES[] = {
+        {"local n = 0 n = 1 return function() local n = n n = n + 1 return n end", false},
+        {"local t = {} t.x = 1 return function(me) me.x = t.x for i = 1, 3 do i = 2 end end",
+         false},
+        {"local function f() end return function() f() end", false},
+        {"local n = 0 local function f() n = 1 end return function() return n end", true},
+        {"return function() local n = 0 return function() n = 1 end end", true},
+        {"local f return function() return function() function f() end end end", true},
+    };
+    JoxLua *lua = jox_lua_create(NULL);
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        JoxScript *script = open_upvalue_script(lua);
+        find_assigned_upvalue(script, CASES[i].text);
+        if (jox_outline_assigns_shared(script->vm.sources[0]) != CASES[i].assigns)
+            fail_msg("%s: not %d", CASES[i].text, CASES[i].assigns);
         jox_script_free(script);
     }
     jox_lua_free(lua);
@@ -211,6 +240,7 @@ static void changed_upvalues_are_set_back(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(assigned_upvalues_are_found),
+        cmocka_unit_test(files_that_assign_no_upvalues_are_known),
         cmocka_unit_test(assigned_upvalues_of_large_functions_are_found),
         cmocka_unit_test(changed_upvalues_are_set_back),
     };

@@ -7,63 +7,21 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "lua/language/fields.h"
 #include "lua/language/vocabulary.h"
 
 static const char ME[] = "jostle me", VIEW[] = "jostle view";
 
-typedef struct View {
+/* `me`: the one object that is passed to functions. */
+typedef struct JoxMe {
+    const char *type;
+    uint32_t run;
+} JoxMe;
+
+typedef struct JoxView {
+    const char *type;
     uint32_t run, index;
-} View;
-
-static double get_vector_length(float x, float y) {
-    return sqrt((double)x * x + (double)y * y);
-}
-
-/* Returns the value of a name of one or two letters, x, y, vx or vy; NULL for any other name. */
-static const float *find_coordinate(const JoxAgents *a, uint32_t i, const char *name) {
-    bool v = name[0] == 'v';
-    const char letter = v ? name[1] : name[0];
-    if ((letter != 'x' && letter != 'y') || name[v ? 2 : 1])
-        return NULL;
-    return v ? (letter == 'x' ? &a->vx[i] : &a->vy[i]) : letter == 'x' ? &a->x[i] : &a->y[i];
-}
-
-/* Pushes a number of the agent by name; false if there is none of that name. */
-static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i, const char *name) {
-    JOX_ASSERT(i < machines->agents->count);
-    const JoxAgents *a = machines->agents;
-    const float *at = find_coordinate(a, i, name);
-    if (at)
-        return lua_pushnumber(L, *at), true;
-    if (strcmp(name, "id") == 0)
-        return lua_pushinteger(L, a->id[i]), true;
-    if (strcmp(name, "time") == 0)
-        return lua_pushnumber(L, machines->tick * machines->dt), true;
-    if (strcmp(name, "time_in_state") == 0)
-        return lua_pushnumber(L, (machines->tick - a->entered[i]) * machines->dt), true;
-    if (strcmp(name, "density") == 0)
-        return lua_pushnumber(L, a->density[i]), true;
-    if (strcmp(name, "pushed") == 0)
-        return lua_pushnumber(L, get_vector_length(a->force_x[i], a->force_y[i])), true;
-    if (strcmp(name, "compression") == 0)
-        return lua_pushnumber(L, a->compression[i]), true;
-    if (strcmp(name, "load") == 0)
-        return lua_pushnumber(L, a->load[i]), true;
-    if (strcmp(name, "fallen") == 0)
-        return lua_pushnumber(L, a->fallen[i]), true;
-    if (strcmp(name, "team") == 0)
-        return lua_pushinteger(L, a->team[i]), true;
-    int parameter = jox_parameter_find(name);
-    if (parameter >= 0)
-        return lua_pushnumber(L, jox_param(a, parameter, i)), true;
-    if (strcmp(name, "goal") != 0)
-        return false;
-    if (a->goal[i] >= 0 && (uint32_t)a->goal[i] < machines->place_count)
-        lua_pushstring(L, machines->places[a->goal[i]].name);
-    else
-        lua_pushnil(L);
-    return true;
-}
+} JoxView;
 
 /* Pushes a value of memory, as a boolean or a number. */
 static void push_memory(lua_State *L, const JoxMemorySlot *slot, double value) {
@@ -90,8 +48,10 @@ static double check_memory(lua_State *L, const JoxMemorySlot *slot, int index) {
 
 /* Returns the index of the agent that a view shows; raises an error if it was kept from an earlier
    call. */
-static uint32_t check_view(lua_State *L, JoxScript *script) {
-    const View *view = luaL_checkudata(L, 1, VIEW);
+static uint32_t check_view(lua_State *L, const JoxScript *script) {
+    const JoxView *view = lua_touserdata(L, 1);
+    if (!view || view->type != VIEW)
+        luaL_typeerror(L, 1, VIEW);
     if (script->vm.loading || view->run != script->vm.run)
         luaL_error(L, "a neighbour was kept from an earlier call; it is valid during its own only");
     return view->index;
@@ -101,32 +61,31 @@ static uint32_t check_view(lua_State *L, JoxScript *script) {
 static int view_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     JoxLua *lua = script->owner;
-    uint32_t i = check_view(L, script);
-    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    const uint32_t i = check_view(L, script);
     const JoxAgents *a = lua->machines->agents;
-    if (lua->before_machine[i] != JOX_NO_MACHINE) {
-        const JoxMachine *m = lua->machines->set->items[lua->before_machine[i]];
-        int32_t slot = jox_machine_memory(m, name);
+    const uint16_t machine = lua->before_machine[i];
+    const JoxMachine *m = machine == JOX_NO_MACHINE ? NULL : lua->machines->set->items[machine];
+    const JoxField *field = jox_field_find(script, lua_topointer(L, 2));
+    const bool of_machine = field->kind == FIELD_STATE || field->kind == FIELD_MACHINE;
+    if (of_machine && m) {
         uint16_t state = lua->before_state[i] < m->state_count ? lua->before_state[i] : m->start;
-        if (strcmp(name, "state") == 0)
-            return lua_pushstring(L, m->states[state].name), 1;
-        if (strcmp(name, "machine") == 0)
-            return lua_pushstring(L, m->name), 1;
-        if (slot >= 0) {
-            const uint32_t most = sizeof script->read / sizeof *script->read;
-            script->read[script->read_count % most].agent = i;
-            script->read[script->read_count++ % most].slot = (uint32_t)slot;
-            return push_memory(L, &m->memory[slot],
-                               lua->before_memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
-                   1;
-        }
+        lua_pushstring(L, field->kind == FIELD_STATE ? m->states[state].name : m->name);
+        return 1;
     }
-    if (push_number(L, lua->machines, i, name))
+    const int32_t slot = jox_field_slot(L, script, m, field);
+    if (slot >= 0) {
+        const uint32_t most = sizeof script->read / sizeof *script->read;
+        script->read[script->read_count % most].agent = i;
+        script->read[script->read_count++ % most].slot = (uint32_t)slot;
+        push_memory(L, &m->memory[slot],
+                    lua->before_memory[(size_t)i * a->memory_stride + (uint32_t)slot]);
+        return 1;
+    }
+    if (jox_field_push(L, lua->machines, i, field))
         return 1;
     /* One without a machine, whom a program moves, or with another machine. */
-    bool lacks = lua->before_machine[i] == JOX_NO_MACHINE &&
-                 (!strcmp(name, "state") || !strcmp(name, "machine"));
-    if (lacks || jox_machine_memory(script->machine, name) >= 0)
+    const char *name = jox_field_key(L);
+    if (of_machine || jox_machine_memory(script->machine, name) >= 0)
         return lua_pushnil(L), 1;
     return luaL_error(L, "a neighbour has no '%s'", name);
 }
@@ -146,14 +105,13 @@ static int view_newindex(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     JoxLua *lua = script->owner;
     uint32_t i = check_view(L, script);
-    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     const JoxAgents *a = lua->machines->agents;
     const uint16_t machine = lua->before_machine[i];
     const JoxMachine *m = machine == JOX_NO_MACHINE ? NULL : lua->machines->set->items[machine];
-    int32_t slot = m ? jox_machine_memory(m, name) : -1;
+    const int32_t slot = jox_field_slot(L, script, m, jox_field_find(script, lua_topointer(L, 2)));
     if (slot < 0)
         return luaL_error(L, "only the memory of a neighbour can be set, and '%s' is not in it",
-                          name);
+                          jox_field_key(L));
     if (lua->write_count >= 100000)
         return luaL_error(L, "too much is written to neighbours in one step");
     double value = check_memory(L, &m->memory[slot], 3);
@@ -169,6 +127,29 @@ static int view_newindex(lua_State *L) {
     return 0;
 }
 
+/* Makes a view, which is not valid yet, and pushes it. */
+static JoxView *make_view(lua_State *L) {
+    JoxView *view = lua_newuserdatauv(L, sizeof *view, 0);
+    *view = (JoxView){.type = VIEW};
+    luaL_setmetatable(L, VIEW);
+    return view;
+}
+
+/* Pushes a view of an agent; the list of shared views is on top of the stack. Calls share their
+   first views: no view can be kept from one call to the next, as all that lasts is frozen. */
+static void push_view(lua_State *L, JoxScript *script, uint32_t i) {
+    const uint32_t n = script->view_count++;
+    JoxView *view;
+    if (n < JOX_VIEWS) {
+        lua_rawgeti(L, -1, n + 1);
+        view = script->view_objects[n];
+    } else {
+        view = make_view(L);
+    }
+    view->run = script->vm.run;
+    view->index = i;
+}
+
 /* Pushes the list of views of the agent's neighbours. */
 static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
     JOX_ASSERT(script->machine);
@@ -178,23 +159,30 @@ static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
     const uint32_t count = jox_machines_seen(script->owner->machines, i, seen);
     jox_vm_charge(L, 20 * (count + 1));
     lua_createtable(L, (int)count, 0);
+    lua_rawgeti(L, LUA_REGISTRYINDEX, script->views);
     for (uint32_t k = 0; k < count; k++) {
-        View *view = lua_newuserdatauv(L, sizeof *view, 0);
-        *view = (View){script->vm.run, seen[k]};
-        luaL_setmetatable(L, VIEW);
-        lua_rawseti(L, -2, k + 1);
+        push_view(L, script, seen[k]);
+        lua_rawseti(L, -3, k + 1);
     }
+    lua_pop(L, 1);
     return 1;
 }
 
 /* ---- me ---- */
 
 /* Returns the agent that `me` stands for; raises an error if it was kept from an earlier call. */
-static uint32_t check_me(lua_State *L, JoxScript *script) {
-    const uint32_t *run = luaL_checkudata(L, 1, ME);
-    if (script->vm.loading || *run != script->vm.run)
+static uint32_t check_me(lua_State *L, const JoxScript *script) {
+    const JoxMe *me = lua_touserdata(L, 1);
+    if (me != script->me_object)
+        luaL_typeerror(L, 1, ME);
+    if (script->vm.loading || me->run != script->vm.run)
         luaL_error(L, "`me` was kept from an earlier call; it is valid during its own only");
     return script->agent;
+}
+
+void jox_me_begin(JoxScript *script) {
+    script->view_count = 0;
+    script->me_object->run = ++script->vm.run;
 }
 
 /* me.signal("name") and me:signal("name"): heard in the next step. */
@@ -231,25 +219,28 @@ static int me_signal(lua_State *L) {
 static int me_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     uint32_t i = check_me(L, script);
-    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     const JoxMachineRun *machines = script->owner->machines;
     const JoxAgents *a = machines->agents;
     const JoxMachine *m = script->machine;
-    int32_t slot = jox_machine_memory(m, name);
+    const JoxField *field = jox_field_find(script, lua_topointer(L, 2));
+    const int32_t slot = jox_field_slot(L, script, m, field);
     if (slot >= 0)
         return push_memory(L, &m->memory[slot],
                            a->memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
                1;
-    if (strcmp(name, "state") == 0)
+    switch (field->kind) {
+    case FIELD_STATE:
         return lua_pushstring(L, m->states[a->state[i]].name), 1;
-    if (strcmp(name, "machine") == 0)
+    case FIELD_MACHINE:
         return lua_pushstring(L, m->name), 1;
-    if (strcmp(name, "neighbours") == 0)
+    case FIELD_NEIGHBOURS:
         return push_neighbours(L, script, i);
-    if (strcmp(name, "signal") == 0)
+    case FIELD_SIGNAL:
         return lua_pushcfunction(L, me_signal), 1;
-    if (push_number(L, machines, i, name))
+    }
+    if (jox_field_push(L, machines, i, field))
         return 1;
+    const char *name = jox_field_key(L);
     const char *now = jox_machine_renamed(m, JOX_PART_MEMORY, name);
     if (now)
         return luaL_error(L, "me.%s is called me.%s now", name, now);
@@ -283,10 +274,10 @@ static void record_write(lua_State *L, JoxMachineRun *machines, uint32_t i, bool
 static int me_newindex(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     uint32_t i = check_me(L, script);
-    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     JoxMachineRun *machines = script->owner->machines;
-    int32_t slot = jox_machine_memory(script->machine, name);
-    int parameter = jox_parameter_find(name);
+    const JoxField *field = jox_field_find(script, lua_topointer(L, 2));
+    const int32_t slot = jox_field_slot(L, script, script->machine, field);
+    const int parameter = field->parameter;
     if (slot >= 0) {
         const JoxAgents *a = machines->agents;
         double value = check_memory(L, &script->machine->memory[slot], 3);
@@ -296,11 +287,11 @@ static int me_newindex(lua_State *L) {
         const JoxParameterInfo *info = &jox_parameters[parameter];
         double value = lua_type(L, 3) == LUA_TNUMBER ? lua_tonumber(L, 3) : NAN;
         if (!(value >= info->least && value <= info->greatest))
-            return luaL_error(L, "%s must be a number from %f to %f %s", name, info->least,
+            return luaL_error(L, "%s must be a number from %f to %f %s", info->name, info->least,
                               info->greatest, info->unit);
         jox_machines_set_own(machines, i, (uint32_t)parameter, value);
         record_write(L, machines, i, false, parameter);
-    } else if (strcmp(name, "goal") == 0) {
+    } else if (field->kind == FIELD_GOAL) {
         int32_t place =
             lua_type(L, 3) == LUA_TSTRING
                 ? jox_place_find(machines->places, machines->place_count, lua_tostring(L, 3))
@@ -310,7 +301,8 @@ static int me_newindex(lua_State *L) {
         machines->agents->goal[i] = place;
     } else {
         return luaL_error(
-            L, "'%s' cannot be set; what an agent remembers is declared by memory { ... }", name);
+            L, "'%s' cannot be set; what an agent remembers is declared by memory { ... }",
+            jox_field_key(L));
     }
     return 0;
 }
@@ -330,8 +322,15 @@ void jox_me_open(JoxScript *script) {
     lua_State *L = script->vm.L;
     add_type(L, ME, me_index, me_newindex);
     add_type(L, VIEW, view_index, view_newindex);
-    uint32_t *run = lua_newuserdatauv(L, sizeof *run, 0);
-    *run = 0;
+    script->me_object = lua_newuserdatauv(L, sizeof *script->me_object, 0);
+    *script->me_object = (JoxMe){.type = ME};
     luaL_setmetatable(L, ME);
-    script->me = luaL_ref(L, LUA_REGISTRYINDEX); /* the one object that is passed to functions */
+    script->me = luaL_ref(L, LUA_REGISTRYINDEX);
+    lua_createtable(L, JOX_VIEWS, 0);
+    for (uint32_t n = 0; n < JOX_VIEWS; n++) {
+        script->view_objects[n] = make_view(L);
+        lua_rawseti(L, -2, n + 1);
+    }
+    script->views = luaL_ref(L, LUA_REGISTRYINDEX);
+    jox_fields_open(script);
 }

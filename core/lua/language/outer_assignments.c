@@ -35,6 +35,17 @@ static bool uses_shared(const JoxSyntax *s, int32_t f, const char *name) {
     return false;
 }
 
+bool jox_outline_assigns_shared(const JoxSource *source) {
+    const JoxSyntax *s = jox_outline_syntax(source);
+    for (size_t b = 0; s->whole && b < s->binding_count; b++) {
+        const JoxTree *t = &s->trees[s->bindings[b].target];
+        if (!s->bindings[b].declares && t->kind == JOX_TREE_NAME && t->variable != JOX_NO_TREE &&
+            t->function != s->variables[t->variable].function)
+            return true;
+    }
+    return !s->whole;
+}
+
 const JoxToken *jox_outline_assigned(const JoxSource *source, int first_line, int last_line,
                                      const char *const *names, size_t name_count) {
     const JoxSyntax *s = jox_outline_syntax(source);

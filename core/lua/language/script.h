@@ -48,6 +48,8 @@ void jox_outline_contexts(const JoxSource *source, JoxDiagnostics *diagnostics);
    named variables of the code around it; NULL if none is found. */
 const JoxToken *jox_outline_assigned(const JoxSource *source, int first_line, int last_line,
                                      const char *const *names, size_t name_count);
+/* Returns whether any function of the source may assign a variable from outside of it. */
+bool jox_outline_assigns_shared(const JoxSource *source);
 /* Returns the syntax tree of a source that Lua has compiled; made on first use. */
 const JoxSyntax *jox_outline_syntax(const JoxSource *source);
 
@@ -154,7 +156,7 @@ typedef struct JoxRequired {
 /* ---- scripts ---- */
 
 enum {
-    JOX_HOOK_TIMED = 16 /* first calls that are timed; of later ones, one in as many is */
+    JOX_HOOK_TIMED = 16 /* first calls that are timed; of later ones, one in 64 is */
 };
 
 /* How a function of a mod extends the function that stood before it. */
@@ -174,7 +176,8 @@ typedef struct JoxHook {
     bool steers;        /* extends a compiled steering, whose velocity the agent has */
     int previous_ref;   /* AROUND: registry reference of the function that it is passed */
     char *where;        /* "state Circle > transition 2 (to Exit) > on_take" */
-    uint32_t first_upvalue, upvalue_count; /* items of JoxScript.upvalues that it could change */
+    uint32_t first_upvalue, upvalue_count; /* items of JoxScript.upvalues that it reaches */
+    bool may_assign; /* a file of its code assigns upvalues: they are set back after each call */
     uint64_t calls, failures, timed;
     double first;             /* s, sum over the first calls, which are all timed */
     double seconds;           /* s, sum over the later calls that were timed, `timed` in number */
@@ -184,6 +187,16 @@ typedef struct JoxHook {
     char *complaint;          /* message of the last failure that was reported in full */
     bool suspended;
 } JoxHook;
+
+/* A name of a field of `me` and of views. `key` is the address of Lua's text, which the registry
+   keeps: equal short texts are one. */
+typedef struct JoxField {
+    const void *key;
+    int16_t kind;      /* JoxFieldKind; -1: none */
+    int16_t parameter; /* -1: none */
+    int16_t slot;      /* memory of the script's machine; -1: none */
+} JoxField;
+enum { JOX_FIELDS = 512, JOX_VIEWS = 64 };
 
 /* One Lua state, with what was read of a behaviour and the files that it requires. */
 typedef struct JoxScript {
@@ -218,6 +231,13 @@ typedef struct JoxScript {
     JoxMachine *built;         /* under construction, kept here so that a failure can free it */
     const JoxMachine *machine; /* machine of the running function */
     int me;                    /* registry reference of `me`, which functions are passed */
+    struct JoxMe *me_object;   /* that object */
+    uint32_t field_count;
+    bool has_unlisted;           /* some names of memory are not among the fields */
+    JoxField fields[JOX_FIELDS]; /* names of `me` and views, by address, with open addressing */
+    int views;                   /* registry reference of a list of views, which calls share */
+    struct JoxView *view_objects[JOX_VIEWS]; /* items of that list */
+    uint32_t view_count;                     /* number of views made by the running function */
     struct {
         uint32_t agent, slot;
     } read[16];          /* latest reads of neighbours' memory by the running function, as a ring */
@@ -337,5 +357,10 @@ bool jox_word_lookup(lua_State *L, const char *name);
 
 /* Registers `me` and the views of neighbours. */
 void jox_me_open(JoxScript *script);
+/* Adds the names of a machine's memory to the fields that `me` and views find by address. In
+   fields.c. */
+void jox_fields_add_memory(JoxScript *script, const JoxMachine *machine);
+/* Makes `me` and the views of earlier calls invalid, for a new call. */
+void jox_me_begin(JoxScript *script);
 
 #endif

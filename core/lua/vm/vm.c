@@ -15,6 +15,7 @@ enum {
     CHECK_EVERY = 1000,
     MOST_NAMES = 4096,
     SAMPLED = 64,
+    SUSPECTED = 64,
     CHARGES_TIMED = 32,
     LEAST_BUDGET = 1000,
     SAID = 20
@@ -95,15 +96,33 @@ static double get_load_limit(const JoxVm *vm) {
     return LOAD_SECONDS * SLOWER * (share > 1.0 ? share : 1.0);
 }
 
+/* Returns the time by which calls are watched, s. The clock of the wall is read in a twentieth of
+   the time that the clock of the processor takes, and never passes slower: the latter is read
+   while the former finds calls that last too long. */
+static double read_watch(const JoxVm *vm) {
+    return vm->suspected > 0 ? jox_clock_thread() : jox_clock_wall();
+}
+
+/* Begins to watch the time of the present call. */
+static void start_watch(JoxVm *vm) {
+    vm->watch_from = read_watch(vm);
+    vm->watch_left = vm->left;
+}
+
 /* Adds up the time by which calls exceed what their instructions explain, times `weight` and at
    most `most`, s. Some instructions take unbounded time, as a look-up among colliding keys or a
    comparison of long strings; past the limit the run has to end. */
 static void check_time(JoxVm *vm, double weight, double most) {
     if (vm->untimed)
         return;
-    double now = jox_clock_thread();
+    double now = read_watch(vm);
     double beyond = now - vm->watch_from - CALL_SECONDS * SLOWER -
                     (double)(vm->watch_left - vm->left) * STEP_SECONDS * SLOWER;
+    if (beyond > 0.0 && vm->suspected == 0) { /* or this thread has had to wait */
+        vm->suspected = SUSPECTED;
+        start_watch(vm);
+        return;
+    }
     beyond = beyond * weight < most ? beyond * weight : most;
     vm->beyond = vm->beyond + beyond > 0.0 ? vm->beyond + beyond : 0.0;
     vm->watch_from = now;
@@ -189,8 +208,7 @@ static void count_instructions(JoxVm *vm) {
         check_time(vm, 1.0, 1e9);
         good = good && !vm->group->stalled[0];
     } else if (good) {
-        vm->watch_from = jox_clock_thread();
-        vm->watch_left = vm->left;
+        start_watch(vm);
     }
     if (!good)
         raise_over_budget(L, 0);
@@ -382,10 +400,9 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     vm->left = instructions;
     const JoxNumeric before = jox_numeric_use(jox_numeric_plain());
     bool sampled = !vm->loading && vm->calls++ % SAMPLED == 0;
-    if (sampled) {
-        vm->watch_from = jox_clock_thread();
-        vm->watch_left = vm->left;
-    }
+    vm->suspected -= vm->suspected > 0;
+    if (sampled)
+        start_watch(vm);
     vm->interval = vm->loading ? CHECK_EVERY : FIRST_CHECK;
     set_hook(vm, vm->interval);
     int handler = lua_gettop(vm->L) - arguments;

@@ -43,10 +43,11 @@ typedef struct JoxVm {
     uint32_t second; /* simulated second of the next call, plus 1; 0: outside a simulation */
     uint64_t step_left; /* instructions that calls may still use in step `budget_step` */
     uint32_t budget_step;
-    double watch_from; /* processor time of this thread, s, at which `watch_left` was read */
+    double watch_from; /* time, s, at which `watch_left` was read */
     uint64_t watch_left;
-    double beyond; /* time, s, that calls took beyond what their instructions explain */
-    char **names;  /* interned, kept until the VM is closed */
+    uint32_t suspected; /* number of calls yet to be watched by processor time, not by the wall's */
+    double beyond;      /* time, s, that calls took beyond what their instructions explain */
+    char **names;       /* interned, kept until the VM is closed */
     size_t name_count, name_capacity;
     JoxSource **sources; /* the script, then files it required; number 3 is chunk "=b3" */
     size_t source_count, source_capacity;
