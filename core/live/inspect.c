@@ -10,6 +10,7 @@
 #include "base/number/pi.h"
 #include "jostle_tools.h"
 #include "run/mods/settings.h"
+#include "run/why/why.h"
 
 enum { DIGITS = 6 };
 
@@ -199,6 +200,24 @@ static void add_last_transition(const JoScene *scene, uint32_t i, const JoxWatch
     jox_json_end(json);
 }
 
+/* Adds "why": the transitions out of the agent's state with the terms of their conditions. null of
+   an agent without a behaviour. */
+static void add_why(JoScene *scene, uint32_t i, JoxJson *json) {
+    JoxBehaviourLook look;
+    JoxWhyAgent why;
+    if (!find_agent_machine(scene, i)) {
+        jox_json_null(json, "why");
+        return;
+    }
+    jox_world_look(scene->world, &look);
+    jox_why_agent(scene, &look, i, &why);
+    jox_json_object(json, "why");
+    jox_why_agent_json(scene, &why, json);
+    jox_json_end(json);
+    jox_why_agent_free(&why);
+    jox_world_end_look(scene->world, &look);
+}
+
 static void add_last_step(const JoxInspected *seen, double compression, double load,
                           JoxJson *json) {
     static const char *const PLANES[] = {"wall", "contact", "agent", "body", "force"};
@@ -243,6 +262,7 @@ bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
     add_memory_values(scene, i, json);
     add_own_values(scene, i, json);
     add_last_transition(scene, i, watched, json);
+    add_why(scene, i, json);
     jox_json_bool(json, "seen", seen->seen);
     add_last_step(seen, (double)a->compression[i], (double)a->load[i], json);
     return true;

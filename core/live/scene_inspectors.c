@@ -1,5 +1,8 @@
 /* Inspection by browsers, one agent each: keeps the agent and sends its data with each status. */
 #include <assert.h>
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "live/inspect.h"
@@ -24,12 +27,14 @@ static bool is_still_in_slot(const JoScene *scene, const JoxLiveInspector *inspe
     return i != JOX_NO_INDEX && a->id[i] == inspector->id;
 }
 
-static void send_inspected_agent(JoxScenePage *s, JoxLiveInspector *inspector) {
+/* Sends the agent of a browser; `found`: which the browser does not know yet. */
+static void send_inspected_agent(JoxScenePage *s, JoxLiveInspector *inspector, bool found) {
     const bool there = is_still_in_slot(s->scene, inspector);
     s->page.text.length = 0;
     JoxJson json = jox_json_begin(&s->page.text, 0);
     jox_json_object(&json, NULL);
     jox_json_string(&json, "type", "inspect");
+    jox_json_bool(&json, "found", found);
     if (there)
         jox_live_inspect(s->scene, inspector->slot, &json);
     else
@@ -44,14 +49,51 @@ void jox_scene_page_send_inspected(void *self) {
     JoxScenePage *s = self;
     for (uint32_t n = 0; n < JOX_VIEW_CLIENTS; n++)
         if (s->inspectors[n].client)
-            send_inspected_agent(s, &s->inspectors[n]);
+            send_inspected_agent(s, &s->inspectors[n], false);
+}
+
+/* Returns whether an agent is in a state, or of a group, of this name. */
+static bool is_called(const JoScene *scene, uint32_t i, const char *name) {
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxMachineSet *set = scene->world->machines.set;
+    if (a->group[i] < scene->spec->group_count &&
+        strcmp(scene->spec->groups[a->group[i]].name, name) == 0)
+        return true;
+    return a->machine[i] != JOX_NO_MACHINE &&
+           strcmp(set->items[a->machine[i]]->states[a->state[i]].name, name) == 0;
+}
+
+/* Returns the slot of the agent with an id; or of a state or group, of the one that has been
+   longest in its state, ties by id. UINT32_MAX: nobody is meant. */
+static uint32_t find_called_slot(const JoScene *scene, const char *name) {
+    const JoxAgents *a = &scene->world->state.agents;
+    char *end;
+    const unsigned long id = strtoul(name, &end, 10);
+    uint32_t best = JOX_NO_INDEX;
+    if (isdigit((unsigned char)*name) && !*end && id < a->next_id)
+        best = jox_agents_find(a, (uint32_t)id);
+    for (uint32_t i = 0; i < a->count && best == JOX_NO_INDEX; i++)
+        best = is_called(scene, i, name) ? i : best;
+    for (uint32_t i = 0; i < a->count && best != JOX_NO_INDEX; i++)
+        if (is_called(scene, best, name) && is_called(scene, i, name) &&
+            (a->entered[i] < a->entered[best] ||
+             (a->entered[i] == a->entered[best] && a->id[i] < a->id[best])))
+            best = i;
+    return best == JOX_NO_INDEX ? UINT32_MAX : a->slot[best];
 }
 
 void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
     JoxScenePage *s = self;
     const JoxAgents *a = &s->scene->world->state.agents;
+    const char *find = jox_command_text(request->command, "find", NULL);
     const double wanted = jox_command_number(request->command, "slot", -1.0);
-    const uint32_t slot = wanted >= 0.0 && wanted < 4294967295.0 ? (uint32_t)wanted : UINT32_MAX;
+    const uint32_t slot = find ? find_called_slot(s->scene, find)
+                          : wanted >= 0.0 && wanted < 4294967295.0 ? (uint32_t)wanted
+                                                                   : UINT32_MAX;
+    if (find && slot == UINT32_MAX) {
+        jox_live_refuse(request, "nobody here has this id, is in a state or of a group so called");
+        return;
+    }
     const uint32_t i = slot < a->slot_count ? a->slot_index[slot] : JOX_NO_INDEX;
     JoxLiveInspector *inspector = find_inspector(s, request->client);
     if (!inspector)
@@ -59,7 +101,7 @@ void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
     JOX_ASSERT(request->client != JOX_VIEW_ALL && inspector); /* as many rows as clients */
     *inspector =
         (JoxLiveInspector){request->client, slot, i == JOX_NO_INDEX ? UINT32_MAX : a->id[i]};
-    send_inspected_agent(s, inspector);
+    send_inspected_agent(s, inspector, find != NULL);
 }
 
 void jox_scene_page_end_inspection(void *self, uint32_t client) {

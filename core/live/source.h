@@ -18,7 +18,7 @@
     X(seek, JOX_LIVE_NEEDS_RECORDING) /* "time": s */                                              \
     X(input, JOX_LIVE_NEEDS_SCENE)    /* "line": as in an input log */                             \
     X(lua, JOX_LIVE_NEEDS_SCENE)      /* "machine", "state", "parameter", "value" */               \
-    X(inspect, JOX_LIVE_NEEDS_SCENE)  /* "slot" of an agent; null: none */
+    X(inspect, JOX_LIVE_NEEDS_SCENE)  /* "slot" of an agent, or "find": id, state or group */
 #define JOX_LIVE_NEEDS_RECORDING "only a recording can be played from another time"
 #define JOX_LIVE_NEEDS_SCENE "a recording cannot be changed: it can be played, paused and looked at"
 typedef enum JoxLiveVerb {

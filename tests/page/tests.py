@@ -220,6 +220,18 @@ def inspects(browser):
     expect("tawaf.lua" in panel, "the panel does not say where parameters were set")
     expect(browser.run("return document.querySelectorAll('.velocity circle').length") >= 2, "no velocities")
     expect("laps" in panel, "no memory")
+    expect("Why it stays" in panel and "missing" in panel, "the panel does not say why the person stays")
+    terms = browser.run("return document.querySelectorAll('.why .transition .terms li').length")
+    expect(terms >= 2, f"{terms} terms of transitions are shown")
+    # Also of somebody who is found by id or by state in the pause.
+    for text, same in (("3", "page.person.id === 3"), ("Circle", "page.person.state === 'Circle'")):
+        browser.run("page.agentPage.page.find(arguments[0])", text)
+        browser.wait(f"return page.person && {same}", f"nobody is found as {text}")
+        browser.wait("return document.querySelectorAll('.why .transition').length > 0", f"nothing is said of {text}")
+    browser.run("document.querySelector('.why').scrollIntoView()")
+    browser.picture("why")
+    browser.run("page.inspect(arguments[0])", slot)
+    browser.wait("return page.person && page.person.slot === arguments[0]", "the first person is not chosen again", slot)
     # The time stands still since before the click: half-planes and velocities are those of this moment.
     expect(browser.run("return page.bar.paused"), "the time goes on")
     planes = browser.run("return [document.querySelectorAll('.velocity polygon').length, page.agentPage.unseen.hidden]")

@@ -79,7 +79,7 @@ class Page {
         this.help = new Help({ meter: this.meter, view: this.view, connection: this.connection });
         this.panel = new Panel(() => this.charts?.draw());
         const pages = this.panel.pages;
-        this.agentPage = new AgentPage(pages.agent, { letGo: () => this.inspect(null) });
+        this.agentPage = new AgentPage(pages.agent, { letGo: () => this.inspect(null), find: (text) => this.connection.send({ do: "inspect", find: text }) });
         this.parameters = new ParametersPage(pages.parameters, { connection: this.connection });
         this.machine = new MachinePage(pages.machine, (machine, state) => {
             this.parameters.show(machine, state);
@@ -220,7 +220,11 @@ class Page {
     takePerson(message) {
         const agent = message.agent;
         if (!agent && this.slot === null) return;
-        if (agent && agent.slot !== this.slot) return; // about the person chosen before
+        if (agent && agent.slot !== this.slot) {
+            if (!message.found) return; // about the person chosen before
+            this.slot = this.overlay.chosen = agent.slot;
+            this.panel.show("agent");
+        }
         this.agentPage.take(message);
         if (!agent) {
             this.slot = this.overlay.chosen = this.overlay.forces = this.person = null;
@@ -274,7 +278,7 @@ class Page {
     }
 
     enablePerson(chosen) {
-        this.panel.enable("agent", chosen, "Click a person");
+        this.panel.enable("agent", chosen || !this.recorded(), "Click a person");
     }
 
     inspect(slot) {

@@ -23,8 +23,49 @@ function torsoRows(torso) {
     return [["breadth, depth", `${figure(torso.breadth)} m, ${figure(torso.depth)} m`], ["chest", `to ${Math.round(torso.chest) % 360}°${spin}`]];
 }
 
+/** A term of a condition, with its value and what there is where it does not hold. */
+function termRow(term) {
+    const mark = el("span", { className: term.holds ? "holds" : "fails", role: "img", "aria-label": term.holds ? "holds" : "does not hold" }, term.holds ? "✓" : "✗");
+    if (term.kind !== "word") {
+        return el("li", {}, mark, ` ${term.kind === "all" ? "all of" : "one of"}`, el("ul", { className: "terms" }, sortedTerms(term.terms).map(termRow)));
+    }
+    const said = [term.measure, term.note].filter(Boolean).join("; ");
+    return el("li", {}, mark, " ", el("code", {}, term.text), said ? el("span", { className: "faint" }, ` ${said}`) : null);
+}
+
+/** Terms that do not hold come first. */
+function sortedTerms(terms) {
+    return [...terms.filter((t) => !t.holds), ...terms.filter((t) => t.holds)];
+}
+
+/** A transition out of the state, and the terms that it waits for. */
+function transitionRow(t) {
+    const file = t.file.split("/").pop();
+    const missing = t.fires ? "fires next" : t.misses === 0 ? "" : t.misses === 1 ? "one term is missing" : `${t.misses} terms are missing`;
+    const terms = !t.when ? [] : t.when.kind === "all" ? sortedTerms(t.when.terms) : [t.when];
+    return el("div", { className: "transition" },
+        el("p", {}, el("strong", {}, `→ ${t.to}`), el("span", { className: "faint" }, ` ${file}:${t.line} ${missing}`)),
+        el("ul", { className: "terms" }, terms.map(termRow),
+            t.function ? el("li", {}, "a function: ", el("span", { className: "faint" }, t.function)) : null,
+            t.chance_note ? el("li", {}, el("span", { className: "faint" }, t.chance_note)) : null));
+}
+
+/** What the person waits for: every transition out of its state, the nearest to firing first. */
+function whyRows(why) {
+    if (!why) return [el("p", { className: "faint" }, "It has no behaviour.")];
+    if (!why.transitions.length) return [el("p", { className: "faint" }, "Nothing leads out of this state.")];
+    return why.transitions.map(transitionRow);
+}
+
+/** Shows named values in `list`, or hides `part`, which has the list, if there are none. */
+function showValues(part, list, values = {}) {
+    const entries = Object.entries(values);
+    part.hidden = entries.length === 0;
+    fill(list, entries.map(([name, value]) => [el("dt", {}, name), el("dd", {}, typeof value === "number" ? figure(value) : String(value))]));
+}
+
 export class AgentPage {
-    /** `page`: {letGo()} */
+    /** `page`: {letGo(), find(text)} */
     constructor(node, page) {
         this.node = node;
         this.page = page;
@@ -34,7 +75,17 @@ export class AgentPage {
 
     none(text = "Click a person in the picture, or give the picture the focus and press Enter.") {
         this.id = null;
-        fill(this.node, el("p", { className: "faint" }, text));
+        fill(this.node, el("p", { className: "faint" }, text), this.finder());
+    }
+
+    /** A field that chooses a person by id, or the one who has been longest in a state or of a group. */
+    finder() {
+        const field = el("input", { type: "search", placeholder: "17, a state, a group", "aria-label": "Find a person by id, state or group" });
+        const submit = (event) => {
+            event.preventDefault();
+            if (field.value.trim()) this.page.find(field.value.trim());
+        };
+        return el("form", { className: "row", onsubmit: submit }, field, el("button", {}, "Find"));
     }
 
     /** Takes an `inspect` message. */
@@ -64,6 +115,7 @@ export class AgentPage {
                 message.last.from ? null : ", which was before it was looked at"),
             message.last.why ? el("code", { className: "code" }, message.last.why) : null,
         ] : el("p", { className: "faint" }, "None since it was chosen."));
+        fill(this.why, whyRows(message.why));
         drawVelocities(this.picture, message);
         this.unseen.hidden = message.max_speed > 0 || (message.planes ?? []).length > 0;
         fill(this.planes, Object.entries(KINDS).map(([kind, name]) => {
@@ -75,9 +127,8 @@ export class AgentPage {
         this.noForce.hidden = (message.forces ?? []).length > 0;
         fill(this.parameters, (message.parameters ?? []).map((p) => [
             el("dt", {}, p.name), el("dd", {}, `${figure(p.value)} `, el("span", { className: "faint" }, p.set ?? ""))]));
-        const memory = Object.entries(message.memory ?? {});
-        this.memoryPart.hidden = memory.length === 0;
-        fill(this.memory, memory.map(([name, value]) => [el("dt", {}, name), el("dd", {}, typeof value === "number" ? figure(value) : String(value))]));
+        showValues(this.memoryPart, this.memory, message.memory);
+        showValues(this.ownPart, this.own, message.own);
     }
 
     /** Takes a person of a recording: {slot, state, group, x, y, speed, radius, torso}. */
@@ -94,6 +145,7 @@ export class AgentPage {
         this.failed = el("p", { hidden: true, className: "warning" },
             "No velocity satisfies all half-planes: the one that violates them least was taken.");
         this.last = el("div");
+        this.why = el("div", { className: "why" });
         this.picture = svg("svg", { class: "velocity", role: "img", "aria-label": "Velocities: forbidden half-planes, the preferred and the chosen one" });
         this.unseen = el("p", { className: "faint" }, "Known from the next step on.");
         this.planes = el("ul", { className: "key" });
@@ -102,13 +154,16 @@ export class AgentPage {
         this.parameters = el("dl", { className: "pairs" });
         this.memory = el("dl", { className: "pairs" });
         this.memoryPart = el("div", {}, el("h2", {}, "Memory"), this.memory);
+        this.own = el("dl", { className: "pairs" });
+        this.ownPart = el("div", {}, el("h2", {}, "Own values"), this.own);
         fill(this.node,
             el("div", { className: "row" }, el("h2", {}, `Agent ${agent.id}`), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
-            this.state, this.failed,
+            this.finder(), this.state, this.failed,
+            el("h2", {}, "Why it stays"), this.why,
             el("h2", {}, "Last transition"), this.last,
             el("h2", {}, "Velocities, m/s"), this.picture, this.unseen,
             el("p", { className: "faint" }, "Shaded: forbidden. Dashed: preferred, and the greatest speed. Solid: chosen."), this.planes,
-            el("h2", {}, "Forces"), this.forces, this.noForce, el("h2", {}, "Parameters"), this.parameters, this.memoryPart);
+            el("h2", {}, "Forces"), this.forces, this.noForce, this.memoryPart, this.ownPart, el("h2", {}, "Parameters"), this.parameters);
     }
 }
 
