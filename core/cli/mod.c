@@ -25,6 +25,19 @@ static const CliOption OPTIONS[] = {
      CLI_GIVEN(Mods, has_at), CLI_RANGE(0, 1e6)},
     CLI_TRUSTED_OPTION(Mods)};
 
+/* Prints a setting that is no number, and what else it may be: "polite (polite, rude)". */
+static void print_choice(const JoModSetting *set) {
+    const char *between = "";
+    printf("%s (", set->text);
+    if (set->kind == JO_SETTING_BOOL)
+        printf("true, false");
+    for (const char *c = set->choices; *c; c += strcspn(c, "\n") + 1) {
+        printf("%s%.*s", between, (int)strcspn(c, "\n"), c);
+        between = ", ";
+    }
+    putchar(')');
+}
+
 static void print_taken(uint32_t number, const JoMod *mod) {
     printf("%u. %s %s%s%s (%s; %s)\n", number, mod->name, mod->version, *mod->title ? ": " : "",
            mod->title, mod->folder, mod->on == JO_MOD_ON ? "on" : "named");
@@ -35,8 +48,12 @@ static void print_taken(uint32_t number, const JoMod *mod) {
     }
     for (uint32_t s = 0; s < mod->setting_count; s++) {
         const JoModSetting *set = &mod->settings[s];
-        printf("     %s = %g %s (%g to %g)%s%s\n", set->name, set->value, set->unit, set->least,
-               set->greatest, *set->meaning ? ": " : "", set->meaning);
+        printf("     %s = ", set->name);
+        if (set->kind == JO_SETTING_NUMBER)
+            printf("%g %s (%g to %g)", set->value, set->unit, set->least, set->greatest);
+        else
+            print_choice(set);
+        printf("%s%s\n", *set->meaning ? ": " : "", set->meaning);
     }
 }
 

@@ -142,10 +142,18 @@ typedef struct JoModPatch {
     bool behaviour;     /* true: the target is a behaviour; false: a scene */
     bool replaces;      /* replaces the target as a whole */
 } JoModPatch;
-/* A number that a mod declares for users to set, with its range. */
+typedef enum JoModSettingKind {
+    JO_SETTING_NUMBER,
+    JO_SETTING_BOOL,
+    JO_SETTING_CHOICE /* one of several texts */
+} JoModSettingKind;
+/* A value that a mod declares for users to set. */
 typedef struct JoModSetting {
     const char *name, *unit, *meaning;
-    double value, least, greatest;
+    double value, least, greatest; /* a bool is 0 or 1; a choice the index of its text */
+    JoModSettingKind kind;
+    const char *text;    /* the value as a text, "true" or "polite"; "" for a number */
+    const char *choices; /* the texts of a choice, each ended by a line feed; else "" */
 } JoModSetting;
 /* A mod: a folder of patches to the behaviours and scenes of others, and of behaviours of its own.
  */

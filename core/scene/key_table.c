@@ -381,14 +381,16 @@ static const JoxKey KEYS[] = {
     {"mod", "load_after", NAMES, "", 0, 0, "", EARLIER,
      .meaning = "mods that come before it if they are applied"},
     {"mod", "settings", TABLE, "", 0, 0, "", READ(jox_key_read_settings), .content = "setting*",
-     .meaning = "numbers that a scene may choose for it"},
-    {"setting", "value", NUMBER, "", -1e12, 1e12, "!", TO(JoxModSetting, value),
-     .meaning = "value, unless the scene or --set gives another"},
-    {"setting", "unit", TEXT, "", 0, 0, "", TO(JoxModSetting, unit), .meaning = "unit of the value, as m/s"},
+     .meaning = "values that a scene may choose for it"},
+    {"setting", "value", TEXT, "", 0, 0, "!", TO(JoxModSetting, written), .content = "plain",
+     .meaning = "value, unless the scene or --set gives another; its kind is that of the setting"},
+    {"setting", "choices", NAMES, "", 0, 0, "", READ(jox_key_read_setting_choices),
+     .meaning = "the texts of which the value is one"},
+    {"setting", "unit", TEXT, "", 0, 0, "", TO(JoxModSetting, unit), .meaning = "unit of a number, as m/s"},
     {"setting", "least", NUMBER, "", -1e12, 1e12, "-1e12", TO(JoxModSetting, least),
-     .meaning = "the smallest that may be chosen"},
+     .meaning = "the smallest number that may be chosen"},
     {"setting", "greatest", NUMBER, "", -1e12, 1e12, "1e12", TO(JoxModSetting, greatest),
-     .meaning = "the largest that may be chosen"},
+     .meaning = "the largest number that may be chosen"},
     {"setting", "meaning", TEXT, "", 0, 0, "", TO(JoxModSetting, meaning), .meaning = "what the setting does, in a sentence"},
 };
 
@@ -472,7 +474,7 @@ static const JoxOwner OWNERS[] = {
     {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene uses it, and chooses "
      "its settings, by `mods: {calm: {patience: 60}}`.",
      .struct_size = sizeof(JoxMod)},
-    {"setting", "setting", "`settings` maps names to settings: numbers that behaviours of the mod read.",
+    {"setting", "setting", "`settings` maps names to settings, which patches of the mod read as `settings.NAME`: numbers, true or false, or one of `choices`.",
      .struct_size = sizeof(JoxModSetting), .name_offset = AT(JoxModSetting, name),
      .position_offset = AT(JoxModSetting, position), .finish = jox_finish_setting},
 };

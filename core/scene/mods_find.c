@@ -1,5 +1,4 @@
-/* Finds mods in folders, chooses mods that are named or enabled, and gives values to their
-   settings. */
+/* Finds mods in folders, and chooses mods that are named or enabled. */
 #include "scene/mods.h"
 
 #include <stdio.h>
@@ -113,28 +112,6 @@ static void choose_enabled(JoxModsFind *f) {
     }
 }
 
-/* Reads the scene's values of the settings of mod `m`. */
-static void read_scene_settings(JoxModsFind *f, uint32_t m, const JoxYaml *values) {
-    const JoxMod *mod = &f->mods->found[m];
-    if (values->kind != JOX_YAML_MAP && !(values->kind == JOX_YAML_SCALAR && !*values->text))
-        jox_scene_error(&f->reader, values, "bad-type", "mods: {NAME: {SETTING: 3}}",
-                        "the settings of a mod are a map");
-    for (uint32_t v = 0; values->kind == JOX_YAML_MAP && v < values->count; v++) {
-        double number;
-        JoxModSetting *found = NULL;
-        for (uint32_t s = 0; s < mod->setting_count; s++)
-            if (strcmp(mod->settings[s].name, values->keys[v]) == 0)
-                found = &mod->settings[s];
-        if (!found)
-            jox_diag_error(f->reader.diagnostics, values->key_positions[v], "unknown-setting", NULL,
-                           "mod %s has no setting '%.60s'", mod->name, values->keys[v]);
-        else if (jox_read_number(&f->reader, values->items[v], found->unit, &number)) {
-            found->value = number;
-            found->position = values->items[v]->position;
-        }
-    }
-}
-
 /* Chooses the mods that the command line and the scene name, and reads the scene's values of their
    settings. */
 static void choose_named(JoxModsFind *f) {
@@ -164,50 +141,9 @@ static void choose_named(JoxModsFind *f) {
             continue;
         }
         f->needs[m].wanted = true;
-        read_scene_settings(f, (uint32_t)m, map->items[k]);
+        jox_mods_read_values(f, (uint32_t)m, map->items[k]);
     }
     jox_yaml_attach_sources(files, f->reader.diagnostics);
-}
-
-/* Sets "mods.NAME.SETTING=VALUE" of the command line, and checks the values of all settings. */
-static void apply_command_line_settings(JoxModsFind *f) {
-    for (uint32_t s = 0; s < f->def->set_count; s++) {
-        const char *set = f->def->sets[s], *equals = strchr(set, '=');
-        if (strncmp(set, "mods.", 5) != 0 || !equals)
-            continue;
-        JoxPosition at = {"--set", 1, 1, (int)strlen(set) + 1};
-        bool found = false;
-        char *end;
-        double value = strtod(equals + 1, &end);
-        for (uint32_t m = 0; m < f->mods->found_count; m++) {
-            JoxMod *mod = &f->mods->found[m];
-            size_t n = strlen(mod->name);
-            for (uint32_t k = 0; k < mod->setting_count; k++) {
-                const char *name = mod->settings[k].name;
-                if (strncmp(set + 5, mod->name, n) != 0 || set[5 + n] != '.' ||
-                    strlen(name) != (size_t)(equals - set) - 6 - n ||
-                    strncmp(set + 6 + n, name, strlen(name)) != 0)
-                    continue;
-                found = true;
-                mod->settings[k].value = value;
-                mod->settings[k].position = at;
-            }
-        }
-        if (!found || end == equals + 1 || *end)
-            jox_diag_error(f->reader.diagnostics, at, "bad-override",
-                           "Example: mods.gentle-queue.weight=80",
-                           "'%.100s' names no setting of a mod, or gives it no number", set);
-    }
-    for (uint32_t m = 0; m < f->mods->found_count; m++)
-        for (uint32_t k = 0; k < f->mods->found[m].setting_count; k++) {
-            const JoxModSetting *s = &f->mods->found[m].settings[k];
-            if (s->value >= s->least && s->value <= s->greatest)
-                continue;
-            jox_diag_error(f->reader.diagnostics, s->position, "out-of-range", NULL,
-                           "setting '%s' of mod %s must be from %g to %g, not %g", s->name,
-                           f->mods->found[m].name, s->least, s->greatest, s->value);
-            f->needs[m].broken = true;
-        }
 }
 
 JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
@@ -224,7 +160,7 @@ JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
     search_missing_mods(f);
     choose_named(f);
     choose_enabled(f);
-    apply_command_line_settings(f);
+    jox_mods_apply_overrides(f);
     jox_mods_order(f);
     jox_free(f->enabled);
     jox_free(f);

@@ -38,6 +38,10 @@ char *jox_mods_join(JoxArena *arena, const char *folder, const char *name);
 /* Reports that there is no mod `name`. `needed_by`: the mod or "the scene" that needs it; or "". */
 void jox_mods_report_missing(JoxModsFind *find, JoxPosition at, const char *name,
                              const char *needed_by);
+/* mod_settings.c. Reads the scene's values of the settings of mod `m`. */
+void jox_mods_read_values(JoxModsFind *find, uint32_t m, const JoxYaml *values);
+/* Sets "mods.NAME.SETTING=VALUE" of the command line. */
+void jox_mods_apply_overrides(JoxModsFind *find);
 /* mods_order.c. Leaves out mods whose dependencies are missing or that conflict, and orders the
    others in mods->items. */
 void jox_mods_order(JoxModsFind *find);

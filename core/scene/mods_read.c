@@ -10,7 +10,7 @@
 #include "scene/mods_parts.h"
 #include "scene/scene_draft.h"
 
-enum { MOST_FILES = 256, LARGEST_FILE = 1 << 20, MOST_SETTINGS = 64 };
+enum { MOST_FILES = 256, LARGEST_FILE = 1 << 20 };
 
 int32_t jox_mods_index(const JoxMods *mods, const char *name) {
     for (uint32_t m = 0; m < mods->found_count; m++)
@@ -55,29 +55,6 @@ static uint32_t read_mod_names(const JoxReader *r, const JoxYaml *root, const ch
 static bool is_mod_name(const char *name) {
     size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
     return n > 0 && n <= 60 && !name[n];
-}
-
-void jox_key_read_settings(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
-    if (map && (map->kind != JOX_YAML_MAP || map->count > MOST_SETTINGS)) {
-        jox_scene_error(r, map, "bad-type", "settings: {weight: {value: 80}}",
-                        "%s maps at most %d names to settings", key->name, MOST_SETTINGS);
-        return;
-    }
-    const JoxKey items = {.name = key->name,
-                          .content = key->content,
-                          .offset = offsetof(JoxMod, settings),
-                          .count_offset = offsetof(JoxMod, setting_count)};
-    jox_key_read_items(r, &items, map, item);
-}
-
-bool jox_finish_setting(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
-    JoxModSetting *setting = item;
-    setting->unit = setting->unit ? setting->unit : jox_arena_text(r->arena, "");
-    setting->meaning = setting->meaning ? setting->meaning : jox_arena_text(r->arena, "");
-    if (good && !(setting->value >= setting->least && setting->value <= setting->greatest))
-        jox_scene_error(r, map, "out-of-range", NULL, "setting '%s' must be from %g to %g",
-                        setting->name, setting->least, setting->greatest);
-    return good;
 }
 
 static bool has_ending(const char *path, const char *ending) {

@@ -125,6 +125,7 @@ JoxOwnerFinish jox_finish_probe, jox_finish_tally;
 
 /* mods_read.c */
 JoxKeyRead jox_key_read_settings;
+JoxKeyRead jox_key_read_setting_choices;
 JoxOwnerFinish jox_finish_setting;
 
 /* command_line_values.c. The name that stands for a file in positions of values set by --set. */

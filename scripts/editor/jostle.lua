@@ -609,6 +609,6 @@ function afterwards(f) end
 ---@return any
 function around(f) end
 
---- `settings.NAME`: in a mod: the value of a setting, a plain number
+--- `settings.NAME`: in a mod: the value of a setting: a plain number, true or false, or a text
 ---@type table<string, jostle.Number>
 settings = {}

@@ -1,5 +1,6 @@
 #include "base/format/mod.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,55 @@ void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosit
                  "Say which comes first with `load_after` or `depends` in mod.yaml", context, NULL,
                  "mods %s and %s both set %s", earlier->name, later->name,
                  *path ? path : "all of it");
+}
+
+/* Reads one of the choices of a setting. */
+static bool parse_choice(const JoxModSetting *s, const char *text, double *value, JoxText *why) {
+    char hint[JOX_HINT];
+    for (uint32_t c = 0; c < s->choice_count; c++)
+        if (strcmp(s->choices[c], text) == 0) {
+            *value = c;
+            return true;
+        }
+    const char *near =
+        jox_did_you_mean(text, (const char *const *)s->choices, s->choice_count, hint);
+    jox_text_add(why, "must be ");
+    for (uint32_t c = 0; c < s->choice_count; c++)
+        jox_text_printf(why, "%s%s",
+                        c == 0                    ? ""
+                        : c + 1 < s->choice_count ? ", "
+                                                  : " or ",
+                        s->choices[c]);
+    jox_text_printf(why, ", not '%.60s'%s%s", text, near ? ". " : "", near ? near : "");
+    return false;
+}
+
+bool jox_setting_parse(const JoxModSetting *s, const char *text, double *value, JoxText *why) {
+    if (s->kind == JOX_SETTING_CHOICE)
+        return parse_choice(s, text, value, why);
+    if (s->kind == JOX_SETTING_BOOL) {
+        *value = strcmp(text, "true") == 0;
+        if (*value != 0.0 || strcmp(text, "false") == 0)
+            return true;
+        jox_text_printf(why, "must be true or false, not '%.60s'", text);
+        return false;
+    }
+    char *end;
+    *value = strtod(text, &end);
+    if (end == text || *end || !isfinite(*value))
+        jox_text_printf(why, "must be a number, not '%.60s'", text);
+    else if (!(*value >= s->least && *value <= s->greatest))
+        jox_text_printf(why, "must be from %g to %g, not %g", s->least, s->greatest, *value);
+    else
+        return true;
+    return false;
+}
+
+const char *jox_setting_text(const JoxModSetting *s) {
+    return s->kind == JOX_SETTING_BOOL ? (s->value != 0.0 ? "true" : "false")
+           : s->kind == JOX_SETTING_CHOICE && s->value < s->choice_count
+               ? s->choices[(uint32_t)s->value]
+               : "";
 }
 
 bool jox_mod_find(const JoxMod *mods, uint32_t count, const char *name,

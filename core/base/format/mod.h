@@ -8,12 +8,24 @@
 
 #include "base/format/diag.h"
 #include "base/format/path.h"
+#include "base/text.h"
 
 enum { JOX_MOST_MODS = 64 };
 
+typedef enum JoxSettingKind {
+    JOX_SETTING_NUMBER,
+    JOX_SETTING_BOOL,
+    JOX_SETTING_CHOICE /* one of several texts */
+} JoxSettingKind;
+
 typedef struct JoxModSetting {
     char *name, *unit, *meaning;
-    double value, least, greatest;
+    char *written; /* the value as mod.yaml has it */
+    JoxSettingKind kind;
+    double value; /* BOOL: 0 or 1; CHOICE: index of the text */
+    double least, greatest;
+    char **choices; /* CHOICE */
+    uint32_t choice_count;
     JoxPosition position;
 } JoxModSetting;
 
@@ -50,6 +62,12 @@ bool jox_mod_overlaps(const char *a, const char *b);
    wins. */
 void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosition at,
                       const JoxMod *earlier, JoxPosition before, const char *path);
+
+/* Reads a value of a setting from a text: a plain number in the setting's range, "true" or "false",
+   one of its choices. False with a sentence in `why`. */
+bool jox_setting_parse(const JoxModSetting *setting, const char *text, double *value, JoxText *why);
+/* Returns the value of a setting that is no number, as a text. */
+const char *jox_setting_text(const JoxModSetting *setting);
 
 /* Finds the file of a behaviour that is named "mod:name"; ".lua" may be left out. False if there is
    no such mod, or no such file in its folder behaviours/. */

@@ -229,7 +229,7 @@ static int make_verb(lua_State *L) {
     return 1;
 }
 
-/* __index of `settings`: a number of the mod. */
+/* __index of `settings`: a number, boolean or text of the mod. */
 static int settings_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?", *names[64];
@@ -239,7 +239,13 @@ static int settings_index(lua_State *L) {
     for (uint32_t s = 0; s < script->mod->setting_count && count < 64; s++) {
         names[count++] = script->mod->settings[s].name;
         if (strcmp(script->mod->settings[s].name, name) == 0) {
-            lua_pushnumber(L, script->mod->settings[s].value);
+            const JoxModSetting *setting = &script->mod->settings[s];
+            if (setting->kind == JOX_SETTING_NUMBER)
+                lua_pushnumber(L, setting->value);
+            else if (setting->kind == JOX_SETTING_BOOL)
+                lua_pushboolean(L, setting->value != 0.0);
+            else
+                lua_pushstring(L, jox_setting_text(setting));
             return 1;
         }
     }

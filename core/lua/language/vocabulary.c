@@ -243,7 +243,7 @@ const JoxWord jox_words[] = {
      "patch \"stander\" { states = { Stand = { steer = around(function(me, previous) "
      "local x, y = previous(me) return 2 * x, 2 * y end) } } }"},
     {"settings", NULL, 0, 0, 0, "settings.NAME", "",
-     "in a mod: the value of a setting, a plain number", "patch \"stander\" { defaults = { perception = settings.reach } }"},
+     "in a mod: the value of a setting: a plain number, true or false, or a text", "patch \"stander\" { defaults = { perception = settings.reach } }"},
     {"require", "*", 0, 0, 0, "require \"name\"", "",
      "returns what another file returns: one beside this file, or of the library; in a mod also "
      "\"mod:name\"",

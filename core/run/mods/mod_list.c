@@ -30,8 +30,19 @@ static void add_settings(JoxPack *pack, const JoxMod *mod) {
     for (uint32_t s = 0; s < mod->setting_count; s++) {
         const JoxModSetting *from = &mod->settings[s];
         JoModSetting *to = jox_pack_add(pack, SETTINGS, sizeof *to);
-        *to =
-            (JoModSetting){.value = from->value, .least = from->least, .greatest = from->greatest};
+        static const JoModSettingKind KINDS[] = {[JOX_SETTING_NUMBER] = JO_SETTING_NUMBER,
+                                                 [JOX_SETTING_BOOL] = JO_SETTING_BOOL,
+                                                 [JOX_SETTING_CHOICE] = JO_SETTING_CHOICE};
+        JoxText choices = {0};
+        for (uint32_t c = 0; c < from->choice_count; c++)
+            jox_text_printf(&choices, "%s\n", from->choices[c]);
+        *to = (JoModSetting){.value = from->value,
+                             .least = from->least,
+                             .greatest = from->greatest,
+                             .kind = KINDS[from->kind]};
+        jox_pack_text(pack, SETTINGS, &to->text, jox_setting_text(from));
+        jox_pack_text(pack, SETTINGS, &to->choices, choices.data ? choices.data : "");
+        jox_text_free(&choices);
         jox_pack_text(pack, SETTINGS, &to->name, from->name);
         jox_pack_text(pack, SETTINGS, &to->unit, from->unit);
         jox_pack_text(pack, SETTINGS, &to->meaning, from->meaning);

@@ -352,6 +352,7 @@ static void open_any_of(JoxJson *json, const char *key, const char *const types[
 }
 
 static void write_shared_definitions(JoxJson *json) {
+    static const char *const PLAIN[] = {"number", "boolean", "string"};
     jox_json_object(json, "name");
     write_types(json, (const char *const[]){"string", "number"});
     jox_json_end(json);
@@ -364,6 +365,12 @@ static void write_shared_definitions(JoxJson *json) {
     jox_json_object(json, NULL);
     write_reference(json, "drawn", 5);
     jox_json_end(json);
+    jox_json_end(json);
+    jox_json_end(json);
+    jox_json_object(json, "plain");
+    jox_json_array(json, "type");
+    for (size_t t = 0; t < sizeof PLAIN / sizeof *PLAIN; t++)
+        jox_json_string(json, NULL, PLAIN[t]);
     jox_json_end(json);
     jox_json_end(json);
     jox_json_object(json, "value");

@@ -271,7 +271,9 @@ const JoxExample jox_scene_examples[] = {
      "api: 1\n"
      "settings:\n"
      "  patience: {value: 30, unit: s, least: 0, greatest: 600, meaning: waiting before people leave}\n"
-     "  pace: {value: 0.8, meaning: share of the usual speed}\n"},
+     "  pace: {value: 0.8, meaning: share of the usual speed}\n"
+     "  shoves: {value: false, meaning: whether people push}\n"
+     "  manner: {value: polite, choices: [polite, rude], meaning: how people meet}\n"},
 };
 /* clang-format on */
 const size_t jox_scene_example_count = sizeof jox_scene_examples / sizeof *jox_scene_examples;

@@ -55,6 +55,7 @@ static void print_type(const JoxKey *key, JoxText *out) {
         {"xy[3]*", "map: name to list of [x, y]"},
         {"xyz[4]", "list of [x, y, z]"},
         {"draw", "number or distribution"},
+        {"plain", "number, true or false, or text"},
         {"quantity[1]", "list of numbers"},
         {"quantity[2][2]", "list of [s, 1/s]"},
         {"start[1]", "list of [s, x, y] or [s, x, y, vx, vy]"},
