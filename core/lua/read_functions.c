@@ -86,23 +86,3 @@ int32_t jox_read_function(JoxBuild *b, const char *path, int32_t *extends) {
         *extends = number;
     return number;
 }
-
-int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key) {
-    lua_State *L = b->script->vm.L;
-    JOX_ASSERT(index > 0 && lua_istable(L, index));
-    char full[256];
-    int32_t extends = -1, hook = -1;
-    jox_read_join(full, path, key);
-    int type = jox_read_field(L, index, key);
-    if (jox_read_is_function(L, -1)) {
-        hook = jox_read_function(b, full, &extends);
-        if (extends < 0)
-            return hook;
-        type = lua_type(L, -1);
-    }
-    if (type != LUA_TNIL && !jox_node_is_error(L, -1))
-        jox_build_error(b, jox_read_at(b, full), "bad-value", "Write: function(me) ... end",
-                        "'%s' must be a function, not %s", key, jox_node_kind(L, -1));
-    lua_pop(L, 1);
-    return hook;
-}
