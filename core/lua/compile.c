@@ -163,6 +163,8 @@ static char *name_target(const JoxNode *node) {
         jox_text_printf(&text, "mine.%s", node->name);
     else if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_LAST_SEEN)
         jox_text_printf(&text, "last_seen(mine.%s)", node->name);
+    else if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MESSAGE)
+        jox_text_printf(&text, "told(\"%s\").%s", node->name, node->field ? node->field : "sender");
     else if (node->kind == JOX_NODE_TARGET && node->score)
         jox_text_printf(&text, "best(%s)", node->name);
     else
@@ -176,14 +178,21 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
         return -1;
     static const JoxNodeFilter ANY;
     JoxTarget target = {
-        node->target_kind, node->target_arg, NULL,
-        build_target_filter(build, node->kind == JOX_NODE_TARGET ? &node->filter : &ANY), 0};
+        .kind = node->target_kind,
+        .arg = node->target_arg,
+        .field = -1,
+        .filter = build_target_filter(build, node->kind == JOX_NODE_TARGET ? &node->filter : &ANY)};
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_HOME)
         add_home_memory(build);
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_OTHER && !build->scores)
         jox_build_error(build, node->position, "bad-value",
                         "Example: best(\"people\", other.speed)",
                         "`other` is the candidate in the score of `best`, and nothing else");
+    if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MESSAGE) {
+        target.arg = add_name_at(build, node->name, JOX_NAME_TOLD, &node->written);
+        if (node->field)
+            target.field = add_name_at(build, node->field, JOX_NAME_READ, &node->written);
+    }
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MEMORY)
         target.arg = jox_build_memory(build, node->name);
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_LAST_SEEN)
@@ -205,7 +214,8 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     target.name = name_target(node);
     for (uint32_t i = 0; i < m->target_count; i++)
         if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&
-            strcmp(m->targets[i].name, target.name) == 0 && m->targets[i].score == target.score &&
+            m->targets[i].field == target.field && strcmp(m->targets[i].name, target.name) == 0 &&
+            m->targets[i].score == target.score &&
             is_same_filter(&m->targets[i].filter, &target.filter)) {
             jox_free(target.name);
             return (int16_t)i;
@@ -254,10 +264,14 @@ static void emit_expression(Code *code, const JoxNode *node, uint32_t to, uint32
         in.arg = jox_build_memory(code->build, node->name);
     else if (node->op == JOX_OP_THEIRS)
         in.name = add_name_at(code->build, node->name, JOX_NAME_MEMORY, &node->written);
+    else if (node->op == JOX_OP_TOLD || node->op == JOX_OP_MESSAGE)
+        in.name = add_name_at(code->build, node->name, JOX_NAME_TOLD, &node->written);
     else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_OPEN)
         in.name =
             add_name_at(code->build, node->name,
                         node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_GATE, &node->written);
+    if (node->op == JOX_OP_MESSAGE && node->kind == JOX_NODE_NUMBER)
+        in.arg = add_name_at(code->build, node->field, JOX_NAME_READ, &node->written);
     if (node->target)
         in.target = jox_build_target(code->build, node->target);
     if (node->place)

@@ -56,6 +56,13 @@ static void check_reachable(JoxBuild *b) {
     }
 }
 
+static bool has_way_out(const JoxState *state) {
+    for (uint32_t t = 0; t < state->transition_count; t++)
+        if (!state->transitions[t].stays)
+            return true;
+    return false;
+}
+
 /* Warns of states that no transition leaves: agents would stay in them for ever. */
 static void check_exits(JoxBuild *b) {
     const JoxMachine *m = b->machine;
@@ -64,7 +71,7 @@ static void check_exits(JoxBuild *b) {
         bool stands = state->steer_count == 1 && state->steer[0].kind == JOX_STEER_HOLD;
         char path[256];
         jox_read_join(path, "states", state->name);
-        if (state->transition_count == 0 && !state->removes && !state->become && !stands)
+        if (!has_way_out(state) && !state->removes && !state->become && !stands)
             jox_diag_add(
                 b->script->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path), "no-way-out",
                 "Add a transition, or `removes = true`; a state with `steer = hold` may be "
@@ -77,7 +84,7 @@ static void check_exits(JoxBuild *b) {
 
 /* Returns whether a transition is taken in any case. */
 static bool is_unconditional(const JoxTransition *t) {
-    return t->when < 0 && t->when_hook < 0 && t->chance.kind == JOX_VALUE_UNSET;
+    return !t->stays && t->when < 0 && t->when_hook < 0 && t->chance.kind == JOX_VALUE_UNSET;
 }
 
 /* Returns whether a condition requires operation `op`: it is joined to the rest by & alone. */
@@ -113,6 +120,7 @@ static void check_firing(JoxBuild *b, const JoxState *state, const char *path) {
                         "this transition never fires: the state has no `lasts`");
         for (uint32_t o = 0; o < t; o++)
             if (state->transitions[o].when == taken->when && taken->when >= 0 &&
+                !state->transitions[o].stays && !taken->stays &&
                 state->transitions[o].chance.kind == JOX_VALUE_UNSET) {
                 add_warning(b, full, "never-fires", NULL,
                             "this transition never fires: one before it has the same condition");

@@ -175,6 +175,12 @@ JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size
     for (size_t s = 0; machine && s < script->vm.source_count;
          s++) /* "neighbours" in the text: a function may look at others */
         machine->views |= script->hook_count && strstr(script->vm.sources[s]->text, "neighbours");
+    for (size_t s = 0; machine && s < script->vm.source_count; s++) /* me.told in a function */
+        machine->hears_functions |=
+            script->hook_count && strstr(script->vm.sources[s]->text, "told");
+    for (size_t s = 0; machine && s < script->vm.source_count; s++) /* me.tell */
+        machine->tells_functions |=
+            script->hook_count && strstr(script->vm.sources[s]->text, "tell");
     return loaded;
 }
 

@@ -149,7 +149,10 @@ void jox_read_id(lua_State *L, int index, int nth, char id[128]) {
         lua_pop(L, 1);
         jox_read_field(L, index, "to");
     }
-    snprintf(id, 100, "%s", lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?");
+    snprintf(id, 100, "%s",
+             lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1)
+             : lua_isnil(L, -1)             ? "reaction"
+                                            : "?");
     lua_pop(L, 1);
     if (nth > 1)
         snprintf(id + strlen(id), 28, "#%d", nth);
@@ -174,6 +177,56 @@ static JoxPosition locate_value(JoxBuild *b, const char *path) {
     return (JoxPosition){source->path, t->line, t->column, t->end_column};
 }
 
+/* Returns whether an item does anything besides leading to a state. */
+static bool does_something(const JoxTransition *t) {
+    return t->does.set_count || t->does.signal >= 0 || t->does.tell || t->does.sets_team ||
+           t->does.sets_tags || t->on_take >= 0;
+}
+
+/* Reads the condition of an item: `when`, and `every` joined with it. */
+static void read_item_condition(JoxBuild *b, int index, const char *path, JoxTransition *t) {
+    const JoxParameterInfo every = jox_table_key_number("transition", "every");
+    lua_State *L = b->script->vm.L;
+    char full[256];
+    jox_read_join(full, path, "every");
+    const int type = jox_read_field(L, index, "every");
+    const double seconds = type == LUA_TNUMBER ? lua_tonumber(L, -1) : NAN;
+    lua_pop(L, 1);
+    if (type != LUA_TNIL && !(seconds >= every.least && seconds <= every.greatest))
+        jox_build_error(b, jox_read_at(b, full), "out-of-range", "Example: every = 0.5",
+                        "every must be a plain number from %g to %g %s", every.least,
+                        every.greatest, every.unit);
+    jox_read_join(full, path, "when");
+    const int when = jox_read_field(L, index, "when");
+    if (type == LUA_TNIL) {
+        t->when = jox_read_condition(b, full, &t->when_hook);
+        return;
+    }
+    const JoxNode *condition = jox_node_get(L, -1);
+    if (when == LUA_TFUNCTION) {
+        jox_build_error(b, jox_read_at(b, full), "bad-condition",
+                        "Ask in on_take, which is called each time",
+                        "`every` goes with a condition, not with a function");
+        lua_pop(L, 1);
+        return;
+    }
+    if (when != LUA_TNIL && !(condition && condition->kind == JOX_NODE_CONDITION)) {
+        t->when = jox_read_condition(b, full, NULL); /* says what is wrong with it */
+        return;
+    }
+    JoxNode *due = jox_node_push(L, JOX_NODE_CONDITION);
+    due->op = JOX_OP_EVERY;
+    due->a = jox_node_constant(L, isnan(seconds) ? 1.0 : seconds);
+    if (when != LUA_TNIL) {
+        JoxNode *both = jox_node_push(L, JOX_NODE_CONDITION);
+        both->op = JOX_OP_AND;
+        both->a = due;
+        both->b = (JoxNode *)condition;
+    }
+    t->when = jox_read_condition(b, full, NULL);
+    lua_settop(L, index);
+}
+
 /* Reads the state that a transition leads to. */
 static uint16_t read_destination(JoxBuild *b, int index, const char *path) {
     lua_State *L = b->script->vm.L;
@@ -183,10 +236,14 @@ static uint16_t read_destination(JoxBuild *b, int index, const char *path) {
     const char *to = jox_read_field(L, index, "to") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     int target = to ? jox_machine_state(m, to) : -1;
     const char *now = to && target < 0 ? jox_machine_renamed(m, JOX_PART_STATE, to) : NULL;
+    if (!to && lua_isnil(L, -1)) {
+        lua_pop(L, 1);
+        return JOX_NO_STATE;
+    }
     if (!to) {
         jox_build_error(b, jox_read_at(b, full), "missing-key",
                         "Example: { to = \"Exit\", when = after(5) }",
-                        "a transition needs `to`, the name of a state");
+                        "`to` is the name of a state");
     } else if (now) {
         jox_diag_renamed(b->script->diagnostics, locate_value(b, full), to, now);
     } else if (target < 0) {
@@ -201,7 +258,7 @@ static uint16_t read_destination(JoxBuild *b, int index, const char *path) {
     return target < 0 ? 0 : (uint16_t)target;
 }
 
-static void read_transition(JoxBuild *b, int index, const char *path, const char *id,
+static void read_transition(JoxBuild *b, int index, const char *path, const char *id, int32_t state,
                             JoxTransition *t) {
     const JoxParameterInfo chance = jox_table_key_number("transition", "chance");
     lua_State *L = b->script->vm.L;
@@ -213,9 +270,10 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
     jox_read_check(b, index, path, known, jox_table_key_names("transition", false, known, 16),
                    false);
     t->to = read_destination(b, index, path);
-    jox_read_join(full, path, "when");
-    jox_read_field(L, index, "when");
-    t->when = jox_read_condition(b, full, &t->when_hook);
+    t->stays = t->to == JOX_NO_STATE;
+    if (t->stays)
+        t->to = (uint16_t)state;
+    read_item_condition(b, index, path, t);
     jox_read_join(full, path, "chance");
     if (jox_read_field(L, index, "chance") == LUA_TNIL)
         lua_pop(L, 1);
@@ -223,9 +281,15 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
         t->chance = jox_read_parameter(b, full, &chance);
     jox_read_actions(b, index, path, &t->does, NULL);
     t->on_take = jox_read_hook(b, index, path, "on_take");
+    if (t->stays && !does_something(t))
+        jox_build_error(b, jox_read_at(b, path), "missing-key",
+                        "Example: { to = \"Exit\", when = after(5) }",
+                        "an item needs `to`, the name of a state, or something to do: set, tell, "
+                        "signal or on_take");
 }
 
-static void read_state_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
+static void read_state_transitions(JoxBuild *b, int index, const char *path, int32_t number,
+                                   JoxState *state) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(!state->transitions);
     uint32_t count = (uint32_t)lua_rawlen(L, index);
@@ -259,7 +323,7 @@ static void read_state_transitions(JoxBuild *b, int index, const char *path, Jox
                 if (strcmp(b->script->changes.items[o].path, canonical) == 0)
                     memcpy(full, canonical, sizeof full);
         }
-        read_transition(b, lua_gettop(L), full, id, t);
+        read_transition(b, lua_gettop(L), full, id, number, t);
         state->transition_count++;
         lua_pop(L, 1);
     }
@@ -298,5 +362,5 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     state->push_only = jox_read_tags(b, index, path, "push_only", false);
     state->on_enter = jox_read_hook(b, index, path, "on_enter");
     state->on_exit = jox_read_hook(b, index, path, "on_exit");
-    read_state_transitions(b, index, path, state);
+    read_state_transitions(b, index, path, number, state);
 }

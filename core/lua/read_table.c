@@ -190,7 +190,7 @@ int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *ke
     char full[256];
     jox_read_join(full, path, key);
     int type = jox_read_field(L, index, key);
-    JoxNode *node = jox_node_get(L, -1), named = {.kind = JOX_NODE_TARGET};
+    JoxNode *node = jox_node_target(L, jox_node_get(L, -1)), named = {.kind = JOX_NODE_TARGET};
     int16_t target = -1;
     if (type == LUA_TSTRING) {
         named.name = lua_tostring(L, -1);

@@ -28,6 +28,7 @@ static void reserve_scratch(JoxMachineRun *run, JoxPool *pool) {
     s->grouped = jox_realloc(s->grouped, n, sizeof *s->grouped);
     s->in_state = jox_realloc(s->in_state, n, sizeof *s->in_state);
     s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
+    s->reacts = jox_realloc(s->reacts, n, sizeof *s->reacts);
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
     s->list = jox_realloc(s->list, n, sizeof *s->list);
     s->spare = jox_realloc(s->spare, JOX_SORT_SPARE(n), sizeof *s->spare);
@@ -56,6 +57,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->part_first);
     jox_free(s->in_state);
     jox_free(s->fired);
+    jox_free(s->reacts);
     jox_free(s->rank);
     jox_free(s->heading);
     jox_free(s->queue);

@@ -1,6 +1,7 @@
 /* Evaluates expressions over batches: one dispatch per instruction for up to JOX_BATCH agents.
    Arithmetic and the agents' columns are left to the kernel (eval_wide.c); words on the
    surroundings are evaluated here, agent by agent. */
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -117,6 +118,13 @@ static bool is_same_target(const JoxMachineRun *run, uint32_t i, const JoxInstru
     return who != JOX_NOBODY && who == jox_target_who(run, i, in->place);
 }
 
+/* Returns whether the time in state has reached a multiple of `every`, s, in this step. */
+static bool is_due(const JoxMachineRun *run, uint32_t i, double every) {
+    const double time = jox_time_in_state(run, i);
+    return time > 0.0 && every > 0.0 &&
+           floor(time / every + 1e-9) > floor((time - run->dt) / every + 1e-9);
+}
+
 /* Evaluates a word about the agent's surroundings; `a` is the first input. */
 static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
                                 const JoxInstruction *in, double a) {
@@ -172,6 +180,13 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
         return jox_target_measure(run, i, in->target, (JoxNow)in->arg);
     case JOX_OP_EXISTS:
         return jox_target_who(run, i, in->target) != JOX_NOBODY;
+    case JOX_OP_TOLD:
+        return jox_message_find(run, i, machine->names[in->name].number) != NULL;
+    case JOX_OP_MESSAGE:
+        return jox_message_value(jox_message_find(run, i, machine->names[in->name].number),
+                                 machine->names[in->arg].number);
+    case JOX_OP_EVERY:
+        return is_due(run, i, a);
     case JOX_OP_SAME:
         return is_same_target(run, i, in);
     case JOX_OP_QUEUED:

@@ -123,6 +123,11 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
                        const JoxSpelled *registers, bool valued, JoxText *out) {
     const uint8_t inputs[] = {in->a, in->b, in->c};
     const char *before = "(";
+    if (in->op == JOX_OP_MESSAGE) {
+        jox_text_printf(out, "told(\"%s\").%s", machine->names[in->name].text,
+                        machine->names[in->arg].text);
+        return;
+    }
     if (in->op == JOX_OP_OF) {
         jox_text_printf(out, "%s.%s", machine->targets[in->target].name, NOWS[in->arg]);
         return;
@@ -151,7 +156,7 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
 
 bool jox_op_is_condition(JoxOp op) {
     return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS &&
-           op != JOX_OP_OF && op != JOX_OP_QUEUED;
+           op != JOX_OP_OF && op != JOX_OP_MESSAGE && op != JOX_OP_QUEUED;
 }
 
 /* Prints one of the two texts of an instruction. */

@@ -11,9 +11,10 @@
 
 /* Numbers of actions; `value` is taken for NaN. */
 static const JoxParameterInfo ACTION_NUMBERS[] = {
-    {"impulse of the kick", "m/s", "", 0, 50, 0},  {"speed of the kick", "m/s", "", 0, 50, 0},
-    {"lift of the kick", "degrees", "", 0, 90, 0}, {"speed of the throw", "m/s", "", 0, 40, 0},
-    {"grip", "N", "", 0, JOX_MOST_GRIP, 0},        {"lasts", "s", "", 0, 1e6, INFINITY},
+    {"impulse of the kick", "m/s", "", 0, 50, 0},     {"speed of the kick", "m/s", "", 0, 50, 0},
+    {"lift of the kick", "degrees", "", 0, 90, 0},    {"speed of the throw", "m/s", "", 0, 40, 0},
+    {"grip", "N", "", 0, JOX_MOST_GRIP, 0},           {"lasts", "s", "", 0, 1e6, INFINITY},
+    {"value of a message", "", "", -1e300, 1e300, 0},
 };
 
 bool jox_is_odd(int parameter, JoxValueKind kind, double value) {

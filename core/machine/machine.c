@@ -73,9 +73,11 @@ static void free_state(JoxState *state) {
     jox_free(state->become);
     jox_free(state->become_file);
     jox_free(state->enters.set);
+    jox_free(state->enters.tell);
     for (uint32_t t = 0; t < state->transition_count; t++) {
         jox_free(state->transitions[t].id);
         jox_free(state->transitions[t].does.set);
+        jox_free(state->transitions[t].does.tell);
     }
     jox_free(state->transitions);
 }

@@ -81,9 +81,11 @@ typedef enum JoxNow {
    NEIGHBOURS: number of neighbours that match target. THEIRS: memory `name` of the agent that is
    the target, if its machine makes that public; else 0. OF: what is measured of the target, a
    JoxNow in `arg`; 0 if there is none. EXISTS: target is in the world, seen or not. SAME: target
-   and `place`, a second target, are the same person, body or place. SHUT: a gate at place is
-   closed, and the agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the gates
-   called `name` are open. Agents behind a wall are not seen, heard or touched. */
+   and `place`, a second target, are the same person, body or place. TOLD: a message `name` waits
+   for the agent. MESSAGE: the value called names[arg] of the oldest such message; 0 if there is
+   none. EVERY: the time in state has reached a multiple of a, s, in this step. SHUT: a gate at
+   place is closed, and the agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the
+   gates called `name` are open. Agents behind a wall are not seen, heard or touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -93,7 +95,8 @@ typedef enum JoxNow {
     X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(JOINED) X(AFTER)      \
     X(LASTED) X(STUCK) X(TOUCHES) X(FALLEN) X(GROUNDED) X(KICKED) X(HIT_BY)     \
     X(INCOMING) X(SEES)                                                         \
-    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(OF) X(EXISTS) X(SAME) X(SHUT)     \
+    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(OF) X(EXISTS) X(SAME) X(TOLD)     \
+    X(MESSAGE) X(EVERY) X(SHUT)                                                 \
     X(QUEUED) X(OPEN)
 /* clang-format on */
 
@@ -135,6 +138,7 @@ typedef enum JoxTargetKind {
     JOX_TARGET_STRIKER,    /* the agent that kicked or threw the body which hit this one in the last
                               step, else the body */
     JOX_TARGET_OTHER,      /* in the score of a target: the candidate */
+    JOX_TARGET_MESSAGE,    /* arg: name of a message; who told it, or its value `field` */
     JOX_TARGET_NOBODY,     /* never there */
     JOX_TARGET_HOME,       /* the agent's own post: the position at which it entered the world */
     JOX_TARGET_LAST_SEEN   /* arg: index of a sighting; the point where the agent last saw it */
@@ -179,6 +183,7 @@ typedef struct JoxTarget {
     int32_t arg;
     char *name; /* as written: place, own, or tag name */
     JoxAgentFilter filter;
+    int16_t field; /* MESSAGE: name of a value; -1: the sender */
     int32_t score; /* 1 + expression by which the best of those seen is chosen; 0: the nearest */
 } JoxTarget;
 
@@ -240,6 +245,21 @@ typedef struct JoxSteerTerm {
     double args[6];
 } JoxSteerTerm;
 
+enum { JOX_MOST_CARRIED = 4, JOX_NO_STATE = UINT16_MAX };
+
+/* A message that an agent tells another one, or all that a target chooses from. */
+typedef struct JoxTell {
+    int16_t to;   /* target */
+    int16_t name; /* name of the message */
+    bool all;
+    uint32_t count;
+    struct JoxCarried {
+        int16_t name;   /* name of the value */
+        int16_t target; /* somebody, in place of `value`; -1: none */
+        JoxValue value;
+    } carries[JOX_MOST_CARRIED];
+} JoxTell;
+
 /* Side effects of entering a state or taking a transition. */
 typedef struct JoxActions {
     struct JoxAssign {
@@ -248,15 +268,18 @@ typedef struct JoxActions {
         int16_t target; /* somebody, in place of `value`; -1: none */
     } * set;
     uint32_t set_count;
+    JoxTell *tell;  /* NULL: nothing is told */
     int16_t signal; /* name of the signal to give; -1 none */
     bool sets_team, sets_tags;
     uint16_t team; /* the agent's new team */
     uint64_t tags; /* the agent's new tags, one bit each */
 } JoxActions;
 
+/* An item of a state: a transition, or a reaction, which does something and stays in the state. */
 typedef struct JoxTransition {
     char *id;
-    uint16_t to;
+    uint16_t to; /* of a reaction: its own state */
+    bool stays;  /* it is a reaction */
     JoxActions does;
     int32_t when;      /* index of an expression; -1: always (unless when_hook) */
     int32_t when_hook; /* index of a Lua function; -1 none */
@@ -371,7 +394,11 @@ typedef enum {
     JOX_NAME_HEARD = 4,
     JOX_NAME_MACHINE = 8,
     JOX_NAME_MEMORY = 16,
-    JOX_NAME_GATE = 32
+    JOX_NAME_GATE = 32,
+    JOX_NAME_TOLD = 64,    /* messages that are asked for */
+    JOX_NAME_SENT = 128,   /* messages that are told */
+    JOX_NAME_READ = 256,   /* values of messages that are read */
+    JOX_NAME_CARRIED = 512 /* values that messages carry */
 } JoxNameUse;
 typedef struct JoxName {
     char *text;
@@ -434,6 +461,8 @@ typedef struct JoxMachine {
     bool views;    /* hooks read other agents, as they were before the step */
     bool headings; /* it reads the last step's preferred velocities of others; assigned when it is
                       added to a set */
+    bool reacts;   /* it has reactions; assigned like `headings` */
+    bool hears_functions, tells_functions; /* its hooks may ask for, or tell, any message */
     bool arrivals; /* it asks for arrival in crowds; assigned like `headings` */
     int32_t vm;    /* index of the Lua state that holds the hooks; -1 none */
 } JoxMachine;

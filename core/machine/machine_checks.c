@@ -18,7 +18,7 @@ uint32_t jox_op_inputs(JoxOp op) {
     if (op >= JOX_OP_ADD && op <= JOX_OP_OR)
         return 2;
     return op == JOX_OP_NEAR || op == JOX_OP_AFTER || op == JOX_OP_STUCK || op == JOX_OP_INCOMING ||
-           op == JOX_OP_HEARD;
+           op == JOX_OP_HEARD || op == JOX_OP_EVERY;
 }
 
 static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
@@ -30,6 +30,9 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT((op != JOX_OP_PLACE_DENSITY && op != JOX_OP_PLACE_COUNT && op != JOX_OP_SHUT) ||
                in->place >= 0);
     JOX_ASSERT((op != JOX_OP_QUEUED && op != JOX_OP_ARRIVED) || in->place >= 0);
+    JOX_ASSERT((op != JOX_OP_TOLD && op != JOX_OP_MESSAGE) ||
+               (in->name >= 0 && (uint32_t)in->name < m->name_count));
+    JOX_ASSERT(op != JOX_OP_MESSAGE || (uint32_t)in->arg < m->name_count);
     JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_THEIRS && op != JOX_OP_OPEN) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));
     JOX_ASSERT((op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS && op != JOX_OP_OF) ||
@@ -63,6 +66,14 @@ static void check_value(const JoxMachine *m, const JoxValue *value) {
 
 static void check_actions(const JoxMachine *m, const JoxActions *actions) {
     JOX_ASSERT(is_index(actions->signal, m->name_count));
+    const JoxTell *tell = actions->tell;
+    JOX_ASSERT(!tell || (tell->to >= 0 && (uint32_t)tell->to < m->target_count && tell->name >= 0 &&
+                         (uint32_t)tell->name < m->name_count));
+    for (uint32_t v = 0; tell && v < tell->count; v++) {
+        JOX_ASSERT((uint32_t)tell->carries[v].name < m->name_count);
+        JOX_ASSERT(is_index(tell->carries[v].target, m->target_count));
+        check_value(m, &tell->carries[v].value);
+    }
     for (uint32_t n = 0; n < actions->set_count; n++) {
         JOX_ASSERT((uint32_t)actions->set[n].slot < m->memory_count);
         JOX_ASSERT(is_index(actions->set[n].target, m->target_count));
@@ -125,6 +136,8 @@ void jox_machine_check(const JoxMachine *m) {
             (uint32_t)target->arg < m->own_count);
         JOX_ASSERT(target->kind != JOX_TARGET_NEAREST || (target->arg >= 0 && target->arg < 64));
         JOX_ASSERT(target->kind != JOX_TARGET_MEMORY || (uint32_t)target->arg < m->memory_count);
+        JOX_ASSERT(target->kind != JOX_TARGET_MESSAGE || ((uint32_t)target->arg < m->name_count &&
+                                                          is_index(target->field, m->name_count)));
         JOX_ASSERT(target->kind != JOX_TARGET_LAST_SEEN ||
                    (uint32_t)target->arg < m->sighting_count);
         JOX_ASSERT(target->score >= 0 && (uint32_t)target->score <= m->expression_count);

@@ -22,6 +22,7 @@ typedef enum JoxActionNumber {
     JOX_ACTION_THROW,
     JOX_ACTION_GRIP,
     JOX_ACTION_LASTS,
+    JOX_ACTION_TELL,
     JOX_ACTION_MEMORY
 } JoxActionNumber;
 
@@ -54,10 +55,11 @@ typedef struct JoxMachineScratch {
     size_t state_capacity, part_capacity;
     uint32_t *in_state; /* per agent: number of its state among the states of all machines */
     int16_t *fired;     /* per agent: transition to take, -1 none */
-    uint32_t *rank;     /* per agent: place in the queue it stands in */
-    int32_t *queue;     /* per agent that queues: the queue's place */
-    JoxV2 *heading;     /* per agent: velocity it preferred in the step before; NULL: no machine
-                           reads it */
+    uint32_t *reacts; /* per agent: bits of the reactions to carry out; only if machines have any */
+    uint32_t *rank;   /* per agent: place in the queue it stands in */
+    int32_t *queue;   /* per agent that queues: the queue's place */
+    JoxV2 *heading;   /* per agent: velocity it preferred in the step before; NULL: no machine
+                         reads it */
     size_t heading_capacity;
     uint32_t *list;  /* agents to handle one by one, sorted by id */
     uint32_t *spare; /* second buffer for sorting `list` */
@@ -145,6 +147,20 @@ void jox_target_consider(const JoxSpot *candidate);
 /* Returns what is measured of a target: of a place or body only its position and speed; 0 if it is
    not there. */
 double jox_target_measure(const JoxMachineRun *run, uint32_t agent, int32_t index, JoxNow what);
+
+/* inbox.c: returns the messages that wait for an agent, the oldest first. */
+const JoxMessage *jox_messages_of(const JoxMachineRun *run, uint32_t agent, uint32_t *count);
+/* Returns the value of a message by the number of its name; 0 if it has none. */
+double jox_message_value(const JoxMessage *message, uint32_t name);
+/* Tells a message. */
+void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell, uint32_t agent);
+/* Delivers what was told since the last step, and drops what was used. */
+void jox_messages_deliver(JoxMachineRun *run);
+/* Marks the messages as used on which condition `when` of an agent rests; returns whether any is.
+ */
+bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, int32_t when, uint32_t agent);
+/* Returns whether a condition asks for messages. */
+bool jox_asks_for_messages(const JoxMachine *machine, int32_t when);
 
 /* best_of.c: returns the candidate with the greatest score among those that the agent sees and that
    match the target; of equal ones agents before bodies, by ascending id. */

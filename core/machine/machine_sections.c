@@ -74,6 +74,8 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "announced", state->announced, state->announced_count,
                       state->announced_capacity);
     JOX_SECTION_ARRAY(s, "pending", state->pending, state->pending_count, state->pending_capacity);
+    JOX_SECTION_ARRAY(s, "sent", state->sent, state->sent_count, state->sent_capacity);
+    JOX_SECTION_ARRAY(s, "waiting", state->waiting, state->waiting_count, state->waiting_capacity);
     JOX_SECTION_ARRAY(s, "thrown", state->thrown, state->thrown_count, state->thrown_capacity);
     JOX_SECTION_ARRAY(s, "edits", state->edits, state->edit_count, state->edit_capacity);
     for (uint32_t m = 0; run->hook_sections && m < set->count; m++)
@@ -83,6 +85,9 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
     for (uint32_t m = 0; m < set->count; m++)
         list_count_sections(&state->counts[m], s);
     JOX_SECTION_ARRAY(s, "calls", state->calls, state->call_count, state->call_capacity);
+    JOX_SECTION(s, "messages_lost", state->messages_lost);
+    JOX_SECTION(s, "messages_unasked", state->messages_unasked);
+    JOX_SECTION(s, "messages_to_nobody", state->messages_to_nobody);
     JOX_SECTION(s, "hook_failures", state->hook_failures);
     JOX_SECTION(s, "changes_lost", state->changes_lost);
     jox_sections_unhashed(s, false);
@@ -105,15 +110,11 @@ void jox_machines_forget(JoxMachineRun *run) {
     struct {
         void *cells;
         size_t size;
-    } all[] = {{s->grouped, sizeof *s->grouped},
-               {s->in_state, sizeof *s->in_state},
-               {s->fired, sizeof *s->fired},
-               {s->rank, sizeof *s->rank},
-               {s->queue, sizeof *s->queue},
-               {s->list, sizeof *s->list},
-               {run->push_on, 1},
-               {run->push_nearest, 1},
-               {run->push_toward_x, 4},
+    } all[] = {{s->grouped, sizeof *s->grouped}, {s->in_state, sizeof *s->in_state},
+               {s->fired, sizeof *s->fired},     {s->reacts, sizeof *s->reacts},
+               {s->rank, sizeof *s->rank},       {s->queue, sizeof *s->queue},
+               {s->list, sizeof *s->list},       {run->push_on, 1},
+               {run->push_nearest, 1},           {run->push_toward_x, 4},
                {run->push_toward_y, 4}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         memset(all[k].cells, 0xa5, n * all[k].size);

@@ -51,6 +51,23 @@ typedef struct JoxSignal {
     float x, y; /* m */
 } JoxSignal;
 
+/* JOX_MOST_WAITING: messages that wait for one agent. JOX_MOST_SENT: messages that functions send
+   in a step. */
+enum { JOX_MOST_WAITING = 8, JOX_MOST_SENT = 1000000 };
+
+/* A message from one agent to another. */
+typedef struct JoxMessage {
+    uint32_t to, from;                /* ids */
+    uint32_t name;                    /* number of the name in the set */
+    uint32_t sent;                    /* tick */
+    uint32_t used;                    /* 1: it is removed before the next step */
+    uint32_t count;                   /* of values */
+    uint32_t somebody;                /* bits of the values that mean somebody */
+    uint32_t unused;                  /* 0: sections hold no padding bytes */
+    uint32_t names[JOX_MOST_CARRIED]; /* numbers of their names */
+    double values[JOX_MOST_CARRIED];
+} JoxMessage;
+
 /* The agent that kicked or threw a body last. */
 typedef struct JoxThrown {
     uint32_t body, agent; /* ids */
@@ -173,6 +190,12 @@ typedef struct JoxMachineState {
                           spawning */
     uint32_t pending_count;
     size_t pending_capacity;
+    JoxMessage *sent; /* messages told since the last think, in order */
+    uint32_t sent_count;
+    size_t sent_capacity;
+    JoxMessage *waiting; /* messages that wait, by id of the receiver, the oldest first */
+    uint32_t waiting_count;
+    size_t waiting_capacity;
     JoxThrown *thrown; /* bodies that agents kicked or threw, the last one last */
     uint32_t thrown_count;
     size_t thrown_capacity;
@@ -183,6 +206,9 @@ typedef struct JoxMachineState {
     JoxNameCall *calls; /* statistics, by number of the name, as far as names were called */
     uint32_t call_count;
     size_t call_capacity;
+    /* Statistics: messages dropped because too many waited; that the receiver's machine never asks
+       for; that had no receiver. */
+    uint64_t messages_lost, messages_unasked, messages_to_nobody;
     uint64_t hook_failures; /* statistic: calls of hooks that failed since the start */
     uint64_t changes_lost;  /* statistic: writes to memory of other agents that a later write
                                replaced */
@@ -252,6 +278,9 @@ typedef struct JoxMachineRun {
         int32_t line, parameter;
     } * told;
     uint32_t told_count, told_capacity;
+    uint32_t *lost_names; /* names of messages of which it was reported that one was dropped */
+    uint32_t lost_name_count;
+    size_t lost_name_capacity;
 
     bool spawning;                     /* inside jox_machines_spawn, when nothing can be sensed */
     struct JoxMachineScratch *scratch; /* made on first use */
@@ -335,6 +364,10 @@ bool jox_who_exists(const JoxMachineRun *run, double who);
 uint32_t jox_who_agent(const JoxMachineRun *run, double who);
 /* Appends whom it means: "agent 17", "body 'ball'", "place 'gate'", "nobody". */
 void jox_who_print(const JoxMachineRun *run, double who, JoxText *out);
+/* Returns the oldest message of a name, by number, that waits for the agent, or NULL. */
+const JoxMessage *jox_message_find(const JoxMachineRun *run, uint32_t agent, uint32_t name);
+/* Sends a message of a function; false if there are too many. */
+bool jox_message_send(JoxMachineRun *run, const JoxMessage *message);
 /* Gives a signal (by number) that all agents hear in the next think, wherever they are. */
 void jox_machines_announce(JoxMachineRun *run, uint32_t name);
 /* Returns the place that an agent heads for by a distance field in its state and has not reached;

@@ -101,4 +101,6 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
         a->tags[i] = actions->tags;
     if (actions->signal >= 0)
         jox_machines_call(run, i, machine->names[actions->signal].number);
+    if (actions->tell)
+        jox_tell(run, machine, actions->tell, i);
 }

@@ -47,12 +47,21 @@ static bool asks_for_arrival(const JoxMachine *machine) {
     return false;
 }
 
+static bool has_reactions(const JoxMachine *machine) {
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        for (uint32_t t = 0; t < machine->states[s].transition_count; t++)
+            if (machine->states[s].transitions[t].stays)
+                return true;
+    return false;
+}
+
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
     JOX_ASSERT(index <= run->set->count && index < JOX_MOST_MACHINES);
     JOX_CHECK(jox_machine_check(machine));
     assign_numbers(run, machine);
     machine->headings = reads_headings(machine);
     machine->arrivals = asks_for_arrival(machine);
+    machine->reacts = has_reactions(machine);
     jox_agents_widen(run->agents, machine->own_count, machine->memory_count);
     run->set->items[index] = run->set->built[index] = machine;
     jox_counts_begin(&run->state->counts[index], machine, run->tick);
@@ -104,7 +113,8 @@ static void enter_between_steps(JoxMachineRun *run, uint32_t agent, uint16_t to)
     run->spawning = true;
     jox_machines_enter(run, agent, to);
     run->spawning = false;
-    if (state->on_enter < 0 && state->lasts_expression < 0 && !does->set_count && does->signal < 0)
+    if (state->on_enter < 0 && state->lasts_expression < 0 && !does->set_count &&
+        does->signal < 0 && !does->tell)
         return;
     JOX_RESERVE(pending->pending, pending->pending_capacity, pending->pending_count + 1);
     pending->pending[pending->pending_count++] = run->agents->id[agent];
@@ -229,10 +239,11 @@ void jox_machines_free(JoxMachineRun *run) {
         jox_free(set->names[n]);
     jox_free(set->names);
     jox_free(set->name_table);
-    void *const owned[] = {state->calls,      state->called, state->announced,  state->pending,
-                           state->edits,      state->thrown, run->taken,        run->kicks,
-                           run->grips,        run->push_on,  run->push_nearest, run->push_toward_x,
-                           run->push_toward_y};
+    void *const owned[] = {
+        state->sent,   state->waiting,    run->lost_names,    state->calls,
+        state->called, state->announced,  state->pending,     state->edits,
+        state->thrown, run->taken,        run->kicks,         run->grips,
+        run->push_on,  run->push_nearest, run->push_toward_x, run->push_toward_y};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
     jox_text_free(&run->trace);

@@ -170,6 +170,16 @@ static double find_spot_who(const JoxMachineRun *run, const JoxSpot *spot) {
     return spot->place >= 0 ? JOX_WHO_PLACE + spot->place : JOX_NOBODY;
 }
 
+/* Returns who told the message that a target names, or whom a value of it means. */
+static double find_message_who(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
+    const JoxName *names = jox_machine_of(run, i)->names;
+    const JoxMessage *message = jox_message_find(run, i, names[target->arg].number);
+    if (!message)
+        return JOX_NOBODY;
+    return target->field < 0 ? 1.0 + message->from
+                             : jox_message_value(message, names[target->field].number);
+}
+
 /* Returns whom a target means that names somebody and does not choose. */
 static double find_named_who(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
     switch (target->kind) {
@@ -179,6 +189,8 @@ static double find_named_who(const JoxMachineRun *run, const JoxTarget *target, 
         return jox_who_is_held(run, i);
     case JOX_TARGET_STRIKER:
         return jox_who_struck(run, i);
+    case JOX_TARGET_MESSAGE:
+        return find_message_who(run, target, i);
     case JOX_TARGET_OTHER:
         return considered ? find_spot_who(run, considered) : JOX_NOBODY;
     default:

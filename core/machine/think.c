@@ -68,6 +68,14 @@ static void count_circuits_of_batch(const JoxMachineRun *run, const JoxMachine *
     }
 }
 
+/* Notes that item k of its state is due for agent i. */
+static void fire_item(JoxMachineScratch *s, const JoxTransition *t, uint32_t k, uint32_t i) {
+    if (t->stays)
+        s->reacts[i] |= 1u << k;
+    else
+        s->fired[i] = (int16_t)k;
+}
+
 /* Updates the counters of one batch and evaluates its compiled conditions; fills `fired`. */
 static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
                         JoxRegisters registers) {
@@ -99,9 +107,9 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
             bool rises = holds && !(a->was_true[i] & bit);
             /* A transition without a chance is taken whenever its condition holds; with a chance,
                it is rolled once each time the condition becomes true. */
-            if (run->scratch->fired[i] < 0 && holds &&
+            if ((t->stays || run->scratch->fired[i] < 0) && holds &&
                 (t->chance.kind == JOX_VALUE_UNSET || rises) && roll_chance(run, machine, t, k, i))
-                run->scratch->fired[i] = (int16_t)k;
+                fire_item(run->scratch, t, k, i);
             if (holds == !(a->was_true[i] & bit))
                 a->was_true[i] ^= bit;
         }
@@ -125,8 +133,8 @@ static bool has_function_whens(const JoxState *state) {
     return false;
 }
 
-/* Evaluates conditions that are Lua functions, for agents that no compiled transition takes, by
-   id. */
+/* Evaluates conditions that are Lua functions, for agents that no compiled transition takes or
+   that have reactions, by id. */
 static void evaluate_function_conditions(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
@@ -135,8 +143,9 @@ static void evaluate_function_conditions(JoxMachineRun *run) {
         const JoxBatchRange *batch = &s->batches[b];
         if (!has_function_whens(&run->set->items[batch->machine]->states[batch->state]))
             continue;
+        const bool reacts = run->set->items[batch->machine]->reacts;
         for (uint32_t n = 0; n < batch->count; n++)
-            if (s->fired[s->grouped[batch->begin + n]] < 0)
+            if (reacts || s->fired[s->grouped[batch->begin + n]] < 0)
                 s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
     jox_sort_by_id(run, s->list, s->list_count);
@@ -144,9 +153,9 @@ static void evaluate_function_conditions(JoxMachineRun *run) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
-        for (uint32_t k = 0; k < state->transition_count && s->fired[i] < 0; k++) {
+        for (uint32_t k = 0; k < state->transition_count; k++) {
             const JoxTransition *t = &state->transitions[k];
-            if (t->when_hook < 0)
+            if (t->when_hook < 0 || (!t->stays && s->fired[i] >= 0))
                 continue;
             double result[2] = {0.0, 0.0};
             bool holds =
@@ -155,7 +164,7 @@ static void evaluate_function_conditions(JoxMachineRun *run) {
             bool rises = holds && !(a->was_true[i] >> k & 1);
             if (holds && (t->chance.kind == JOX_VALUE_UNSET || rises) &&
                 roll_chance(run, machine, t, k, i))
-                s->fired[i] = (int16_t)k;
+                fire_item(s, t, k, i);
             if (holds == !(a->was_true[i] >> k & 1))
                 a->was_true[i] ^= 1u << k;
         }
@@ -203,6 +212,55 @@ static void list_fired(JoxMachineRun *run) {
     }
 }
 
+/* Returns whether an item is still due that rests on messages, of which earlier items of the agent
+   may have used some in this step. */
+static bool is_still_due(const JoxMachineRun *run, const JoxMachine *machine,
+                         const JoxTransition *t, uint32_t i) {
+    const JoxValue when = {.kind = JOX_VALUE_EXPRESSION, .index = t->when};
+    return !jox_asks_for_messages(machine, t->when) || jox_value(run, machine, &when, i) != 0.0;
+}
+
+/* Does what an item of the agent's state says, and uses the messages that it rests on. */
+static void do_item(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
+                    uint32_t i) {
+    jox_actions_do(run, machine, &t->does, i);
+    call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
+    if (jox_asks_for_messages(machine, t->when))
+        jox_messages_use(run, machine, t->when, i);
+}
+
+/* Carries out the reactions that are due for one agent, in order. */
+static void react(JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const JoxState *state = &machine->states[a->state[i]];
+    for (uint32_t k = 0; k < state->transition_count; k++) {
+        const JoxTransition *t = &state->transitions[k];
+        if (!(run->scratch->reacts[i] >> k & 1) || !is_still_due(run, machine, t, i))
+            continue;
+        const JoxTaken taken = {a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)k};
+        run->state->counts[a->machine[i]].taken[state->first_transition + k]++;
+        if (run->traces && a->id[i] == run->trace_id)
+            jox_machines_explain(run, &taken, &run->trace);
+        do_item(run, machine, t, i);
+    }
+}
+
+/* Carries out reactions, by id of the agents. */
+static void carry_out_reactions(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    s->list_count = 0;
+    for (uint32_t b = 0; b < s->batch_count; b++) {
+        const JoxBatchRange *batch = &s->batches[b];
+        for (uint32_t n = 0; run->set->items[batch->machine]->reacts && n < batch->count; n++)
+            if (s->reacts[s->grouped[batch->begin + n]])
+                s->list[s->list_count++] = s->grouped[batch->begin + n];
+    }
+    jox_sort_by_id(run, s->list, s->list_count);
+    for (uint32_t n = 0; n < s->list_count; n++)
+        react(run, s->list[n]);
+}
+
 /* Takes the fired transitions, by id; hooks run in the order exit, take, enter. */
 static void take_transitions(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
@@ -214,18 +272,19 @@ static void take_transitions(JoxMachineRun *run) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *from = &machine->states[a->state[i]];
-        JOX_ASSERT((uint32_t)s->fired[i] < from->transition_count && run->taken_count == n);
+        JOX_ASSERT((uint32_t)s->fired[i] < from->transition_count && run->taken_count <= n);
         const JoxTransition *t = &from->transitions[s->fired[i]];
+        if (!is_still_due(run, machine, t, i))
+            continue;
         run->state->counts[a->machine[i]].taken[from->first_transition + (uint32_t)s->fired[i]]++;
         run->taken[run->taken_count++] =
             (JoxTaken){a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)s->fired[i]};
         if (run->traces && a->id[i] == run->trace_id)
-            jox_machines_explain(run, &run->taken[n], &run->trace);
+            jox_machines_explain(run, &run->taken[run->taken_count - 1], &run->trace);
         if (run->watched_count)
-            jox_watch_taken(run, &run->taken[n]);
+            jox_watch_taken(run, &run->taken[run->taken_count - 1]);
         call_hook(run, from->on_exit, JOX_HOOK_EXIT, i);
-        jox_actions_do(run, machine, &t->does, i);
-        call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
+        do_item(run, machine, t, i);
         enter_state(run, i, t->to);
     }
 }
@@ -256,6 +315,13 @@ static bool any_views(const JoxMachineRun *run) {
     return false;
 }
 
+static bool any_reacts(const JoxMachineRun *run) {
+    for (uint32_t m = 0; m < run->set->count; m++)
+        if (run->set->items[m]->reacts)
+            return true;
+    return false;
+}
+
 /* Keeps the preferred velocities of the last step, since the stage prefer overwrites them while
    other agents still read them. */
 static void keep_headings(JoxMachineRun *run) {
@@ -280,6 +346,7 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
     run->trace.length = 0;
     jox_machines_scratch(run);
     jox_machines_listen(run);
+    jox_messages_deliver(run);
     jox_machines_group(run, pool);
     jox_counts_spend(run);
     keep_headings(run);
@@ -294,8 +361,12 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
         Think think = {run};
         if (run->agents->count) /* -1: no transition */
             memset(run->scratch->fired, 0xff, run->agents->count * sizeof *run->scratch->fired);
+        if (any_reacts(run))
+            jox_mem_fill(run->scratch->reacts, 0,
+                         run->agents->count * sizeof *run->scratch->reacts);
         jox_parallel_for(pool, run->scratch->batch_count, 1, think_range, &think);
         evaluate_function_conditions(run);
+        carry_out_reactions(run);
         take_transitions(run);
         JOX_CHECK(jox_taken_check(run));
         if (views)

@@ -21,6 +21,17 @@ static bool has_machine_signal(const JoxMachineRun *machines, const char *text) 
     return false;
 }
 
+/* Whether a machine uses a name of messages or of their values in this way. */
+static bool has_name_use(const JoxMachineRun *machines, const char *text, JoxNameUse use) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
+        for (uint32_t n = 0; n < machine->name_count; n++)
+            if ((machine->names[n].uses & use) && strcmp(machine->names[n].text, text) == 0)
+                return true;
+    }
+    return false;
+}
+
 static bool has_state(const JoxMachineRun *machines, const char *name) {
     for (uint32_t m = 0; m < machines->set->count; m++)
         if (jox_machine_state(machines->set->items[m], name) >= 0)
@@ -181,6 +192,33 @@ static bool stays_gate_closed(const JoScene *scene, const char *gate) {
     return closed && !jox_run_has_gate_opener(scene, gate);
 }
 
+/* Whether functions of some machine may tell or ask for any message. */
+static bool may_functions_tell(const JoxMachineRun *machines) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (machines->set->items[m]->tells_functions)
+            return true;
+    return false;
+}
+
+/* Warns of messages that are asked for and that nobody tells, or the reverse, and of values that no
+   message carries. */
+static void check_message_name(const JoScene *scene, const JoxName *name, JoxPosition at,
+                               JoxDiagnostics *diagnostics) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    if (may_functions_tell(machines))
+        return;
+    if ((name->uses & JOX_NAME_TOLD) && !has_name_use(machines, name->text, JOX_NAME_SENT))
+        jox_diag_warn(diagnostics, at, "untold-message",
+                      "Example: tell = { nearest \"people\", \"shot\" }",
+                      "no machine of the scene tells a message '%s'", name->text);
+    if ((name->uses & JOX_NAME_SENT) && !has_name_use(machines, name->text, JOX_NAME_TOLD))
+        jox_diag_warn(diagnostics, at, "unasked-message", "Example: when = told \"shot\"",
+                      "no machine of the scene asks for the message '%s'", name->text);
+    if ((name->uses & JOX_NAME_READ) && !has_name_use(machines, name->text, JOX_NAME_CARRIED))
+        jox_diag_warn(diagnostics, at, "unknown-value", "In `tell`, after its name: damage = 2",
+                      "no message of the scene carries a value '%s'", name->text);
+}
+
 /* Returns the present name of a state or memory that is named as it was once called; else NULL. */
 static const char *find_new_name_used(const JoxMachineRun *machines, const JoxName *name) {
     const char *now = NULL;
@@ -215,6 +253,8 @@ void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnosti
                 jox_diag_warn(diagnostics, find_wait(scene, machine, name, files, count),
                               "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
+            check_message_name(scene, name, get_name_position(machine, name, files, count),
+                               diagnostics);
             if ((name->uses & JOX_NAME_GATE) && stays_gate_closed(scene, name->text))
                 jox_diag_warn(diagnostics, find_wait(scene, machine, name, files, count),
                               "never-opened", "Add an event that opens it, or begin with it open",

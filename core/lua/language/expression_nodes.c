@@ -62,6 +62,18 @@ JoxNode *jox_node_number(lua_State *L, int index) {
                : NULL;
 }
 
+JoxNode *jox_node_target(lua_State *L, JoxNode *node) {
+    if (!node || node->kind != JOX_NODE_NUMBER || node->op != JOX_OP_MESSAGE)
+        return node;
+    JoxNode *target = jox_node_push(L, JOX_NODE_TARGET);
+    target->target_kind = JOX_TARGET_MESSAGE;
+    target->name = node->name;
+    target->field = node->field;
+    target->written = node->written;
+    lua_pop(L, 1); /* the script keeps it */
+    return target;
+}
+
 bool jox_node_is_error(lua_State *L, int index) {
     JoxNode *node = jox_node_get(L, index);
     return node && node->kind == JOX_NODE_ERROR;

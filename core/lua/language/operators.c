@@ -431,6 +431,18 @@ static int index_target(lua_State *L, const char *name, const char **names, size
                           name);
 }
 
+/* __index of told "name": the sender of the message, or a value of it. */
+static int index_message(lua_State *L, const JoxNode *told, const char *name) {
+    const bool sender = strcmp(name, "sender") == 0;
+    JoxNode *node = jox_node_push(L, sender ? JOX_NODE_TARGET : JOX_NODE_NUMBER);
+    node->op = JOX_OP_MESSAGE;
+    node->target_kind = JOX_TARGET_MESSAGE;
+    node->name = told->name;
+    node->field = sender ? NULL : jox_vm_intern(jox_vm_of(L), name);
+    node->written = sender ? told->written : jox_word_place(L, node->field);
+    return 1;
+}
+
 static int meta_index(lua_State *L) {
     if (jox_node_is_error(L, 1))
         return jox_node_push_error(L);
@@ -445,6 +457,8 @@ static int meta_index(lua_State *L) {
         }
     }
     const JoxNode *of = jox_node_get(L, 1);
+    if (of->kind == JOX_NODE_CONDITION && of->op == JOX_OP_TOLD && strlen(name) <= 60)
+        return index_message(L, of, name);
     if (of->kind == JOX_NODE_TARGET)
         return index_target(L, name, names, count);
     char hint[JOX_HINT] = "Numbers have above, below, at_least, at_most and is";

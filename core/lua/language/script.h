@@ -98,7 +98,8 @@ struct JoxNode {
     int op;  /* JoxOp of a number or condition */
     int arg; /* JoxNow of a `now` value */
     double number;
-    const char *name; /* name of an own value, memory or target; interned */
+    const char *name;  /* name of an own value, memory, message or target; interned */
+    const char *field; /* name of a value of a message; NULL: its sender */
     JoxTargetKind target_kind;
     int32_t target_arg;
     JoxNode *a, *b, *c; /* operands */
@@ -325,6 +326,8 @@ JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* creates a node and pu
 JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if the value is no node */
 /* Returns a number, number node or own value as a node; NULL for anything else. */
 JoxNode *jox_node_number(lua_State *L, int index);
+/* Returns a value of a message as a target, where one is wanted; any other node as it is. */
+JoxNode *jox_node_target(lua_State *L, JoxNode *node);
 /* Pushes a node again. */
 void jox_node_repush(lua_State *L, JoxNode *node);
 /* Returns a node for a number; nothing is pushed. */

@@ -63,6 +63,10 @@ const JoxWord jox_words[] = {
      "with no wall of 1.3 m or more between; or the scene gives it now. Bodies between do not "
      "matter",
      "heard(\"alarm\", 10)"},
+    {"told", "s", CONDITION, JOX_OP_TOLD, 0, "told(name)", "",
+     "a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; "
+     "told(name).VALUE a value that it carries, a number, or a target where one is wanted. It waits until an item "
+     "is taken whose `when` rests on it; of several the oldest is meant. At most 8 messages wait for an agent", "told \"shot\""},
     {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
      "a gate at the place, or within 0.5 m of it, is closed, and the agent sees it: within "
      "perception, with no other wall between. Bodies between do not matter", "shut \"mid\""},
@@ -312,16 +316,21 @@ const JoxTableKey jox_table_keys[] = {
      "colour = \"vermilion\"", 0, 0},
     {"state", "signal", "name, or table", "", "signal that the agent gives on entering, and again after each interval with { name, every = seconds }",
      "signal = { \"alarm\", every = 1 }", 0, 0},
+    {"state", "tell", "table", "", "message that the agent tells on entering, after `set`: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. It waits for the receiver from the next step on (see `told`)",
+     "tell = { nearest \"people\", \"shot\", damage = 2 }", 0, 0},
     {"state", "set", "table", "", "values to set on entering: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
      "set = { laps = mine.laps + 1, tags = \"people\" }", 0, 0},
     {"state", "counts", "table", "", "memory that counts while the agent is in this state; see `circuits`", "counts = { laps = circuits \"yard\" }", 0, 0},
     {"state", "on_enter", "function(me)", "", "called when an agent enters the state", "on_enter = function(me) me.laps = 1 end", 0, 0},
     {"state", "on_exit", "function(me)", "", "called when an agent leaves the state", "on_exit = function(me) me.laps = 2 end", 0, 0},
-    {"transition", "to", "name of a state", "", "state to which it leads", "to = \"Next\"", 0, 0},
+    {"transition", "to", "name of a state", "", "state to which it leads. An item without it is a reaction: what it says is done, and the agent stays in its state. All reactions that hold are carried out, then the first transition that holds is taken", "to = \"Next\"", 0, 0},
     {"transition", "when", "condition or function(me)", "", "the transition is taken when this holds; of several that hold, the first. Without it: at once", "when = after(1)", 0, 0},
+    {"transition", "every", "plain number", "s", "only when the time in the state reaches a multiple of this", "every = 0.5", 0.01, 1e6},
     {"transition", "chance", "number", "", "probability that it is taken, drawn each time that `when` becomes true", "chance = 0.5", 0, 1},
     {"transition", "set", "table", "", "values to set when it is taken: memory, team and tags, as in a state", "set = { touched = true }", 0, 0},
     {"transition", "signal", "name", "", "signal that the agent gives when it is taken", "signal = \"alarm\"", 0, 0},
+    {"transition", "tell", "table", "", "message that the agent tells when it is taken, as in a state",
+     "tell = { neighbours(\"people\"):within(5), \"shot\" }", 0, 0},
     {"transition", "on_take", "function(me)", "", "called when it is taken", "on_take = function(me) me.touched = true end", 0, 0},
     {"transition", "id", "text", "", "name for mods; default: the name in `to`, with #2, #3 for repeats", "id = \"leave\"", 0, 0},
     {"kick", "at", "target", "", "target of the kick; straight ahead without it, or while there is no such target in sight", "at = \"post\"", 0, 0},

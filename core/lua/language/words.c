@@ -139,6 +139,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         jox_node_push(L, JOX_NODE_ERROR);
         return NULL;
     }
+    if (letter == 'p' || letter == 't' || letter == 'm')
+        node = jox_node_target(L, node);
     JoxNode *result = NULL;
     if ((letter == 'p' || letter == 't') && lua_type(L, index) == LUA_TSTRING)
         return read_place_name(L, lua_tostring(L, index));

@@ -94,7 +94,14 @@ static void say_events(const JoScene *scene, JoxText *out) {
          "failed call of a function of a behaviour|failed calls of functions of "
          "behaviours"},
         {scene->world->machines.state->changes_lost,
-         "lost change of another's memory|lost changes of others' memory"}};
+         "lost change of another's memory|lost changes of others' memory"},
+        {scene->world->machines.state->messages_lost,
+         "message dropped because too many waited|messages dropped because too many waited"},
+        {scene->world->machines.state->messages_unasked,
+         "message that its receiver's machine never asks for|messages that their receivers' "
+         "machines "
+         "never ask for"},
+        {scene->world->machines.state->messages_to_nobody, "message to nobody|messages to nobody"}};
     bool any = false;
     for (size_t e = 0; e < sizeof events / sizeof *events; e++) {
         if (events[e].count == 0)

@@ -90,7 +90,10 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"closed", s->closed},
                   {"announced", s->announced},
                   {"script_failures", scene->world->machines.state->hook_failures},
-                  {"changes_lost", scene->world->machines.state->changes_lost}};
+                  {"changes_lost", scene->world->machines.state->changes_lost},
+                  {"messages_lost", scene->world->machines.state->messages_lost},
+                  {"messages_unasked", scene->world->machines.state->messages_unasked},
+                  {"messages_to_nobody", scene->world->machines.state->messages_to_nobody}};
     jox_json_object(json, "events");
     for (size_t e = 0; e < sizeof events / sizeof *events; e++)
         jox_json_whole(json, events[e].name, events[e].count);
