@@ -21,6 +21,7 @@ std = {
     "has",
     "sees",
     "heard",
+    "told",
     "shut",
     "open",
     "density",

@@ -152,7 +152,7 @@ double jox_target_measure(const JoxMachineRun *run, uint32_t agent, int32_t inde
 const JoxMessage *jox_messages_of(const JoxMachineRun *run, uint32_t agent, uint32_t *count);
 /* Returns the value of a message by the number of its name; 0 if it has none. */
 double jox_message_value(const JoxMessage *message, uint32_t name);
-/* Tells a message. */
+/* tell.c: tells a message. */
 void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell, uint32_t agent);
 /* Delivers what was told since the last step, and drops what was used. */
 void jox_messages_deliver(JoxMachineRun *run);

@@ -135,6 +135,7 @@ function Target:ahead(name) end
 ---@field throw? table throws the body that it carries, from its own side of walls
 ---@field colour? string colour of agents in this state where people are coloured by state; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes. Default: one is chosen
 ---@field signal? string|table signal that the agent gives on entering, and again after each interval with { name, every = seconds }
+---@field tell? table message that the agent tells on entering, after `set`: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. It waits for the receiver from the next step on (see `told`)
 ---@field set? table values to set on entering: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
 ---@field counts? table memory that counts while the agent is in this state; see `circuits`
 ---@field on_enter? fun(me: jostle.Me) called when an agent enters the state
@@ -166,11 +167,13 @@ function Target:ahead(name) end
 ---@field rise? number|jostle.Number|jostle.Drawn time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
 
 ---@class jostle.Transition
----@field to? string state to which it leads
+---@field to? string state to which it leads. An item without it is a reaction: what it says is done, and the agent stays in its state. All reactions that hold are carried out, then the first transition that holds is taken
 ---@field when? jostle.Condition|fun(me: jostle.Me): boolean the transition is taken when this holds; of several that hold, the first. Without it: at once
+---@field every? number only when the time in the state reaches a multiple of this, s
 ---@field chance? number probability that it is taken, drawn each time that `when` becomes true
 ---@field set? table values to set when it is taken: memory, team and tags, as in a state
 ---@field signal? string signal that the agent gives when it is taken
+---@field tell? table message that the agent tells when it is taken, as in a state
 ---@field on_take? fun(me: jostle.Me) called when it is taken
 ---@field id? string name for mods; default: the name in `to`, with #2, #3 for repeats
 
@@ -297,6 +300,11 @@ function sees(a1) end
 ---@param a2? number|jostle.Number
 ---@return jostle.Condition
 function heard(a1, a2) end
+
+--- `told(name)`: a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; told(name).VALUE a value that it carries, a number, or a target where one is wanted. It waits until an item is taken whose `when` rests on it; of several the oldest is meant. At most 8 messages wait for an agent
+---@param a1 string
+---@return jostle.Condition
+function told(a1) end
 
 --- `shut(place)`: a gate at the place, or within 0.5 m of it, is closed, and the agent sees it: within perception, with no other wall between. Bodies between do not matter
 ---@param a1 string|jostle.Target|jostle.Number

@@ -1,0 +1,218 @@
+/* Sends messages from agent to agent, delivers and uses them. What actions tell in a step waits for
+   its receiver from the next one on, until an item of its state that rests on it by `told` is taken.
+   think.c delivers and uses messages, signals.c sends them; inbox.c finds those that wait. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "machine/machine_parts.h"
+
+static JoxMessage *add_sent(JoxMachineState *state, const JoxMessage *message) {
+    JOX_RESERVE(state->sent, state->sent_capacity, state->sent_count + 1);
+    state->sent[state->sent_count] = *message;
+    return &state->sent[state->sent_count++];
+}
+
+bool jox_message_send(JoxMachineRun *run, const JoxMessage *message) {
+    if (run->state->sent_count >= JOX_MOST_SENT)
+        return false;
+    add_sent(run->state, message);
+    return true;
+}
+
+/* Returns the message that an agent tells, without a receiver. */
+static JoxMessage compose_message(JoxMachineRun *run, const JoxMachine *machine,
+                                  const JoxTell *tell, uint32_t i) {
+    JoxMessage message = {.from = run->agents->id[i],
+                          .name = machine->names[tell->name].number,
+                          .sent = run->tick,
+                          .count = tell->count};
+    for (uint32_t v = 0; v < tell->count; v++) {
+        const struct JoxCarried *carried = &tell->carries[v];
+        const double value = carried->target >= 0 ? jox_target_who(run, i, carried->target)
+                                                  : jox_value(run, machine, &carried->value, i);
+        if (!isfinite(value))
+            jox_odd_note(run, i, JOX_ACTION_TELL, &carried->value, value);
+        message.names[v] = machine->names[carried->name].number;
+        message.values[v] = isfinite(value) ? value : 0.0;
+        message.somebody |= (carried->target >= 0 ? 1u : 0u) << v;
+    }
+    return message;
+}
+
+void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell, uint32_t i) {
+    JoxMessage message = compose_message(run, machine, tell, i);
+    uint32_t heard[JOX_SMALL_CROWD];
+    if (tell->all) {
+        const uint32_t count = jox_list_wanted(run, &machine->targets[tell->to], i, heard);
+        for (uint32_t n = 0; n < count; n++) {
+            message.to = run->agents->id[heard[n]];
+            add_sent(run->state, &message);
+        }
+        return;
+    }
+    const uint32_t j = jox_who_agent(run, jox_target_who(run, i, tell->to));
+    if (j == JOX_NO_INDEX) {
+        run->state->messages_to_nobody++;
+        return;
+    }
+    message.to = run->agents->id[j];
+    add_sent(run->state, &message);
+}
+
+/* ---- delivery ---- */
+
+/* Returns whether the machine of an agent asks for messages of this name. */
+static bool asks_for(const JoxMachine *machine, uint32_t name) {
+    for (uint32_t n = 0; n < machine->name_count; n++)
+        if (machine->names[n].number == name && (machine->names[n].uses & JOX_NAME_TOLD))
+            return true;
+    return machine->hears_functions;
+}
+
+/* Returns whether a message has a receiver that asks for it; counts it if not. */
+static bool is_deliverable(JoxMachineRun *run, const JoxMessage *message) {
+    const uint32_t i = jox_agents_find(run->agents, message->to);
+    if (i == JOX_NO_INDEX) {
+        run->state->messages_to_nobody++;
+        return false;
+    }
+    if (run->agents->machine[i] != JOX_NO_MACHINE &&
+        asks_for(jox_machine_of(run, i), message->name))
+        return true;
+    run->state->messages_unasked++;
+    return false;
+}
+
+/* Sorts messages by receiver, keeping the order of those of one. */
+static void sort_by_receiver(JoxMessage *messages, uint32_t count) {
+    for (uint32_t m = 0; m < count; m++)
+        messages[m].used = m; /* the order, as the sort is not stable by itself */
+    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
+        for (uint32_t k = gap; k < count; k++) {
+            const JoxMessage moving = messages[k];
+            uint32_t at = k;
+            for (; at >= gap &&
+                   (messages[at - gap].to > moving.to ||
+                    (messages[at - gap].to == moving.to && messages[at - gap].used > moving.used));
+                 at -= gap)
+                messages[at] = messages[at - gap];
+            messages[at] = moving;
+        }
+    for (uint32_t m = 0; m < count; m++)
+        messages[m].used = 0;
+}
+
+/* Reports that a message is dropped because too many wait, once for each name. */
+static void tell_lost(JoxMachineRun *run, const JoxMessage *lost) {
+    JoxMachineState *state = run->state;
+    state->messages_lost++;
+    for (uint32_t n = 0; n < run->lost_name_count; n++)
+        if (run->lost_names[n] == lost->name)
+            return;
+    JOX_RESERVE(run->lost_names, run->lost_name_capacity, run->lost_name_count + 1);
+    run->lost_names[run->lost_name_count++] = lost->name;
+    jox_text_printf(
+        &run->notes,
+        "t = %.2f s: more than %d messages wait for agent %u: the oldest, '%.60s' of agent "
+        "%u, is dropped. Further ones are counted. Ask for it by told \"%.60s\" in each "
+        "state that it can come in, or tell it less often\n",
+        run->tick * run->dt, JOX_MOST_WAITING, lost->to, run->set->names[lost->name], lost->from,
+        run->set->names[lost->name]);
+}
+
+/* Removes used messages, those of agents that have left, and the oldest ones beyond
+   JOX_MOST_WAITING. */
+static void drop_messages(JoxMachineRun *run) {
+    JoxMachineState *state = run->state;
+    uint32_t kept = 0;
+    for (uint32_t m = 0; m < state->waiting_count;) {
+        const uint32_t to = state->waiting[m].to;
+        const bool gone = jox_agents_find(run->agents, to) == JOX_NO_INDEX;
+        uint32_t end = m, unused = 0;
+        for (; end < state->waiting_count && state->waiting[end].to == to; end++)
+            unused += !state->waiting[end].used;
+        for (; m < end; m++) {
+            if (state->waiting[m].used || gone)
+                continue;
+            if (unused > JOX_MOST_WAITING) {
+                tell_lost(run, &state->waiting[m]);
+                unused--;
+                continue;
+            }
+            state->waiting[kept++] = state->waiting[m];
+        }
+    }
+    state->waiting_count = kept;
+}
+
+void jox_messages_deliver(JoxMachineRun *run) {
+    JoxMachineState *state = run->state;
+    uint32_t count = 0;
+    for (uint32_t m = 0; m < state->sent_count; m++)
+        if (is_deliverable(run, &state->sent[m]))
+            state->sent[count++] = state->sent[m];
+    state->sent_count = 0;
+    if (count == 0 && state->waiting_count == 0)
+        return;
+    sort_by_receiver(state->sent, count);
+    JOX_RESERVE(state->waiting, state->waiting_capacity, state->waiting_count + count);
+    uint32_t from = state->waiting_count, at = from + count;
+    state->waiting_count = at;
+    while (count > 0) /* merged from the end; older ones of a receiver come first */
+        if (from > 0 && state->waiting[from - 1].to > state->sent[count - 1].to) {
+            from--;
+            state->waiting[--at] = state->waiting[from];
+        } else {
+            state->waiting[--at] = state->sent[--count];
+        }
+    drop_messages(run);
+}
+
+/* ---- using ---- */
+
+/* Bits of an agent's messages that the value in each register rests on. */
+typedef uint32_t Rests[JOX_MOST_REGISTERS];
+
+/* Returns the bits that the result of an instruction rests on: of AND both sides', of OR those of
+   the first side that holds. */
+static uint32_t find_rest(const JoxMachine *machine, const JoxInstruction *in, const Rests rests,
+                          JoxRegisters values, const JoxMessage *first, uint32_t count) {
+    if (in->op == JOX_OP_AND)
+        return rests[in->a] | rests[in->b];
+    if (in->op == JOX_OP_OR)
+        return values[in->a][0] != 0.0 ? rests[in->a] : rests[in->b];
+    for (uint32_t m = 0; in->op == JOX_OP_TOLD && m < count; m++)
+        if (first[m].name == machine->names[in->name].number && !first[m].used)
+            return 1u << m;
+    return 0;
+}
+
+bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, int32_t when, uint32_t i) {
+    static _Thread_local JoxRegisters values;
+    const JoxExpression *expression = &machine->expressions[when];
+    Rests rests = {0};
+    uint32_t count;
+    const JoxMessage *first = jox_messages_of(run, i, &count);
+    if (count == 0)
+        return false;
+    for (uint32_t k = 0; k < expression->count; k++) {
+        JoxInstruction in = expression->code[k];
+        in.skip = 0;
+        const JoxExpression one = {&in, 1};
+        const uint32_t rest = find_rest(machine, &in, rests, values, first, count);
+        jox_eval(run, machine, &one, &i, 1, values);
+        rests[in.to] = values[in.to][0] != 0.0 ? rest : 0;
+    }
+    for (uint32_t m = 0; m < count; m++)
+        if (rests[0] >> m & 1)
+            run->state->waiting[(uint32_t)(first - run->state->waiting) + m].used = 1;
+    return rests[0] != 0;
+}
+
+bool jox_asks_for_messages(const JoxMachine *machine, int32_t when) {
+    for (uint32_t k = 0; when >= 0 && k < machine->expressions[when].count; k++)
+        if (machine->expressions[when].code[k].op == JOX_OP_TOLD)
+            return true;
+    return false;
+}
