@@ -46,8 +46,8 @@ JO_API char *jo_scene_closing(const JoScene *scene);
    5 simulated seconds. "planes" are the half-planes of the last step: each has a point and a
    direction, m/s, and allows the velocities to the left of the direction. "forces" are the terms of
    the net force, N; "last" is the last transition, and why it was taken; "why" has the transitions
-   out of its state with the terms of their conditions, as jo_scene_why has them. Returns {"agent": null} if
-   the slot is empty, and once after the traced agent has left. Does not change the run. */
+   out of its state with the terms of their conditions, as jo_scene_why has them. Returns {"agent":
+   null} if the slot is empty, and once after the traced agent has left. Does not change the run. */
 JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
 
 /* A question about agents of a scene: why they stay in their states. */

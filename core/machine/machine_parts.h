@@ -105,6 +105,8 @@ typedef struct JoxSpot {
     uint32_t agent;        /* JOX_NO_INDEX if none */
 } JoxSpot;
 
+static const JoxSpot JOX_NO_SPOT = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
+
 static inline const JoxMachine *jox_machine_of(const JoxMachineRun *run, uint32_t agent) {
     return run->set->items[run->agents->machine[agent]];
 }
@@ -142,8 +144,14 @@ void jox_sightings_note_agent(const JoxMachineRun *run, uint32_t agent);
 double jox_target_who(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* Returns the spot of somebody, seen or not. */
 JoxSpot jox_who_spot(const JoxMachineRun *run, uint32_t agent, double who);
-/* Makes a spot the candidate that `other` means in this thread; NULL: none. */
+/* somebody.c: return the spot of an agent as agent i sees it, across a joined edge if that is
+   nearer; of a body, by its row; of a place, its nearest point, for -1 JOX_NO_SPOT. */
+JoxSpot jox_spot_agent(const JoxMachineRun *run, uint32_t i, uint32_t other);
+JoxSpot jox_spot_body(const JoxObject *o, int32_t row);
+JoxSpot jox_spot_place(const JoxMachineRun *run, uint32_t i, int32_t place);
+/* Makes a spot the candidate that `other` means in this thread, NULL: none; and returns it. */
 void jox_target_consider(const JoxSpot *candidate);
+const JoxSpot *jox_target_considered(void);
 /* Returns what is measured of a target: of a place or body only its position and speed; 0 if it is
    not there. */
 double jox_target_measure(const JoxMachineRun *run, uint32_t agent, int32_t index, JoxNow what);

@@ -357,7 +357,7 @@ enum { JOX_SMALL_CROWD = 64 };
    how many. */
 uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
                            uint32_t seen[JOX_SMALL_CROWD]);
-/* Returns whether memory that holds somebody (JOX_WHO_BODY in machine.h) means one who is in the
+/* Returns whether memory that holds somebody (JOX_WHO_BODY in target_kinds.h) means one who is in the
    world; `who` of an agent is 1 + its id. */
 bool jox_who_exists(const JoxMachineRun *run, double who);
 /* Returns the index of the agent that it means, or JOX_NO_INDEX. */

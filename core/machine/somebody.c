@@ -1,6 +1,5 @@
-/* Somebody as a number (JOX_WHO_BODY in machine.h): which agent, body or place it means, whom an
-   agent holds, who struck it, and where it last saw whom it remembers. Targets are resolved in
-   target.c. */
+/* Somebody as a number (JOX_WHO_BODY in target_kinds.h): which agent, body or place it means, whom an
+   agent holds, who struck it, and where somebody is. Targets are resolved in target.c. */
 #include "base/mem.h"
 #include "machine/machine_parts.h"
 
@@ -87,4 +86,61 @@ double jox_who_struck(const JoxMachineRun *run, uint32_t i) {
             return 1.0 + thrown->agent;
     }
     return JOX_WHO_BODY + body;
+}
+
+/* ---- spots ---- */
+
+JoxSpot jox_spot_agent(const JoxMachineRun *run, uint32_t i, uint32_t other) {
+    const JoxAgents *a = run->agents;
+    JoxV2 offset = jox_offset(a, i, other);
+    return (JoxSpot){.found = true,
+                     .x = a->x[i] + offset.x,
+                     .y = a->y[i] + offset.y,
+                     .vx = a->vx[other],
+                     .vy = a->vy[other],
+                     .radius = jox_param(a, JOX_PARAM_radius, other),
+                     .place = -1,
+                     .object = -1,
+                     .agent = other};
+}
+
+JoxSpot jox_spot_body(const JoxObject *o, int32_t row) {
+    return (JoxSpot){.found = true,
+                     .x = o->position.x,
+                     .y = o->position.y,
+                     .z = o->position.z,
+                     .vx = o->velocity.x,
+                     .vy = o->velocity.y,
+                     .radius = o->footprint_count ? o->disc : o->round,
+                     .place = -1,
+                     .object = row,
+                     .agent = JOX_NO_INDEX};
+}
+
+JoxSpot jox_spot_place(const JoxMachineRun *run, uint32_t i, int32_t place) {
+    if (place < 0)
+        return JOX_NO_SPOT;
+    const JoxV2 own = {run->agents->x[i], run->agents->y[i]};
+    const JoxV2 p = jox_place_nearest(run->places, (uint32_t)place, own);
+    return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
+}
+
+JoxSpot jox_who_spot(const JoxMachineRun *run, uint32_t i, double who) {
+    const uint32_t agent = jox_who_agent(run, who);
+    if (agent != JOX_NO_INDEX)
+        return jox_spot_agent(run, i, agent);
+    const int32_t row = jox_who_row(run, who);
+    return row >= 0 ? jox_spot_body(&run->objects->rows[row], row)
+                    : jox_spot_place(run, i, jox_who_place(run, who));
+}
+
+/* The candidate that `other` means in this thread while a score is computed. */
+static _Thread_local const JoxSpot *considered;
+
+void jox_target_consider(const JoxSpot *candidate) {
+    considered = candidate;
+}
+
+const JoxSpot *jox_target_considered(void) {
+    return considered;
 }

@@ -59,34 +59,6 @@ void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int3
             places[n] = resolve_place(run, target, agents[n]);
 }
 
-/* Returns agent `other` as agent i sees it: across a periodic edge if that is nearer. */
-static JoxSpot make_agent_spot(const JoxMachineRun *run, uint32_t i, uint32_t other) {
-    const JoxAgents *a = run->agents;
-    JoxV2 offset = jox_offset(a, i, other);
-    return (JoxSpot){.found = true,
-                     .x = a->x[i] + offset.x,
-                     .y = a->y[i] + offset.y,
-                     .vx = a->vx[other],
-                     .vy = a->vy[other],
-                     .radius = jox_param(a, JOX_PARAM_radius, other),
-                     .place = -1,
-                     .object = -1,
-                     .agent = other};
-}
-
-static JoxSpot make_object_spot(const JoxObject *o, int32_t row) {
-    return (JoxSpot){.found = true,
-                     .x = o->position.x,
-                     .y = o->position.y,
-                     .z = o->position.z,
-                     .vx = o->velocity.x,
-                     .vy = o->velocity.y,
-                     .radius = o->footprint_count ? o->disc : o->round,
-                     .place = -1,
-                     .object = row,
-                     .agent = JOX_NO_INDEX};
-}
-
 /* Returns the first agent that jox_machines_seen would list for a target: from the neighbours,
    nearest first, then, in a small crowd, from all within perception. JOX_NO_INDEX: none. */
 static uint32_t find_nearest_agent(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
@@ -130,36 +102,9 @@ static int32_t find_nearest_object(const JoxMachineRun *run, const JoxTarget *ta
     return best;
 }
 
-static const JoxSpot NO_SPOT = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
-
-/* Returns the spot of a place for an agent: its nearest point. */
-static JoxSpot make_place_spot(const JoxMachineRun *run, uint32_t i, int32_t place) {
-    if (place < 0)
-        return NO_SPOT;
-    const JoxV2 own = {run->agents->x[i], run->agents->y[i]};
-    const JoxV2 p = jox_place_nearest(run->places, (uint32_t)place, own);
-    return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
-}
-
 /* Returns the spot of a point. */
 static JoxSpot make_point_spot(double x, double y) {
     return (JoxSpot){true, (float)x, (float)y, 0, 0, 0, 0, -1, -1, JOX_NO_INDEX};
-}
-
-JoxSpot jox_who_spot(const JoxMachineRun *run, uint32_t i, double who) {
-    const uint32_t agent = jox_who_agent(run, who);
-    if (agent != JOX_NO_INDEX)
-        return make_agent_spot(run, i, agent);
-    const int32_t row = jox_who_row(run, who);
-    return row >= 0 ? make_object_spot(&run->objects->rows[row], row)
-                    : make_place_spot(run, i, jox_who_place(run, who));
-}
-
-/* The candidate that `other` means in this thread while a score is computed. */
-static _Thread_local const JoxSpot *considered;
-
-void jox_target_consider(const JoxSpot *candidate) {
-    considered = candidate;
 }
 
 static double find_spot_who(const JoxMachineRun *run, const JoxSpot *spot) {
@@ -192,7 +137,7 @@ static double find_named_who(const JoxMachineRun *run, const JoxTarget *target, 
     case JOX_TARGET_MESSAGE:
         return find_message_who(run, target, i);
     case JOX_TARGET_OTHER:
-        return considered ? find_spot_who(run, considered) : JOX_NOBODY;
+        return jox_target_considered() ? find_spot_who(run, jox_target_considered()) : JOX_NOBODY;
     default:
         return JOX_NOBODY;
     }
@@ -210,14 +155,14 @@ static JoxSpot find_named_spot(const JoxMachineRun *run, const JoxTarget *target
         return !filter->flies && (feels || jox_sees_agent(run, i, spot.agent)) &&
                        jox_passes_filter(run, filter, i, spot.agent)
                    ? spot
-                   : NO_SPOT;
+                   : JOX_NO_SPOT;
     const JoxV2 offset = {spot.x - run->agents->x[i], spot.y - run->agents->y[i]};
     return !filter->some &&
                    (!filter->flies || jox_object_flies(&run->objects->rows[spot.object])) &&
                    jox_passes_view(run, filter, i, offset, jox_v2(spot.vx, spot.vy)) &&
                    (feels || jox_sees_body(run, i, (uint32_t)spot.object))
                ? spot
-               : NO_SPOT;
+               : JOX_NO_SPOT;
 }
 
 /* Returns the nearest of those that an agent sees and that match a target. */
@@ -229,8 +174,8 @@ static JoxSpot find_nearest_spot(const JoxMachineRun *run, const JoxTarget *targ
     const uint32_t other = target->filter.flies ? JOX_NO_INDEX : find_nearest_agent(run, target, i);
     if (other != JOX_NO_INDEX &&
         (object < 0 || jox_length2(jox_offset(run->agents, i, other)) < object_d2))
-        return make_agent_spot(run, i, other);
-    return object >= 0 ? make_object_spot(&run->objects->rows[object], object) : NO_SPOT;
+        return jox_spot_agent(run, i, other);
+    return object >= 0 ? jox_spot_body(&run->objects->rows[object], object) : JOX_NO_SPOT;
 }
 
 /* Returns the point where an agent last saw what it remembers. */
@@ -239,13 +184,13 @@ static JoxSpot find_last_seen(const JoxMachineRun *run, const JoxTarget *target,
     const double *memory = a->memory + (size_t)i * a->memory_stride;
     const JoxSighting *sighting = &jox_machine_of(run, i)->sightings[target->arg];
     if (memory[sighting->who] == JOX_NOBODY || memory[sighting->who] != memory[sighting->memory])
-        return NO_SPOT;
+        return JOX_NO_SPOT;
     return make_point_spot(memory[sighting->x], memory[sighting->y]);
 }
 
 JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     if (index < 0)
-        return make_agent_spot(run, i, i);
+        return jox_spot_agent(run, i, i);
     JOX_ASSERT((uint32_t)index < jox_machine_of(run, i)->target_count);
     const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
     if (jox_target_kind_chooses(target->kind))
@@ -256,7 +201,7 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
         return find_last_seen(run, target, i);
     if (target->kind == JOX_TARGET_HOME)
         return make_point_spot(jox_home_position(run, i)[0], jox_home_position(run, i)[1]);
-    return make_place_spot(run, i, jox_target_place(run, i, index));
+    return jox_spot_place(run, i, jox_target_place(run, i, index));
 }
 
 static bool has_filter(const JoxAgentFilter *filter) {

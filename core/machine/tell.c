@@ -1,6 +1,7 @@
 /* Sends messages from agent to agent, delivers and uses them. What actions tell in a step waits for
-   its receiver from the next one on, until an item of its state that rests on it by `told` is taken.
-   think.c delivers and uses messages, signals.c sends them; inbox.c finds those that wait. */
+   its receiver from the next one on, until an item of its state that rests on it by `told` is
+   taken. think.c delivers and uses messages, signals.c sends them; inbox.c finds those that wait.
+ */
 #include <math.h>
 
 #include "base/assert.h"
