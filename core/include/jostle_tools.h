@@ -56,8 +56,9 @@ typedef struct JoWhyDef {
                        fields mean, state by state */
     uint32_t agent;
     const char *group; /* agents of this group; NULL: of all */
-    const char *state; /* agents in this state; if nobody is, those whose states lead there, and the
-                          transitions that do; NULL: in any */
+    const char *state; /* agents in this state; if nobody is, `to` that state; NULL: in any */
+    const char *to;    /* agents whose states lead to this one, and the transitions that do; if no
+                          state with agents does, all of them; NULL: all transitions */
     bool json;         /* answer as a JSON object, else as lines for people */
     uint32_t cookie;
 } JoWhyDef;

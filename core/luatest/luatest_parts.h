@@ -23,6 +23,10 @@ typedef struct JoxTestRun {
     uint64_t assertions, failures; /* number in the present test; failures count even in a pcall */
     double simulated, stepping;    /* simulated and processor time of the present test, s */
     JoxText yaml;                  /* text of the scene that is being loaded */
+    void *last;                    /* the driver's handle of the scene that was used last, or NULL;
+                                      a failure says what its agents wait for */
+    const char *wanted;            /* state that agents did not reach, or NULL; and their group */
+    int32_t wanted_group;
 } JoxTestRun;
 
 /* Returns the test file that runs in a Lua state. */
@@ -33,6 +37,13 @@ extern const luaL_Reg jox_test_assertions[];
 void jox_test_scene_words(lua_State *L);
 /* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors in Lua. */
 void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out);
+
+/* Returns a number of the options table at `index`, or `standard` if it is absent; likewise a text,
+   or NULL. Raise errors in Lua. */
+double jox_test_number_option(lua_State *L, int index, const char *name, double standard);
+const char *jox_test_text_option(lua_State *L, int index, const char *name);
+/* Raises an error if the options table at `index` has a key that is not known. */
+void jox_test_check_options(lua_State *L, int index, const char *const *known, size_t count);
 
 /* Reads the option `name` of the table at `index`: a list of texts, or (`pairs`) a table as texts
    "KEY=VALUE", sorted. Returns their number, and pushes a table that keeps the texts alive. Raises

@@ -161,6 +161,27 @@ static bool find_driven_body(void *context, void *scene, const char *name, doubl
     return true;
 }
 
+static bool explain_driven_scene(void *context, void *scene, const JoxTestQuestion *question,
+                                 JoxText *out) {
+    (void)context;
+    JoWhyDef def = jo_default_why_def();
+    JoError error = {0};
+    def.has_agent = question->agent >= 0;
+    def.agent = question->agent > UINT32_MAX ? UINT32_MAX : (uint32_t)question->agent;
+    def.group = question->group;
+    def.state = question->state;
+    def.to = question->to;
+    char *text = jo_scene_why(scene, &def, &error);
+    jox_text_add(out, text ? text : error.text);
+    jo_free(text);
+    return text != NULL;
+}
+
+static const char *name_driven_group(void *context, void *scene, int32_t group) {
+    (void)context;
+    return group < 0 ? NULL : ((JoScene *)scene)->spec->groups[group].name;
+}
+
 /* Writes a behaviour that a test contains to a temporary file, since scenes refer to files. */
 static const char *keep_behaviour(void *context, const char *text, size_t length) {
     Tests *tests = ((TestContext *)context)->tests;
@@ -229,6 +250,8 @@ static void run_test_file(Tests *tests, const char *path) {
                                   .hash = hash_driven_scene,
                                   .group = find_driven_group,
                                   .body = find_driven_body,
+                                  .why = explain_driven_scene,
+                                  .group_name = name_driven_group,
                                   .keep = keep_behaviour,
                                   .context = &context};
     JoxDiagnostics diagnostics = {0};

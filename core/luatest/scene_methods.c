@@ -44,6 +44,7 @@ static void step_test_scene(lua_State *L, Scene *t) {
     JoxTestRun *run = jox_test_run_of(L);
     const JoxTestDriver *driver = run->driver;
     JoxText why = {0};
+    run->last = t->scene;
     double begun = jox_clock_thread();
     bool good = driver->step(driver->context, t->scene, &why);
     run->stepping += jox_clock_thread() - begun;
@@ -60,38 +61,6 @@ static void step_test_scene(lua_State *L, Scene *t) {
 }
 
 /* ---- options ---- */
-
-/* Returns a number of the options table at `index`, or `standard` if it is absent. */
-static double read_number_option(lua_State *L, int index, const char *name, double standard) {
-    if (lua_type(L, index) != LUA_TTABLE)
-        return standard;
-    lua_pushstring(L, name);
-    lua_rawget(L, index);
-    double value = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : standard;
-    if (!lua_isnil(L, -1) && (lua_type(L, -1) != LUA_TNUMBER || !(value >= -1.0 && value <= 4e9)))
-        luaL_error(L, "option '%s' must be a number from 0 to 4e9", name);
-    lua_pop(L, 1);
-    return value;
-}
-
-/* Raises an error if the options table at `index` has a key that is not known. */
-static void check_option_names(lua_State *L, int index, const char *const *known, size_t count) {
-    if (lua_isnoneornil(L, index))
-        return;
-    luaL_checktype(L, index, LUA_TTABLE);
-    lua_pushnil(L);
-    while (lua_next(L, index)) {
-        lua_pop(L, 1);
-        const char *key = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?";
-        bool found = false;
-        for (size_t k = 0; k < count; k++)
-            found |= strcmp(known[k], key) == 0;
-        const char *near = found ? NULL : jox_suggest(key, known, count);
-        if (!found)
-            luaL_error(L, "there is no option '%s'%s%s", key, near ? "; did you mean " : "",
-                       near ? near : "");
-    }
-}
 
 /* Returns the index of the group that the option `agents` names; -1, for all, if it is absent. */
 static int32_t read_group_option(lua_State *L, const Scene *t, int index) {
@@ -262,13 +231,13 @@ static int scene_reaches(lua_State *L) {
     static const char *const OPTIONS[] = {"within", "agents", "count", "any"};
     Scene *t = check_scene_handle(L);
     const char *state = check_state_name(L, t, 2);
-    check_option_names(L, 3, OPTIONS, 4);
+    jox_test_check_options(L, 3, OPTIONS, 4);
     int32_t group = read_group_option(L, t, 3);
-    double within = read_number_option(L, 3, "within", WITHIN);
+    double within = jox_test_number_option(L, 3, "within", WITHIN);
     uint32_t all = 0;
     for (uint32_t id = 0; id < t->history.known; id++)
         all += group < 0 || t->history.group[id] == group;
-    uint32_t wanted = (uint32_t)read_number_option(L, 3, "count", all);
+    uint32_t wanted = (uint32_t)jox_test_number_option(L, 3, "count", all);
     if (wanted == 0)
         return luaL_error(L, "the scene has no agents that could reach a state");
     if (lua_type(L, 3) == LUA_TTABLE) {
@@ -288,6 +257,8 @@ static int scene_reaches(lua_State *L) {
         lua_pushnumber(L, read_test_time(L, t));
         return 1;
     }
+    jox_test_run_of(L)->wanted = state;
+    jox_test_run_of(L)->wanted_group = group;
     push_counts(L, machines, group);
     return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
                       (int)wanted, state, within, read_test_time(L, t), lua_tostring(L, -1));
@@ -298,11 +269,11 @@ static int scene_never(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
     Scene *t = check_scene_handle(L);
     const char *state = check_state_name(L, t, 2);
-    check_option_names(L, 3, OPTIONS, 2);
+    jox_test_check_options(L, 3, OPTIONS, 2);
     int32_t group = read_group_option(L, t, 3);
     const JoxMachineRun *machines = find_test_machines(L, t);
     double until =
-        read_test_time(L, t) + read_number_option(L, 3, "during", 0.0) - 0.5 * machines->dt;
+        read_test_time(L, t) + jox_test_number_option(L, 3, "during", 0.0) - 0.5 * machines->dt;
     jox_test_run_of(L)->assertions++;
     for (;;) {
         int n = jox_test_history_find(&t->history, state);
@@ -347,9 +318,9 @@ static int scene_slower_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
     Scene *t = check_scene_handle(L);
     double mean;
-    check_option_names(L, 3, OPTIONS, 2);
+    jox_test_check_options(L, 3, OPTIONS, 2);
     jox_test_run_of(L)->assertions++;
-    watch_speed(L, t, read_number_option(L, 3, "during", 1.0), read_group_option(L, t, 3),
+    watch_speed(L, t, jox_test_number_option(L, 3, "during", 1.0), read_group_option(L, t, 3),
                 luaL_checknumber(L, 2), &mean);
     return 0;
 }
@@ -359,10 +330,10 @@ static int scene_faster_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
     Scene *t = check_scene_handle(L);
     double mean, least = luaL_checknumber(L, 2);
-    check_option_names(L, 3, OPTIONS, 2);
+    jox_test_check_options(L, 3, OPTIONS, 2);
     jox_test_run_of(L)->assertions++;
-    watch_speed(L, t, read_number_option(L, 3, "during", 1.0), read_group_option(L, t, 3), INFINITY,
-                &mean);
+    watch_speed(L, t, jox_test_number_option(L, 3, "during", 1.0), read_group_option(L, t, 3),
+                INFINITY, &mean);
     if (!(mean > least))
         return luaL_error(L, "agents move at %f m/s on the average, not faster than %f", mean,
                           least);
@@ -370,11 +341,34 @@ static int scene_faster_than(lua_State *L) {
     return 1;
 }
 
+/* s:why(id), s:why({ agents = "group", state = "Walk", to = "Rest" }): the text of `jostle why`. */
+static int scene_why(lua_State *L) {
+    static const char *const OPTIONS[] = {"agents", "state", "to"};
+    const Scene *t = check_scene_handle(L);
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
+    JoxTestQuestion question = {.agent = -1};
+    JoxText text = {0};
+    if (lua_type(L, 2) == LUA_TNUMBER) {
+        question.agent = luaL_checkinteger(L, 2);
+    } else if (!lua_isnoneornil(L, 2)) {
+        jox_test_check_options(L, 2, OPTIONS, 3);
+        question.group = jox_test_text_option(L, 2, "agents");
+        question.state = jox_test_text_option(L, 2, "state");
+        question.to = jox_test_text_option(L, 2, "to");
+    }
+    const bool good = driver->why(driver->context, t->scene, &question, &text);
+    lua_pushlstring(L, text.data ? text.data : "", text.length);
+    jox_text_free(&text);
+    return good ? 1 : luaL_error(L, "%s", lua_tostring(L, -1));
+}
+
 /* ---- making scenes ---- */
 
 static void free_test_scene(lua_State *L, Scene *t) {
     if (t->scene) {
         const JoxTestDriver *driver = jox_test_run_of(L)->driver;
+        if (jox_test_run_of(L)->last == t->scene)
+            jox_test_run_of(L)->last = NULL;
         driver->free(driver->context, t->scene);
     }
     jox_test_history_free(&t->history);
@@ -394,13 +388,13 @@ static void *load_test_scene(lua_State *L, JoxText *why) {
     JoxTestRun *run = jox_test_run_of(L);
     const char *sets[64], *mods[64];
     lua_settop(L, 2);
-    check_option_names(L, 2, OPTIONS, 5);
+    jox_test_check_options(L, 2, OPTIONS, 5);
     JoxTestScene scene = {.path = run->path, .threads = 1, .sets = sets, .mods = mods};
-    scene.threads = (uint32_t)read_number_option(L, 2, "threads", 1);
-    scene.dt = read_number_option(L, 2, "dt", 0.0);
-    scene.seed = (uint64_t)read_number_option(L, 2, "seed", 0);
+    scene.threads = (uint32_t)jox_test_number_option(L, 2, "threads", 1);
+    scene.dt = jox_test_number_option(L, 2, "dt", 0.0);
+    scene.seed = (uint64_t)jox_test_number_option(L, 2, "seed", 0);
     scene.has_dt = scene.dt > 0.0;
-    scene.has_seed = lua_type(L, 2) == LUA_TTABLE && read_number_option(L, 2, "seed", -1) >= 0;
+    scene.has_seed = lua_type(L, 2) == LUA_TTABLE && jox_test_number_option(L, 2, "seed", -1) >= 0;
     scene.set_count = jox_test_read_texts(L, 2, "set", true, sets);
     scene.mod_count = jox_test_read_texts(L, 2, "mods", false, mods);
     if (lua_type(L, 1) == LUA_TTABLE) {
@@ -429,6 +423,7 @@ static int word_scene(lua_State *L) {
     jox_text_free(&why);
     Scene *t = lua_newuserdatauv(L, sizeof *t, 0);
     *t = (Scene){.scene = scene};
+    jox_test_run_of(L)->last = scene;
     luaL_setmetatable(L, SCENE);
     jox_test_history_note(&t->history, find_test_machines(L, t));
     return 1;
@@ -459,20 +454,12 @@ static int word_refused(lua_State *L) {
 void jox_test_scene_words(lua_State *L) {
     static const luaL_Reg WORDS[] = {
         {"scene", word_scene}, {"refused", word_refused}, {NULL, NULL}};
-    static const luaL_Reg METHODS[] = {{"run", scene_run},
-                                       {"step", scene_step},
-                                       {"time", scene_time},
-                                       {"count", scene_count},
-                                       {"entered", scene_entered},
-                                       {"hash", scene_hash},
-                                       {"reaches", scene_reaches},
-                                       {"never", scene_never},
-                                       {"slower_than", scene_slower_than},
-                                       {"agents", scene_agents},
-                                       {"agent", scene_agent},
-                                       {"faster_than", scene_faster_than},
-                                       {"body", scene_body},
-                                       {NULL, NULL}};
+    static const luaL_Reg METHODS[] = {
+        {"run", scene_run},         {"step", scene_step},       {"time", scene_time},
+        {"count", scene_count},     {"entered", scene_entered}, {"hash", scene_hash},
+        {"reaches", scene_reaches}, {"never", scene_never},     {"slower_than", scene_slower_than},
+        {"agents", scene_agents},   {"agent", scene_agent},     {"faster_than", scene_faster_than},
+        {"body", scene_body},       {"why", scene_why},         {NULL, NULL}};
     luaL_setfuncs(L, WORDS, 0);
     luaL_setfuncs(L, jox_test_assertions, 0);
     luaL_newmetatable(L, SCENE);

@@ -29,6 +29,31 @@ static int word_test(lua_State *L) {
     return 0;
 }
 
+/* Appends what the agents of the scene that was used last wait for, in at most MOST_LINES lines:
+   what keeps them from the state that they did not reach, if the test asked for that. */
+static void explain_failure(const JoxTestRun *run, JoxText *message) {
+    enum { MOST_LINES = 30 };
+    const JoxTestDriver *driver = run->driver;
+    if (!run->last || driver->machines(driver->context, run->last)->agents->count > 1000)
+        return;
+    const JoxTestQuestion question = {
+        .agent = -1,
+        .to = run->wanted,
+        .group =
+            run->wanted ? driver->group_name(driver->context, run->last, run->wanted_group) : NULL};
+    JoxText why = {0};
+    driver->why(driver->context, run->last, &question, &why);
+    jox_text_add(message, "what its agents wait for (s:why tells more):\n");
+    const char *line = why.data;
+    for (int n = 0; line && *line && n < MOST_LINES; n++) {
+        const size_t length = strcspn(line, "\n");
+        jox_text_printf(message, "  %.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    jox_text_add(message, line && *line ? "  ...\n" : "");
+    jox_text_free(&why);
+}
+
 /* Calls a test and reports its result. It fails by an error, by an assertion that failed within a
    pcall, or by having no assertions. */
 static void run_registered_test(JoxScript *script, JoxTestRun *run, JoxTest *test,
@@ -39,6 +64,8 @@ static void run_registered_test(JoxScript *script, JoxTestRun *run, JoxTest *tes
     run->assertions = 0;
     run->simulated = run->stepping = 0.0;
     run->failures = 0;
+    run->last = NULL;
+    run->wanted = NULL;
     double begun = jox_clock_thread();
     lua_rawgeti(script->vm.L, LUA_REGISTRYINDEX, test->function);
     run->running = true;
@@ -51,6 +78,8 @@ static void run_registered_test(JoxScript *script, JoxTestRun *run, JoxTest *tes
         jox_text_printf(&message, "%s:%d: this test asserts nothing\n", path, test->line);
     else if (run->failures > 0)
         jox_text_printf(&message, "%s:%d: an assertion failed within a pcall\n", path, test->line);
+    if (message.length)
+        explain_failure(run, &message);
     JoxTestResult result = {.file = path,
                             .name = test->name,
                             .message = message.data ? message.data : "",

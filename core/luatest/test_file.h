@@ -18,6 +18,12 @@ typedef struct JoxTestScene {
     uint32_t threads;
 } JoxTestScene;
 
+/* A question about agents: why they stay in their states. */
+typedef struct JoxTestQuestion {
+    int64_t agent;                  /* id; -1: all that the next members mean */
+    const char *group, *state, *to; /* as in JoWhyDef; NULL: any */
+} JoxTestQuestion;
+
 /* Functions by which tests reach scenes; `scene` is a handle that `load` returned, `context` the
    member below. */
 typedef struct JoxTestDriver {
@@ -31,6 +37,9 @@ typedef struct JoxTestDriver {
     int32_t (*group)(void *context, void *scene, const char *name); /* index, or -1 */
     /* Position (m) and velocity (m/s) of a body by name, x y z each; false if there is none. */
     bool (*body)(void *context, void *scene, const char *name, double out[6]);
+    /* Appends the answer to a question, or what is wrong with it: then returns false. */
+    bool (*why)(void *context, void *scene, const JoxTestQuestion *question, JoxText *out);
+    const char *(*group_name)(void *context, void *scene, int32_t group); /* NULL for -1 */
     /* Writes the text of a behaviour that a test contains to a file; returns its path, valid until
        the tests end, or NULL. */
     const char *(*keep)(void *context, const char *text, size_t length);

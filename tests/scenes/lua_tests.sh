@@ -48,6 +48,29 @@ grep -q "^$work/deep_test.lua:2: 1 is not 2" "$work/deep" && grep -q "deep_test.
     ! grep -q '\.c:\|b0:\|\[C\]' "$work/deep"
 verdict "a traceback ends at the test, without frames of the engine" $?
 
+# ---- a failure says what agents wait for ----
+cat >"$work/waits_test.lua" <<'END'
+local pupil = [[
+return machine { name = "m", start = "Sit", states = { Sit = { steer = hold, { to = "Go", when = heard "bell" },
+  { to = "Nap", when = after(90) } }, Go = { steer = hold }, Nap = { steer = hold } } }
+]]
+local function class() return scene { groups = { people = { behaviour = pupil, at = { { 0, 0 }, { 3, 0 } } } } } end
+test("reaches", function() class():reaches("Go", { within = 2 }) end)
+test("equal", function()
+  local s = class()
+  s:run(1)
+  truthy(s:why(1):find("agent 1 of group people", 1, true) and s:why({ to = "Nap" }):find("after(90)", 1, true))
+  fails(function() s:why(2) end, "there is no agent 2")
+  fails(function() s:why({ states = "Sit" }) end, "there is no option 'states'")
+  equal(s:agent(0).state, "Go")
+end)
+END
+"$JOSTLE" test "$work/waits_test.lua" >"$work/waits"
+verdict "a failing test of agents is exit status 1" $(($? != 1))
+awk '/^not ok reaches/ {at = 1} /^not ok equal/ {at = 2} /0 of 2 +heard\("bell"\) +nobody has called it so far/ {bell[at]++} /after\(90\)/ {nap[at]++}
+    END {exit !(bell[1] == 1 && !nap[1] && bell[2] == 1 && nap[2] == 1)}' "$work/waits"
+verdict "  and says what they wait for, of \`reaches\` what keeps them from that state" $?
+
 # ---- files that cannot be run: exit status 3, with the place ----
 refuse() { # NAME TEXT: checks that $work/NAME_test.lua is refused with a text
     "$JOSTLE" test "$work/$1_test.lua" >"$work/log" 2>&1

@@ -29,7 +29,9 @@ grep -q 'yes *after(5) *30 s' "$work/out"; verdict "  a term that holds, with it
 grep -q 'no *near(teacher, 2) *the nearest is agent 6 (in Stand), 60 m away, beyond its perception of 4 m' "$work/out"; verdict "  a target that is not there" $?
 expect "people of a state are counted by term" 0 "0 of 6  heard" "$JOSTLE" why "$school" --state Lesson --at 30 --quiet
 expect "  also at another time" 0 "4 people are in Lesson" "$JOSTLE" why "$school" --state Lesson --at 1 --quiet
-expect "  a state that nobody is in: who could go there" 0 "nobody in Hide; who could go there" "$JOSTLE" why "$school" --state Hide --at 30 --quiet
+expect "  a state that nobody is in: who could go there" 0 "nobody in Hide; who could go to Hide:" "$JOSTLE" why "$school" --state Hide --at 30 --quiet
+expect "  the same of those in a state" 0 "6 people are in Lesson" "$JOSTLE" why "$school" --state Lesson --to Break --quiet
+! grep -q "Hide" "$work/out"; verdict "    without the other transitions" $?
 expect "people of a group, state by state" 0 "2 people are in Walk" "$JOSTLE" why "$school" --group pupils --at 2 --quiet
 "$JOSTLE" why "$school" --agent 0 --at 3 --json 2>/dev/null | python3 -c '
 import json, sys
@@ -52,9 +54,40 @@ awk '{lines[NR] = $0} END {for (n = 1; n <= NR / 2; n++) if (lines[n] != lines[n
 verdict "from a checkpoint (of $at s) the answer is that from the beginning" $?
 expect "  before its time it is refused" 2 "after the 2 s asked about" "$JOSTLE" why --from "$work/kept" --agent 0 --at 2
 expect "  a scene beside it is refused" 2 "--from goes without SCENE" "$JOSTLE" why "$school" --from "$work/kept" --agent 0
-expect "without agent, group or state it is refused" 2 "say about whom: --agent ID, --group NAME or --state NAME" "$JOSTLE" why "$school"
-expect "  and with too many" 2 "--agent excludes --group and --state" "$JOSTLE" why "$school" --agent 1 --group pupils
+expect "without agent, group or state it is refused" 2 "say about whom: --agent ID, --group NAME, --state NAME or --to NAME" "$JOSTLE" why "$school"
+expect "  and with too many" 2 "--agent excludes --group, --state and --to" "$JOSTLE" why "$school" --agent 1 --group pupils
 expect "an agent that is not there is refused" 2 "there is no agent 7 at 30.00 s: 7 came in so far, the last is agent 6" "$JOSTLE" why "$school" --agent 7 --quiet
 expect "  a state, with the nearest one" 2 "has no state 'Lessn'. Did you mean 'Lesson'?" "$JOSTLE" why "$school" --state Lessn --quiet
 expect "  a group" 2 "has no group 'pupil'. Did you mean 'pupils'?" "$JOSTLE" why "$school" --group pupil --quiet
 expect "a broken scene is refused" 3 "Did you mean 'office'?" "$JOSTLE" why offise --agent 1
+# The end of a run: states that nobody left, and transitions that never fired; not states without transitions.
+expect "a run says which state nobody left" 0 "Nobody left Lesson (6 people in it, since 0 s)" bash -c "'$JOSTLE' run '$school' 2>&1 | tr '\n' ' '"
+grep -q 'why SCENE --state Lesson. says what they wait for' "$work/out" && ! grep -q 'Stand (' "$work/out"; verdict "  and how to ask why" $?
+"$JOSTLE" run "$school" --quiet --summary - 2>/dev/null | python3 -c '
+import json, sys
+figures = json.load(sys.stdin)
+assert figures["unleft"] == [{"machine": "pupil", "state": "Lesson", "people": 6, "since_s": 0}], figures["unleft"]
+assert "never_fired" not in figures
+'
+verdict "  also in the summary" $?
+expect "a run of 5 s is too short to say so" 0 "7 people in all" bash -c "'$JOSTLE' run '$school' --for 5 2>&1 | tr '\n' ' '"
+! grep -q 'Nobody left' "$work/out"; verdict "  and says nothing" $?
+cat >"$work/school/pupil.lua" <<'END'
+local mine = memory { bells = 0 }
+return machine { name = "pupil", start = "Walk", defaults = { perception = 4 },
+  states = {
+    Walk = { steer = hold,
+      { to = "Lesson", when = after(6) },
+      { to = "Hide", when = mine.bells:above(3) } },
+    Lesson = { steer = hold,
+      { to = "Walk", when = after(1) } },
+    Hide = { steer = hold },
+  } }
+END
+expect "a transition that never fired is named" 0 "Never fired, though people were in the state and left it: Walk -> Hide." bash -c "'$JOSTLE' run '$school' 2>&1 | tr '\n' ' '"
+"$JOSTLE" run "$school" --quiet --summary - 2>/dev/null | python3 -c '
+import json, sys
+figures = json.load(sys.stdin)
+assert figures["never_fired"] == [{"machine": "pupil", "from": "Walk", "to": "Hide", "id": "Hide"}] and "unleft" not in figures
+'
+verdict "  also in the summary" $?

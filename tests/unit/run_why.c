@@ -153,11 +153,11 @@ static void crowds_are_counted_by_term(void **state) {
                                       "{ to = \"Break\", when = now.x:above(7) },\n"));
     step_scene(scene, 2);
     char *text = ask_why(scene, (JoWhyDef){.state = "Lesson"});
-    CHECK_ORDER(text, "4 people", "3 people are in Lesson", "-> Hide", "nearest to it is agent",
+    CHECK_ORDER(text, "4 people", "3 people are in Lesson", "-> Hide", "the nearest is agent",
                 "1 of 3  now.", "1 of 3  now.");
     jo_free(text);
     text = ask_why(scene, (JoWhyDef){.state = "Hide"});
-    CHECK_ORDER(text, "4 people, nobody in Hide; who could go there:", "3 people are in Lesson",
+    CHECK_ORDER(text, "4 people, nobody in Hide; who could go to Hide:", "3 people are in Lesson",
                 "-> Hide");
     assert_null(strstr(text, "-> Break"));
     jo_free(text);

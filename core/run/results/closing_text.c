@@ -13,6 +13,7 @@
 #include "run/results/demand.h"
 #include "run/results/idle_input.h"
 #include "run/results/kept_people.h"
+#include "run/results/unleft_states.h"
 #include "run/run.h"
 #include "run/standstill.h"
 #include "run/tally_scores.h"
@@ -218,6 +219,7 @@ char *jo_scene_closing(const JoScene *scene) {
     say_drives(scene, &text);
     jox_run_say_tally(scene, &text);
     say_standing(scene, &text);
+    jox_run_say_unleft(scene, &text);
     say_probes(scene, &text);
     jox_run_say_idle_input(scene, &text);
     say_plans(scene, &text);

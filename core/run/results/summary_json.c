@@ -17,6 +17,7 @@
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
 #include "run/results/kept_people.h"
+#include "run/results/unleft_states.h"
 #include "run/run.h"
 #include "run/standstill.h"
 #include "run/tally_scores.h"
@@ -332,6 +333,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_standing(&json, scene);
     add_states(&json, world);
     add_transitions(&json, &world->machines);
+    jox_run_add_unleft(scene, &json);
     add_contacts(&json, scene);
     add_drives(&json, scene);
     add_regions(&json, scene);

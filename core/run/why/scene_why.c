@@ -55,20 +55,20 @@ static bool find_group(Asked *asked, JoError *error) {
     return found;
 }
 
-/* Checks that some machine has the state that is asked for. */
-static bool check_state(const Asked *asked, JoError *error) {
+/* Checks that some machine has a state that is asked for; NULL: none is. */
+static bool check_state(const Asked *asked, const char *state, JoError *error) {
     const JoxMachineSet *set = asked->scene->world->machines.set;
     const char *names[512];
     size_t count = 0;
-    if (!asked->def->state)
+    if (!state)
         return true;
     for (uint32_t m = 0; m < set->count; m++) {
-        if (jox_machine_state(set->items[m], asked->def->state) >= 0)
+        if (jox_machine_state(set->items[m], state) >= 0)
             return true;
         for (uint32_t s = 0; s < set->items[m]->state_count && count < 512; s++)
             names[count++] = set->items[m]->states[s].name;
     }
-    return refuse_name("state", asked->def->state, names, count, error);
+    return refuse_name("state", state, names, count, error);
 }
 
 /* Returns the state of an agent, or NULL if it has no machine. */
@@ -90,19 +90,20 @@ static int compare_states(const void *first, const void *second, const void *con
     return (a->id[i] > a->id[j]) - (a->id[i] < a->id[j]);
 }
 
-/* Returns whether a transition of the agent's state leads to the state that is asked for. */
-static bool leads_there(const Asked *asked, uint32_t i) {
+/* Returns whether a transition of the agent's state leads to a state. */
+static bool leads_to(const Asked *asked, uint32_t i, const char *to) {
     const JoxAgents *a = &asked->scene->world->state.agents;
     const JoxMachine *machine = asked->scene->world->machines.set->items[a->machine[i]];
     const JoxState *state = &machine->states[a->state[i]];
     for (uint32_t k = 0; k < state->transition_count; k++)
-        if (!strcmp(machine->states[state->transitions[k].to].name, asked->def->state))
+        if (!strcmp(machine->states[state->transitions[k].to].name, to))
             return true;
     return false;
 }
 
-/* Lists the agents of the group that are in the state; `before`: that could go to it. */
-static void list_agents(Asked *asked, bool before) {
+/* Lists the agents of the group that are in a state (NULL: any) and could go to another (NULL:
+   any). */
+static void list_agents(Asked *asked, const char *in, const char *to) {
     const JoxAgents *a = &asked->scene->world->state.agents;
     asked->agents = jox_realloc(asked->agents, (size_t)a->count + 1, sizeof *asked->agents);
     asked->count = asked->of = 0;
@@ -111,8 +112,7 @@ static void list_agents(Asked *asked, bool before) {
         if (!state || (asked->group >= 0 && a->group[i] != asked->group))
             continue;
         asked->of++;
-        if (!asked->def->state ||
-            (before ? leads_there(asked, i) : !strcmp(state->name, asked->def->state)))
+        if ((!in || !strcmp(state->name, in)) && (!to || leads_to(asked, i, to)))
             asked->agents[asked->count++] = i;
     }
     uint32_t *spare = jox_alloc(JOX_SORT_SPARE((size_t)a->count) + 1, sizeof *spare);
@@ -131,8 +131,8 @@ static uint32_t count_alike(const Asked *asked, uint32_t first) {
     return end - first;
 }
 
-/* Begins the answer for many: how many there are, by state. */
-static void begin_crowds(Asked *asked, bool before) {
+/* Begins the answer for many: how many there are, and whether `nobody` is in the state. */
+static void begin_crowds(Asked *asked, bool nobody, const char *to) {
     const JoWhyDef *def = asked->def;
     const double now = jo_world_time(asked->scene->world);
     char people[JOX_NOUN];
@@ -141,33 +141,36 @@ static void begin_crowds(Asked *asked, bool before) {
         jox_json_digits(&asked->json, "time", now, 9);
         jox_json_string(&asked->json, "group", def->group);
         jox_json_string(&asked->json, "state", def->state);
+        jox_json_string(&asked->json, "to", to);
         jox_json_whole(&asked->json, "people", asked->of);
-        jox_json_whole(&asked->json, "in_state", before ? 0 : asked->count);
+        jox_json_whole(&asked->json, "in_state", nobody ? 0 : asked->count);
         jox_json_array(&asked->json, "crowds");
         return;
     }
     jox_text_printf(&asked->text, "%.2f s: %s%s%s", now,
                     jox_noun(people, asked->of, "person|people"), def->group ? " of group " : "",
                     def->group ? def->group : "");
-    if (before)
-        jox_text_printf(&asked->text, ", nobody in %s%s", def->state,
-                        asked->count ? "; who could go there:"
-                                     : ", and nobody could go there: no "
-                                       "transition leads there from the "
-                                       "states that people are in");
+    if (nobody)
+        jox_text_printf(&asked->text, ", nobody in %s", def->state);
+    if (to)
+        jox_text_printf(&asked->text,
+                        asked->count ? "; who could go to %s:"
+                                     : "; nobody is in a "
+                                       "state that leads to %s",
+                        to);
     jox_text_add(&asked->text, "\n");
 }
 
-static void explain_crowds(Asked *asked, bool before) {
+static void explain_crowds(Asked *asked, const char *to) {
     for (uint32_t first = 0, count; first < asked->count; first += count) {
         JoxWhyCrowd crowd;
         count = count_alike(asked, first);
         jox_why_crowd(asked->scene, &asked->look, asked->agents + first, count, &crowd);
-        const int to = before ? jox_machine_state(crowd.machine, asked->def->state) : -1;
+        const int goal = to ? jox_machine_state(crowd.machine, to) : -1;
         if (asked->def->json)
             jox_why_crowd_json(asked->scene, &crowd, &asked->json);
         else
-            jox_why_crowd_text(asked->scene, &crowd, to < 0 ? NULL : &crowd.machine->states[to],
+            jox_why_crowd_text(asked->scene, &crowd, goal < 0 ? NULL : &crowd.machine->states[goal],
                                &asked->text);
         jox_why_crowd_free(&crowd);
     }
@@ -178,14 +181,22 @@ static void explain_crowds(Asked *asked, bool before) {
 }
 
 static bool answer_for_many(Asked *asked, JoError *error) {
-    if (!find_group(asked, error) || !check_state(asked, error))
+    const JoWhyDef *def = asked->def;
+    const char *to = def->to;
+    if (!find_group(asked, error) || !check_state(asked, def->state, error) ||
+        !check_state(asked, to, error))
         return false;
-    list_agents(asked, false);
-    const bool before = asked->def->state && asked->count == 0;
-    if (before)
-        list_agents(asked, true);
-    begin_crowds(asked, before);
-    explain_crowds(asked, before);
+    list_agents(asked, def->state, NULL);
+    const bool nobody = def->state && asked->count == 0;
+    to = nobody && !to ? def->state : to;
+    if (to)
+        list_agents(asked, nobody ? NULL : def->state, to);
+    begin_crowds(asked, nobody, to);
+    if (to && asked->count == 0) { /* no state leads there at once: what all of them wait for */
+        to = NULL;
+        list_agents(asked, nobody ? NULL : def->state, NULL);
+    }
+    explain_crowds(asked, to);
     jox_free(asked->agents);
     return true;
 }

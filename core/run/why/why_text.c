@@ -210,7 +210,8 @@ static void print_crowd_transition(const JoScene *scene, const JoxWhyCrowd *crow
         jox_text_printf(out, ": %s in the next step",
                         jox_noun(people, t->fires, "agent takes it|agents take it"));
     else
-        jox_text_printf(out, ": fires for nobody; nearest to it is agent %u", a->id[t->nearest]);
+        jox_text_printf(out, ": fires for nobody; the nearest is agent %u, with these values",
+                        a->id[t->nearest]);
     jox_text_add(out, "\n");
     if (t->shown.is_function) {
         jox_text_printf(out, "     %u of %u  a function: for agent %u ", t->held, crowd->people,
