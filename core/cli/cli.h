@@ -25,6 +25,7 @@
     X(render)                                                                                      \
     X(view)                                                                                        \
     X(check)                                                                                       \
+    X(graph)                                                                                       \
     X(test)                                                                                        \
     X(new)                                                                                         \
     X(mod)                                                                                         \

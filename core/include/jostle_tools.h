@@ -429,6 +429,14 @@ JO_API JoReproduceDef jo_default_reproduce_def(void);
    number of claims out of band. False with `error` if that could not be done, or was stopped;
    errors in claim files went to `message`. */
 JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error);
+/* Returns the graph of a behaviour in the language of Graphviz: states as boxes, transitions with
+   their conditions. def->path is the file of a behaviour (.lua), or a scene, of whose behaviours
+   `behaviour` names one (NULL: the only one). Errors of files go to def->message. NULL with
+   `error`, to be freed with jo_free. */
+JO_API char *jo_graph(const JoSceneDef *def, const char *behaviour, JoError *error);
+/* Draws such a graph into a file .svg, .png or .pdf, by Graphviz' program dot. False with `error`.
+ */
+JO_API bool jo_graph_draw(const char *graph, const char *path, JoError *error);
 /* Returns a generated page or file by name, as `jostle reference` prints them: "behaviours" and
    "scenes" (Markdown), "inputs" (entries of the input log, Markdown), "lua-ls" and "luacheck"
    (definitions for editors), "scene-schema" and "mod-schema" (JSON Schema). NULL if there is no

@@ -35,6 +35,14 @@ typedef struct JoxWritten {
 /* Gives the place that sets a path last; false if none does. */
 bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
                      const JoxScope *scope, JoxWritten *out);
+/* As jox_lua_written, and follows functions that build a part of the machine's table. */
+bool jox_lua_written_or_built(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                              const JoxScope *scope, JoxWritten *out);
+/* Visits the local variables of the behaviour's own file with their values as written, in order of
+   their declaration; not those of its functions, nor what holds a table, a function or memory. */
+typedef void JoxLocalVisit(void *context, const char *name, const char *value);
+void jox_lua_locals(const JoxLua *lua, const JoxMachine *machine, JoxLocalVisit *visit,
+                    void *context);
 /* Finds where memory is declared, as `memory { hits = 0 }`; the value as written is in out->text.
  */
 bool jox_lua_memory(const JoxLua *lua, const JoxMachine *machine, const char *name,

@@ -123,18 +123,22 @@ static bool add_followed_places(const JoxScript *script, const char *path, Setti
 /* Replaces the id of a transition in a path by its number, as in the behaviour's own file. */
 static void use_transition_number(const JoxMachine *machine, const char *canonical,
                                   char path[256]) {
-    char state[128], id[128];
+    char state[128];
     const char *at = strstr(canonical, ".@");
     snprintf(path, 256, "%s", canonical);
     if (!at || strncmp(canonical, "states.", 7) != 0)
         return;
     snprintf(state, sizeof state, "%.*s", (int)(at - canonical - 7), canonical + 7);
-    size_t n = strcspn(at + 2, ".");
-    snprintf(id, sizeof id, "%.*s", (int)n, at + 2);
+    size_t longest = 0; /* ids may have dots, as names of states */
     int number = jox_machine_state(machine, state);
-    for (uint32_t t = 0; number >= 0 && t < machine->states[number].transition_count; t++)
-        if (strcmp(machine->states[number].transitions[t].id, id) == 0)
-            snprintf(path, 256, "states.%.100s.%u%.100s", state, t + 1, at + 2 + n);
+    for (uint32_t t = 0; number >= 0 && t < machine->states[number].transition_count; t++) {
+        const char *id = machine->states[number].transitions[t].id, *rest = at + 2;
+        const size_t n = strlen(id);
+        if (n < longest || strncmp(rest, id, n) != 0 || (rest[n] && rest[n] != '.'))
+            continue;
+        longest = n;
+        snprintf(path, 256, "states.%.100s.%u%.100s", state, t + 1, rest + n);
+    }
 }
 
 /* Adds every place that sets a path, in the order in which they apply; returns how many. */
@@ -276,12 +280,14 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
     return found;
 }
 
-bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
-                     const JoxScope *scope, JoxWritten *out) {
+static bool find_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                         const JoxScope *scope, bool follows, JoxWritten *out) {
     const JoxScript *script = jox_lua_script(lua, machine);
-    Settings to = {.scope = scope};
+    Settings to = {.scope = scope, .follows = follows};
     *out = (JoxWritten){0};
-    if (!script || add_all_places(script, machine, path, &to) == 0 || to.last.removes)
+    const bool found = script && add_all_places(script, machine, path, &to) > 0;
+    jox_kinds_free(to.kinds);
+    if (!found || to.last.removes)
         return false;
     print_value(&to.last, LONGEST, &out->text);
     out->file = to.last.source->path;
@@ -290,6 +296,53 @@ bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *p
     if (to.last.mod >= 0 && (uint32_t)to.last.mod < scope->mod_count)
         out->mod = scope->mods[to.last.mod].name;
     return true;
+}
+
+bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                     const JoxScope *scope, JoxWritten *out) {
+    return find_written(lua, machine, path, scope, false, out);
+}
+
+bool jox_lua_written_or_built(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                              const JoxScope *scope, JoxWritten *out) {
+    return find_written(lua, machine, path, scope, true, out);
+}
+
+/* ---- local variables ---- */
+
+/* Returns whether a value is worth showing by itself: no table, function, memory, file or machine.
+ */
+static bool is_shown_value(const JoxSyntax *s, int32_t tree) {
+    static const char *const MAKERS[] = {"memory", "require", "machine"};
+    const JoxTree *t = &s->trees[tree];
+    if (t->kind == JOX_TREE_TABLE || t->kind == JOX_TREE_FUNCTION)
+        return false;
+    for (size_t m = 0; m < sizeof MAKERS / sizeof *MAKERS; m++)
+        if (t->kind == JOX_TREE_CALL && jox_token_is(jox_syntax_token(s, t->a), MAKERS[m]))
+            return false;
+    return t->last > t->first;
+}
+
+void jox_lua_locals(const JoxLua *lua, const JoxMachine *machine, JoxLocalVisit *visit,
+                    void *context) {
+    const JoxScript *script = jox_lua_script(lua, machine);
+    const JoxSyntax *s = script ? jox_outline_syntax(script->vm.sources[0]) : NULL;
+    for (size_t b = 0; s && s->whole && b < s->binding_count; b++) {
+        const JoxTreeBinding *bound = &s->bindings[b];
+        if (bound->kind != JOX_BIND_VALUE || !bound->declares ||
+            s->trees[bound->target].function != 0 || !is_shown_value(s, bound->value))
+            continue;
+        const JoxTree *value = &s->trees[bound->value];
+        const Setting setting = {
+            .source = s->source, .first = value->first, .last = value->last, .mod = -1};
+        const JoxToken *name = jox_syntax_token(s, bound->target);
+        JoxText called = {0}, text = {0};
+        jox_text_append(&called, name->text, name->length);
+        print_value(&setting, LONGEST, &text);
+        visit(context, called.data, text.data ? text.data : "");
+        jox_text_free(&called);
+        jox_text_free(&text);
+    }
 }
 
 /* ---- memory ---- */

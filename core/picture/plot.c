@@ -85,9 +85,7 @@ static bool wait_for_input(int pipe, int seconds) {
     return ready > 0;
 }
 
-/* Reads a child's output until it ends and keeps the last `size` - 1 characters in `last`, as
-   gnuplot states the reason last. Kills a child that writes nothing for so many seconds. */
-static void read_last_output(int pipe, pid_t child, int seconds, char *last, size_t size) {
+void jox_plot_read_last_output(int pipe, pid_t child, int seconds, char *last, size_t size) {
     char bytes[512];
     size_t kept = 0;
     ssize_t got = 1;
@@ -119,7 +117,7 @@ bool jox_plot_draw_within(const char *folder, const char *script, int seconds, J
     if (pipe2(errors, O_CLOEXEC) == 0) {
         child = start_gnuplot(folder, script, errors[1]);
         close(errors[1]);
-        read_last_output(errors[0], child, seconds, why, sizeof why);
+        jox_plot_read_last_output(errors[0], child, seconds, why, sizeof why);
         close(errors[0]);
     }
     do

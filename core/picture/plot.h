@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 #include "base/text.h"
 #include "geom/walls.h"
@@ -26,6 +27,9 @@ bool jox_plot_close(FILE *file, const char *what, JoxText *error);
    settings. A gnuplot that has written nothing for `seconds` (300 for the first) is killed. */
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error);
 bool jox_plot_draw_within(const char *folder, const char *script, int seconds, JoxText *error);
+/* Reads a child's output until it ends and keeps the last `size` - 1 characters in `last`, as
+   gnuplot states the reason last. Kills a child that writes nothing for so many seconds. */
+void jox_plot_read_last_output(int pipe, pid_t child, int seconds, char *last, size_t size);
 /* Writes a script's beginning: the terminal (PNG, or SVG on white), its size in pixels and font,
    the colour palette of values, and the output file STEM.png or STEM.svg. */
 void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int height);
