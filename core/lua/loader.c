@@ -143,6 +143,20 @@ static JoxMachine *run_script(JoxScript *script) {
     return machine;
 }
 
+/* Notes what the functions of a script may do, as far as the text of its files tells: look at
+   others, ask for messages, tell them. */
+static void note_what_functions_may(const JoxScript *script, JoxMachine *machine) {
+    for (size_t s = 0; script->hook_count && s < script->vm.source_count; s++) {
+        const char *text = script->vm.sources[s]->text;
+        machine->hears_functions |= strstr(text, "told") != NULL;
+        machine->tells_functions |= strstr(text, "tell") != NULL;
+        machine->views |= strstr(text, "neighbours") || strstr(text, "told") ||
+                          strstr(text, "holding") || strstr(text, "striker");
+    }
+    for (uint32_t m = 0; script->hook_count && m < machine->memory_count; m++)
+        machine->views |= machine->memory[m].kind == JOX_MEMORY_SOMEBODY;
+}
+
 struct JoxLoaded {
     JoxMachine *machine; /* NULL if the load failed */
     JoxScript *script;   /* kept after a failure too, as it lists the files that were looked for */
@@ -172,15 +186,8 @@ JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size
     script->vm.loading = false;
     script->scope = NULL;
     script->diagnostics = NULL;
-    for (size_t s = 0; machine && s < script->vm.source_count;
-         s++) /* "neighbours" in the text: a function may look at others */
-        machine->views |= script->hook_count && strstr(script->vm.sources[s]->text, "neighbours");
-    for (size_t s = 0; machine && s < script->vm.source_count; s++) /* me.told in a function */
-        machine->hears_functions |=
-            script->hook_count && strstr(script->vm.sources[s]->text, "told");
-    for (size_t s = 0; machine && s < script->vm.source_count; s++) /* me.tell */
-        machine->tells_functions |=
-            script->hook_count && strstr(script->vm.sources[s]->text, "tell");
+    if (machine)
+        note_what_functions_may(script, machine);
     return loaded;
 }
 

@@ -36,6 +36,13 @@ const JoxMessage *jox_message_find(const JoxMachineRun *run, uint32_t agent, uin
     return NULL;
 }
 
+const JoxMessage *jox_message_take(JoxMachineRun *run, uint32_t agent, uint32_t name) {
+    const JoxMessage *message = jox_message_find(run, agent, name);
+    if (message)
+        run->state->waiting[message - run->state->waiting].used = 1;
+    return message;
+}
+
 double jox_message_value(const JoxMessage *message, uint32_t name) {
     for (uint32_t v = 0; message && v < message->count; v++)
         if (message->names[v] == name)

@@ -124,15 +124,6 @@ static inline double *jox_home_position(const JoxMachineRun *run, uint32_t agent
 /* Makes the agent's present position its post. */
 void jox_set_home_post(JoxMachineRun *run, uint32_t agent);
 
-/* somebody.c: what a number that means somebody is at present: the row of a body, the index of a
-   place; -1 if it is something else or is gone. */
-int32_t jox_who_row(const JoxMachineRun *run, double who);
-int32_t jox_who_place(const JoxMachineRun *run, double who);
-/* Returns the body that the agent carries, else the agent that it holds on to. */
-double jox_who_is_held(const JoxMachineRun *run, uint32_t agent);
-/* Returns the agent that threw or kicked the body which struck this one in the last step, else that
-   body. */
-double jox_who_struck(const JoxMachineRun *run, uint32_t agent);
 /* Notes which agent kicked or threw a body, by their ids. */
 void jox_throwers_note(JoxMachineRun *run, uint32_t body, uint32_t agent);
 /* target.c: notes where agents see those whom they remember, for machines that ask for it. */
@@ -290,9 +281,6 @@ bool jox_meets_wall(const JoxMachineRun *run, JoxV2 from, JoxV2 to, JoxV2 *norma
    filter's conditions on distance and direction. */
 bool jox_passes_view(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
                      JoxV2 offset, JoxV2 velocity);
-/* Returns whether agent i has agent j, or body `row`, within perception and in sight. */
-bool jox_sees_agent(const JoxMachineRun *run, uint32_t i, uint32_t j);
-bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row);
 /* Returns whether agent j passes the filter of a target of i's machine. */
 bool jox_passes_filter(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
                        uint32_t j);

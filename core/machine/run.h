@@ -357,15 +357,28 @@ enum { JOX_SMALL_CROWD = 64 };
    how many. */
 uint32_t jox_machines_seen(const JoxMachineRun *run, uint32_t agent,
                            uint32_t seen[JOX_SMALL_CROWD]);
-/* Returns whether memory that holds somebody (JOX_WHO_BODY in target_kinds.h) means one who is in the
-   world; `who` of an agent is 1 + its id. */
+/* Returns whether memory that holds somebody (JOX_WHO_BODY in target_kinds.h) means one who is in
+   the world; `who` of an agent is 1 + its id. */
 bool jox_who_exists(const JoxMachineRun *run, double who);
-/* Returns the index of the agent that it means, or JOX_NO_INDEX. */
+/* Returns the index of the agent that it means, or JOX_NO_INDEX; the row of the body, or the index
+   of the place, or -1. */
 uint32_t jox_who_agent(const JoxMachineRun *run, double who);
+int32_t jox_who_row(const JoxMachineRun *run, double who);
+int32_t jox_who_place(const JoxMachineRun *run, double who);
+/* Returns the body that the agent carries, else the agent that it holds on to. */
+double jox_who_is_held(const JoxMachineRun *run, uint32_t agent);
+/* Returns the agent that threw or kicked the body which struck this one in the last step, else that
+   body. */
+double jox_who_struck(const JoxMachineRun *run, uint32_t agent);
+/* Returns whether agent i has agent j, or body `row`, within perception and in sight. */
+bool jox_sees_agent(const JoxMachineRun *run, uint32_t i, uint32_t j);
+bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row);
 /* Appends whom it means: "agent 17", "body 'ball'", "place 'gate'", "nobody". */
 void jox_who_print(const JoxMachineRun *run, double who, JoxText *out);
 /* Returns the oldest message of a name, by number, that waits for the agent, or NULL. */
 const JoxMessage *jox_message_find(const JoxMachineRun *run, uint32_t agent, uint32_t name);
+/* Returns the same message and marks it as used. */
+const JoxMessage *jox_message_take(JoxMachineRun *run, uint32_t agent, uint32_t name);
 /* Sends a message of a function; false if there are too many. */
 bool jox_message_send(JoxMachineRun *run, const JoxMessage *message);
 /* Gives a signal (by number) that all agents hear in the next think, wherever they are. */

@@ -196,6 +196,11 @@ function Target:ahead(name) end
 ---@field goal string its goal; can be set
 ---@field neighbours jostle.Me[] views of the agents that it sees, nearest first: those within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. A view shows the agent as it was before the step; memory that is set in it changes after the step; memory that its machine lacks is nil
 ---@field signal fun(name: string) gives a signal: me.signal("alarm")
+---@field tell any tells somebody a message, as `tell` does: me.tell(me.prey, "shot", { damage = 2 })
+---@field told fun(name: string) the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up
+---@field holding any the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them
+---@field striker any who kicked or threw the body that hit it in the last step, else that body; nil: none
+---@field in_sight boolean of a view: the agent sees it now. Of one whom it remembers and does not see, only `id` is known
 ---@field [string] any a parameter, or what memory declares
 
 --- `inside(place) or inside(target, place)`: the agent, or the target, is in the place; at a point, line or queue no wall or closed gate may lie between, except a solid that contains the point

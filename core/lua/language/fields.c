@@ -25,6 +25,11 @@ static const char *const FIELD_NAMES[FIELD_COUNT] = {
     [FIELD_MACHINE] = "machine",
     [FIELD_NEIGHBOURS] = "neighbours",
     [FIELD_SIGNAL] = "signal",
+    [FIELD_TELL] = "tell",
+    [FIELD_TOLD] = "told",
+    [FIELD_HOLDING] = "holding",
+    [FIELD_STRIKER] = "striker",
+    [FIELD_IN_SIGHT] = "in_sight",
 };
 
 /* Longest text that Lua keeps once, and the number of fields from which on names of memory are

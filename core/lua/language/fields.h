@@ -25,6 +25,11 @@ typedef enum {
     FIELD_MACHINE,
     FIELD_NEIGHBOURS,
     FIELD_SIGNAL,
+    FIELD_TELL,
+    FIELD_TOLD,
+    FIELD_HOLDING,
+    FIELD_STRIKER,
+    FIELD_IN_SIGHT,
     FIELD_COUNT
 } JoxFieldKind;
 

@@ -1,6 +1,5 @@
-/* `me`, the agent that a function runs for, and views of its neighbours. `me` reads the agent and
-   writes its memory, own values and goal. A view shows a neighbour as it was before the step;
-   writes to its memory take effect after the step. Neither is valid once the call has ended. */
+/* `me`, the agent that a function runs for: reads the agent, writes its memory, own values and
+   goal, gives signals, tells messages. It is not valid once the call has ended. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,147 +7,16 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/fields.h"
+#include "lua/language/views.h"
 #include "lua/language/vocabulary.h"
 
-static const char ME[] = "jostle me", VIEW[] = "jostle view";
+static const char ME[] = "jostle me";
 
 /* `me`: the one object that is passed to functions. */
 typedef struct JoxMe {
     const char *type;
     uint32_t run;
 } JoxMe;
-
-typedef struct JoxView {
-    const char *type;
-    uint32_t run, index;
-} JoxView;
-
-/* Pushes a value of memory, as a boolean or a number. */
-static void push_memory(lua_State *L, const JoxMemorySlot *slot, double value) {
-    if (slot->kind == JOX_MEMORY_BOOLEAN)
-        lua_pushboolean(L, value != 0.0);
-    else
-        lua_pushnumber(L, value);
-}
-
-/* Returns the value at a stack index as memory of the slot's kind; raises an error if it has
-   another. */
-static double check_memory(lua_State *L, const JoxMemorySlot *slot, int index) {
-    if (slot->kind == JOX_MEMORY_BOOLEAN) {
-        if (lua_type(L, index) != LUA_TBOOLEAN)
-            luaL_error(L, "memory '%s' is true or false", slot->name);
-        return lua_toboolean(L, index);
-    }
-    if (lua_type(L, index) != LUA_TNUMBER || !isfinite(lua_tonumber(L, index)))
-        luaL_error(L, "memory '%s' is a finite number", slot->name);
-    return lua_tonumber(L, index);
-}
-
-/* ---- views of neighbours ---- */
-
-/* Returns the index of the agent that a view shows; raises an error if it was kept from an earlier
-   call. */
-static uint32_t check_view(lua_State *L, const JoxScript *script) {
-    const JoxView *view = lua_touserdata(L, 1);
-    if (!view || view->type != VIEW)
-        luaL_typeerror(L, 1, VIEW);
-    if (script->vm.loading || view->run != script->vm.run)
-        luaL_error(L, "a neighbour was kept from an earlier call; it is valid during its own only");
-    return view->index;
-}
-
-/* __index of a view. */
-static int view_index(lua_State *L) {
-    JoxScript *script = jox_script_of(L);
-    JoxLua *lua = script->owner;
-    const uint32_t i = check_view(L, script);
-    const JoxAgents *a = lua->machines->agents;
-    const uint16_t machine = lua->before_machine[i];
-    const JoxMachine *m = machine == JOX_NO_MACHINE ? NULL : lua->machines->set->items[machine];
-    const JoxField *field = jox_field_find(script, lua_topointer(L, 2));
-    const bool of_machine = field->kind == FIELD_STATE || field->kind == FIELD_MACHINE;
-    if (of_machine && m) {
-        uint16_t state = lua->before_state[i] < m->state_count ? lua->before_state[i] : m->start;
-        lua_pushstring(L, field->kind == FIELD_STATE ? m->states[state].name : m->name);
-        return 1;
-    }
-    const int32_t slot = jox_field_slot(L, script, m, field);
-    if (slot >= 0) {
-        const uint32_t most = sizeof script->read / sizeof *script->read;
-        script->read[script->read_count % most].agent = i;
-        script->read[script->read_count++ % most].slot = (uint32_t)slot;
-        push_memory(L, &m->memory[slot],
-                    lua->before_memory[(size_t)i * a->memory_stride + (uint32_t)slot]);
-        return 1;
-    }
-    if (jox_field_push(L, lua->machines, i, field))
-        return 1;
-    /* One without a machine, whom a program moves, or with another machine. */
-    const char *name = jox_field_key(L);
-    if (of_machine || jox_machine_memory(script->machine, name) >= 0)
-        return lua_pushnil(L), 1;
-    return luaL_error(L, "a neighbour has no '%s'", name);
-}
-
-/* Returns whether the present call has read this memory of a neighbour: its last 16 reads count. */
-static bool has_read(const JoxScript *script, uint32_t agent, uint32_t slot) {
-    const uint32_t most = sizeof script->read / sizeof *script->read;
-    const uint32_t count = script->read_count < most ? script->read_count : most;
-    for (uint32_t r = 0; r < count; r++)
-        if (script->read[r].agent == agent && script->read[r].slot == slot)
-            return true;
-    return false;
-}
-
-/* __newindex of a view: queues a write of a neighbour's memory. */
-static int view_newindex(lua_State *L) {
-    JoxScript *script = jox_script_of(L);
-    JoxLua *lua = script->owner;
-    uint32_t i = check_view(L, script);
-    const JoxAgents *a = lua->machines->agents;
-    const uint16_t machine = lua->before_machine[i];
-    const JoxMachine *m = machine == JOX_NO_MACHINE ? NULL : lua->machines->set->items[machine];
-    const int32_t slot = jox_field_slot(L, script, m, jox_field_find(script, lua_topointer(L, 2)));
-    if (slot < 0)
-        return luaL_error(L, "only the memory of a neighbour can be set, and '%s' is not in it",
-                          jox_field_key(L));
-    if (lua->write_count >= 100000)
-        return luaL_error(L, "too much is written to neighbours in one step");
-    double value = check_memory(L, &m->memory[slot], 3);
-    JOX_RESERVE(lua->writes, lua->write_capacity, lua->write_count + 1);
-    const JoxPosition at = jox_vm_place(L);
-    lua->writes[lua->write_count++] = (JoxWrite){.agent_id = a->id[i],
-                                                 .slot = (uint32_t)slot,
-                                                 .machine = machine,
-                                                 .depends = has_read(script, i, (uint32_t)slot),
-                                                 .file = at.file,
-                                                 .line = at.line,
-                                                 .value = value};
-    return 0;
-}
-
-/* Makes a view, which is not valid yet, and pushes it. */
-static JoxView *make_view(lua_State *L) {
-    JoxView *view = lua_newuserdatauv(L, sizeof *view, 0);
-    *view = (JoxView){.type = VIEW};
-    luaL_setmetatable(L, VIEW);
-    return view;
-}
-
-/* Pushes a view of an agent; the list of shared views is on top of the stack. Calls share their
-   first views: no view can be kept from one call to the next, as all that lasts is frozen. */
-static void push_view(lua_State *L, JoxScript *script, uint32_t i) {
-    const uint32_t n = script->view_count++;
-    JoxView *view;
-    if (n < JOX_VIEWS) {
-        lua_rawgeti(L, -1, n + 1);
-        view = script->view_objects[n];
-    } else {
-        view = make_view(L);
-    }
-    view->run = script->vm.run;
-    view->index = i;
-}
 
 /* Pushes the list of views of the agent's neighbours. */
 static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
@@ -161,14 +29,12 @@ static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
     lua_createtable(L, (int)count, 0);
     lua_rawgeti(L, LUA_REGISTRYINDEX, script->views);
     for (uint32_t k = 0; k < count; k++) {
-        push_view(L, script, seen[k]);
+        jox_view_push(L, script, seen[k]);
         lua_rawseti(L, -3, k + 1);
     }
     lua_pop(L, 1);
     return 1;
 }
-
-/* ---- me ---- */
 
 /* Returns the agent that `me` stands for; raises an error if it was kept from an earlier call. */
 static uint32_t check_me(lua_State *L, const JoxScript *script) {
@@ -225,8 +91,8 @@ static int me_index(lua_State *L) {
     const JoxField *field = jox_field_find(script, lua_topointer(L, 2));
     const int32_t slot = jox_field_slot(L, script, m, field);
     if (slot >= 0)
-        return push_memory(L, &m->memory[slot],
-                           a->memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
+        return jox_view_push_memory(L, script, &m->memory[slot],
+                                    a->memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
                1;
     switch (field->kind) {
     case FIELD_STATE:
@@ -237,6 +103,14 @@ static int me_index(lua_State *L) {
         return push_neighbours(L, script, i);
     case FIELD_SIGNAL:
         return lua_pushcfunction(L, me_signal), 1;
+    case FIELD_TELL:
+        return lua_pushcfunction(L, jox_me_tell), 1;
+    case FIELD_TOLD:
+        return lua_pushcfunction(L, jox_me_told), 1;
+    case FIELD_HOLDING:
+        return jox_view_push_somebody(L, script, jox_who_is_held(machines, i)), 1;
+    case FIELD_STRIKER:
+        return jox_view_push_somebody(L, script, jox_who_struck(machines, i)), 1;
     }
     if (jox_field_push(L, machines, i, field))
         return 1;
@@ -280,7 +154,7 @@ static int me_newindex(lua_State *L) {
     const int parameter = field->parameter;
     if (slot >= 0) {
         const JoxAgents *a = machines->agents;
-        double value = check_memory(L, &script->machine->memory[slot], 3);
+        double value = jox_view_check_memory(L, script, &script->machine->memory[slot], 3);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
         record_write(L, machines, i, true, slot);
     } else if (parameter >= 0) { /* an agent's own values begin with its parameters */
@@ -307,30 +181,13 @@ static int me_newindex(lua_State *L) {
     return 0;
 }
 
-static void add_type(lua_State *L, const char *type, lua_CFunction index, lua_CFunction newindex) {
-    luaL_newmetatable(L, type);
-    lua_pushcfunction(L, index);
-    lua_setfield(L, -2, "__index");
-    lua_pushcfunction(L, newindex);
-    lua_setfield(L, -2, "__newindex");
-    lua_pushboolean(L, 0);
-    lua_setfield(L, -2, "__metatable");
-    lua_pop(L, 1);
-}
-
 void jox_me_open(JoxScript *script) {
     lua_State *L = script->vm.L;
-    add_type(L, ME, me_index, me_newindex);
-    add_type(L, VIEW, view_index, view_newindex);
+    jox_view_add_type(L, ME, me_index, me_newindex);
+    jox_views_open(script);
     script->me_object = lua_newuserdatauv(L, sizeof *script->me_object, 0);
     *script->me_object = (JoxMe){.type = ME};
     luaL_setmetatable(L, ME);
     script->me = luaL_ref(L, LUA_REGISTRYINDEX);
-    lua_createtable(L, JOX_VIEWS, 0);
-    for (uint32_t n = 0; n < JOX_VIEWS; n++) {
-        script->view_objects[n] = make_view(L);
-        lua_rawseti(L, -2, n + 1);
-    }
-    script->views = luaL_ref(L, LUA_REGISTRYINDEX);
     jox_fields_open(script);
 }

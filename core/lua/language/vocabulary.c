@@ -362,6 +362,11 @@ const JoxMeKey jox_me_keys[] = {
     {"goal", "name of a place", "", "its goal; can be set"},
     {"neighbours", "list", "", "views of the agents that it sees, nearest first: those within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. A view shows the agent as it was before the step; memory that is set in it changes after the step; memory that its machine lacks is nil"},
     {"signal", "function(name)", "", "gives a signal: me.signal(\"alarm\")"},
+    {"tell", "function(whom, name, values)", "", "tells somebody a message, as `tell` does: me.tell(me.prey, \"shot\", { damage = 2 })"},
+    {"told", "function(name)", "", "the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up"},
+    {"holding", "view", "", "the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them"},
+    {"striker", "view", "", "who kicked or threw the body that hit it in the last step, else that body; nil: none"},
+    {"in_sight", "true or false", "", "of a view: the agent sees it now. Of one whom it remembers and does not see, only `id` is known"},
 };
 const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
 /* clang-format on */

@@ -1,0 +1,148 @@
+-- Functions see whom the words see: somebody in memory, who holds, who threw, messages; and what leaves or is hidden.
+local HUNTER = [[
+  local mine = memory { prey = nobody, spot = nobody, away = 0, gone = false, hidden = false, thing = nobody, heard = 0 }
+  return machine { name = "hunter", start = "Look", defaults = { perception = 20 }, states = {
+    Look = { steer = hold, { to = "Hold", when = sees(nearest "prey"), set = { prey = nearest "prey" } } },
+    Hold = { steer = hold,
+      on_enter = function(me)
+        me.away, me.spot, me.thing = me.prey.x - me.x, "post", me.prey
+        me.tell(me.prey, "look", { at = me.prey, number = 3, yes = true })
+      end,
+      { every = 0.1, on_take = function(me)
+          me.gone = me.prey == nil
+          me.hidden = me.prey ~= nil and not me.prey.in_sight
+          local answer = me.told "seen"
+          if answer then me.heard = me.heard + answer.number; me.thing = answer.sender end
+        end } } } }]]
+local PREY = [[
+  local mine = memory { told_by = nobody, number = 0, me_too = false }
+  return machine { name = "prey", start = "Wait", states = {
+    Wait = { steer = hold, { to = "Answer", when = after(0.3) } },
+    Answer = { steer = hold,
+      { when = function(me)
+          local look = me.told "look"
+          if look then
+            me.told_by, me.number = look.sender, look.number
+            me.me_too = look.at.id == me.id
+            me.tell(look.sender, "seen", { number = look.number + 1 })
+          end
+          return false
+        end, set = { number = 0 } },
+      { to = "Gone", when = after(1) } },
+    Gone = { removes = true } } }]]
+
+local function pair(walls)
+  return scene { places = { post = { point = { 5, 5 } } }, walls = walls, groups = {
+    hunter = { behaviour = HUNTER, at = { { 0, 0 } } },
+    prey = { behaviour = PREY, at = { { 6, 0 } }, tags = { "prey" } } } }
+end
+
+test("functions hold somebody, tell them and are told; who left is nil", function()
+  local s = pair()
+  s:run(0.8)
+  local hunter, prey = s:agents("hunter")[1], s:agents("prey")[1]
+  equal(hunter.away, 6)
+  equal(hunter.prey, prey.id)
+  equal(hunter.spot, "place 'post'")
+  equal(hunter.gone, false)
+  equal(hunter.heard, 4)
+  equal(prey.told_by, hunter.id)
+  equal(prey.number, 3)
+  truthy(prey.me_too)
+  s:run(2)
+  hunter = s:agents("hunter")[1]
+  equal(#s:agents("prey"), 0)
+  truthy(hunter.gone)
+  equal(hunter.prey, nil)
+end)
+
+test("whom a wall hides is held, and not seen", function()
+  local s = scene { walls = { { line = { { 3, -9 }, { 3, 9 } }, name = "gate", open = true } },
+    places = { post = { point = { 5, 5 } } }, events = { { at = 0.2, close = "gate" } }, groups = {
+    hunter = { behaviour = HUNTER, at = { { 0, 0 } } }, prey = { behaviour = PREY, at = { { 6, 0 } }, tags = { "prey" } } } }
+  s:run(1)
+  local hunter = s:agents("hunter")[1]
+  truthy(hunter.hidden)
+  equal(hunter.gone, false)
+end)
+
+-- What goes wrong in functions is said with the way out.
+local function fails_with(body, text)
+  local machine = [[local mine = memory { prey = nobody, n = 0 }
+    return machine { name = "m", start = "A", states = { A = { steer = hold, on_enter = function(me) ]] .. body ..
+    [[ end, { to = "B", when = after(0.2) } }, B = { steer = hold } } }]]
+  local s = scene { groups = { one = { behaviour = machine, at = { { 0, 0 } } } } }
+  fails(function() s:run(0.3) end, text)
+end
+
+test("mistakes in functions name the way out", function()
+  fails_with('me.prey = 3', "prey is somebody: a neighbour, the name of a place of the scene, or nil")
+  fails_with('me.tell(me.prey, 7)', "a message has a name")
+  fails_with('me.tell(me.prey, "a", 7)', "{ damage = 2 }")
+end)
+
+test("mistakes in the table name the place and the way out", function()
+  local function wrong(items, says)
+    refused({ places = { post = { point = { 5, 5 } } }, groups = { one = { at = { { 1, 1 } }, behaviour =
+      'local mine = memory { prey = nobody, n = 0 }\nreturn machine { name = "m", start = "A", states = { A = { ' ..
+      items .. ' } } }' } } }, says)
+  end
+  wrong('steer = seek(other)', "the candidate in the score of `best`")
+  wrong('steer = seek(best("anyone", distance(best("anyone", now.x))))', "cannot stand in the score of another one")
+  wrong('set = { prey = 3 }', "must be a target")
+  wrong('set = { prey = home }', "holds somebody, and a point is not")
+  wrong('steer = seek(last_seen(nearest "anyone"))', "takes memory that holds somebody")
+  wrong('set = { n = mine.prey.laps }', 'theirs(target, "laps")')
+  wrong('set = { n = mine.prey.sped }', "Did you mean 'speed'")
+  wrong('steer = seek(nearest("anyone"):within(0))', "from 0.01 to 1000 m")
+  wrong('steer = seek(nearest("anyone"):ahead(200))', "from 1 to 179")
+  wrong('steer = seek(home:within(3))', "nothing of a target")
+  wrong('tell = "shot"', "tell must be a table")
+  wrong('tell = { "post", "shot" }', "tell needs whom it tells")
+  wrong('tell = { nearest "anyone" }', "the name of the message as its second item")
+  wrong('tell = { mine.prey, "shot", a = 1, b = 2, c = 3, d = 4, e = 5 }', "at most 4 values")
+  wrong('tell = { mine.prey, "shot", a = now.speed:above(1) }', "must be a number")
+  wrong('{ when = after(1) }', "an item needs `to`")
+  wrong('{ every = 0, set = { n = 1 } }', "from 0.01 to 1e+06 s")
+  wrong('{ every = 1, when = function(me) return true end, set = { n = 1 } }', "not with a function")
+  wrong('{ when = same(mine.prey), set = { n = 1 } }', "argument 2 of same")
+end)
+
+test("best is the greatest score, of equal ones the lowest id, and bodies after agents", function()
+  local best = [[local mine = memory { far = nobody, equal = nobody, both = nobody, near = nobody, none = nobody }
+    return machine { name = "chooser", start = "A", defaults = { perception = 30 }, states = {
+      A = { steer = hold, { to = "B", when = after(0.1), set = {
+        far = best("things", distance(other)), equal = best("things", 0 * other.x), near = best("things", 0 - distance(other)),
+        both = best("things", other.y), none = best("things", 0 * (distance(nearest "nothing") - distance(nearest "nothing"))) } } },
+      B = { steer = hold, set = { none = mine.none, far = mine.far } } } }]]
+  local still = [[return machine { name = "still", start = "A", states = { A = { steer = hold } } }]]
+  local s = scene {
+    bodies = { { shape = { sphere = { radius = 0.2 } }, mass = 1, at = { 0, 9, 0.2 }, tags = { "things" }, name = "ball" } },
+    groups = { chooser = { behaviour = best, at = { { 0, 0 } } },
+      others = { behaviour = still, at = { { 3, 0 }, { -5, 0 }, { 4, 1 } }, tags = { "things" } },
+      last = { behaviour = still, at = { { 9, -9 } }, tags = { "nothing" } } } }
+  s:run(0.3)
+  local a, others = s:agents("chooser")[1], s:agents("others")
+  equal(a.far, "body 'ball'")
+  equal(a.equal, others[1].id)
+  equal(a.near, others[1].id)
+  equal(a.both, "body 'ball'")
+end)
+
+-- One who never listens while nine messages come.
+local DEAF = [[return machine { name = "deaf", start = "Wait", states = { Wait = { steer = hold, { to = "Hear", when = after(2) } },
+  Hear = { steer = hold, { when = told "call", set = { n = mine.n + 1, last = told("call").number } } } } }]]
+test("messages wait in order, and of more than 8 the oldest goes", function()
+  local s = scene { groups = {
+    deaf = { behaviour = "local mine = memory { n = 0, last = 0 }\n" .. DEAF, at = { { 0, 0 } }, tags = { "deaf" } },
+    caller = { at = { { 3, 0 } }, behaviour = [[local mine = memory { k = 0 }
+      return machine { name = "caller", start = "Call", defaults = { perception = 9 }, states = { Call = { steer = hold,
+        { every = 0.1, when = mine.k:below(10), set = { k = mine.k + 1 },
+          tell = { nearest "deaf", "call", number = mine.k } } } } }]] } } }
+  s:run(2.1)
+  equal(s:agents("deaf")[1].last, 3) -- 1 and 2 went
+  s:run(1)
+  local deaf = s:agents("deaf")[1]
+  equal(deaf.n, 8)
+  equal(deaf.last, 10)
+end)
