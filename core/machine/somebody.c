@@ -1,5 +1,5 @@
-/* Somebody as a number (JOX_WHO_BODY in target_kinds.h): which agent, body or place it means, whom an
-   agent holds, who struck it, and where somebody is. Targets are resolved in target.c. */
+/* Somebody as a number (JOX_WHO_BODY in target_kinds.h): which agent, body or place it means, whom
+   an agent holds, who struck it, and where somebody is. Targets are resolved in target.c. */
 #include "base/mem.h"
 #include "machine/machine_parts.h"
 

@@ -1,6 +1,7 @@
 -- Functions see whom the words see: somebody in memory, who holds, who threw, messages; and what leaves or is hidden.
 local HUNTER = [[
-  local mine = memory { prey = nobody, spot = nobody, away = 0, gone = false, hidden = false, thing = nobody, heard = 0 }
+  local mine = memory { prey = nobody, spot = nobody, away = 0, gone = false, hidden = false, thing = nobody,
+    heard = 0 }
   return machine { name = "hunter", start = "Look", defaults = { perception = 20 }, states = {
     Look = { steer = hold, { to = "Hold", when = sees(nearest "prey"), set = { prey = nearest "prey" } } },
     Hold = { steer = hold,
@@ -59,7 +60,8 @@ end)
 test("whom a wall hides is held, and not seen", function()
   local s = scene { walls = { { line = { { 3, -9 }, { 3, 9 } }, name = "gate", open = true } },
     places = { post = { point = { 5, 5 } } }, events = { { at = 0.2, close = "gate" } }, groups = {
-    hunter = { behaviour = HUNTER, at = { { 0, 0 } } }, prey = { behaviour = PREY, at = { { 6, 0 } }, tags = { "prey" } } } }
+    hunter = { behaviour = HUNTER, at = { { 0, 0 } } },
+    prey = { behaviour = PREY, at = { { 6, 0 } }, tags = { "prey" } } } }
   s:run(1)
   local hunter = s:agents("hunter")[1]
   truthy(hunter.hidden)
@@ -109,15 +111,16 @@ test("mistakes in the table name the place and the way out", function()
 end)
 
 test("best is the greatest score, of equal ones the lowest id, and bodies after agents", function()
-  local best = [[local mine = memory { far = nobody, equal = nobody, both = nobody, near = nobody, none = nobody }
+  local best = [[local mine = memory { far = nobody, equal = nobody, both = nobody, near = nobody }
     return machine { name = "chooser", start = "A", defaults = { perception = 30 }, states = {
       A = { steer = hold, { to = "B", when = after(0.1), set = {
-        far = best("things", distance(other)), equal = best("things", 0 * other.x), near = best("things", 0 - distance(other)),
-        both = best("things", other.y), none = best("things", 0 * (distance(nearest "nothing") - distance(nearest "nothing"))) } } },
-      B = { steer = hold, set = { none = mine.none, far = mine.far } } } }]]
+        far = best("things", distance(other)), equal = best("things", 0 * other.x),
+        near = best("things", 0 - distance(other)), both = best("things", other.y) } } },
+      B = { steer = hold, set = { far = mine.far } } } }]]
   local still = [[return machine { name = "still", start = "A", states = { A = { steer = hold } } }]]
   local s = scene {
-    bodies = { { shape = { sphere = { radius = 0.2 } }, mass = 1, at = { 0, 9, 0.2 }, tags = { "things" }, name = "ball" } },
+    bodies = { { shape = { sphere = { radius = 0.2 } }, mass = 1, at = { 0, 9, 0.2 }, tags = { "things" },
+      name = "ball" } },
     groups = { chooser = { behaviour = best, at = { { 0, 0 } } },
       others = { behaviour = still, at = { { 3, 0 }, { -5, 0 }, { 4, 1 } }, tags = { "things" } },
       last = { behaviour = still, at = { { 9, -9 } }, tags = { "nothing" } } } }
@@ -130,7 +133,8 @@ test("best is the greatest score, of equal ones the lowest id, and bodies after 
 end)
 
 -- One who never listens while nine messages come.
-local DEAF = [[return machine { name = "deaf", start = "Wait", states = { Wait = { steer = hold, { to = "Hear", when = after(2) } },
+local DEAF = [[return machine { name = "deaf", start = "Wait", states = {
+  Wait = { steer = hold, { to = "Hear", when = after(2) } },
   Hear = { steer = hold, { when = told "call", set = { n = mine.n + 1, last = told("call").number } } } } }]]
 test("messages wait in order, and of more than 8 the oldest goes", function()
   local s = scene { groups = {
