@@ -24,7 +24,8 @@ typedef struct Graph {
     const JoxMachine *machine;
     const JoxInk *inks; /* colours of its states */
     JoxText out;
-    JoxText seen; /* all that was written so far, to find which variables it names */
+    const char *margin; /* before each line of a text but that which begins with "if" */
+    JoxText seen;       /* all that was written so far, to find which variables it names */
 } Graph;
 
 /* ---- texts ---- */
@@ -54,6 +55,8 @@ static void add_lines(Graph *g, const char *text, size_t width) {
         text += *text == ' ';
         if (*text && n == MOST_LINES - 1)
             jox_text_add(&shown, " ...");
+        if (strncmp(shown.data, "if ", 3) != 0)
+            jox_text_add(&g->out, g->margin);
         jox_quote_xml(&g->out, shown.data);
         jox_text_add(&g->out, "<br align=\"left\"/>");
         jox_text_free(&shown);
@@ -88,18 +91,34 @@ static bool add_transition_key(Graph *g, const JoxState *from, const JoxTransiti
     char path[3 * LONGEST_NAME];
     snprintf(path, sizeof path, "states.%.*s.@%.*s.%s", LONGEST_NAME, from->name, LONGEST_NAME,
              t->id, key);
-    return add_written(g, prefix, path, ARROW_WIDTH);
+    return add_written(g, prefix, path, t->stays ? STATE_WIDTH : ARROW_WIDTH);
 }
 
-/* Adds condition, chance and actions of a transition; `number` counts those of its state. */
-static void add_transition_lines(Graph *g, const JoxState *from, uint32_t number) {
-    const JoxTransition *t = &from->transitions[number];
-    char prefix[16] = "", text[96];
-    if (from->transition_count > 1)
-        snprintf(prefix, sizeof prefix, "%u. ", number + 1);
-    if (!add_transition_key(g, from, t, prefix, "when")) {
+/* Adds condition, chance and actions of item `k` of a state: of a transition with its number among
+   several, of a reaction with "if". */
+static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
+    const JoxTransition *t = &from->transitions[k];
+    char prefix[16] = "if ", text[96];
+    uint32_t number = 0, count = 0;
+    for (uint32_t o = 0; o < from->transition_count; o++) {
+        number += o <= k && !from->transitions[o].stays;
+        count += !from->transitions[o].stays;
+    }
+    if (!t->stays)
+        snprintf(prefix, sizeof prefix, count > 1 ? "%u. " : "", number);
+    g->margin = t->stays ? "&#160;&#160;&#160;" : "";
+    const bool written = add_transition_key(g, from, t, prefix, "when");
+    const bool every = add_transition_key(g, from, t,
+                                          written    ? "every "
+                                          : t->stays ? "if every "
+                                                     : "every ",
+                                          "every");
+    if (!written && !every) {
         const bool always = t->when < 0 && t->when_hook < 0;
-        snprintf(text, sizeof text, "%s%s", prefix, always ? "at once" : "a condition built here");
+        snprintf(text, sizeof text, "%s%s", prefix,
+                 !always    ? "a condition built here"
+                 : t->stays ? "it is in this state"
+                            : "at once");
         if (!always)
             snprintf(text + strlen(text), sizeof text - strlen(text), ", line %d", t->line);
         add_lines(g, text, ARROW_WIDTH);
@@ -113,6 +132,7 @@ static void add_transition_lines(Graph *g, const JoxState *from, uint32_t number
         {"set: ", "set"}, {"signal: ", "signal"}, {"tell: ", "tell"}, {"on_take: ", "on_take"}};
     for (size_t a = 0; a < sizeof ACTIONS / sizeof *ACTIONS; a++)
         add_transition_key(g, from, t, ACTIONS[a][0], ACTIONS[a][1]);
+    g->margin = "";
 }
 
 /* ---- states ---- */
@@ -124,11 +144,6 @@ static void print_tint(JoxText *out, JoxInk ink, double white) {
     for (int c = 0; c < 3; c++)
         jox_text_printf(out, "%02x", (unsigned)(of[c] + white * (255.0 - of[c]) + 0.5));
     jox_text_add(out, "\"");
-}
-
-/* Returns whether a transition leads to a state, and is not a reaction within its own. */
-static bool leads_to_state(const JoxMachine *machine, const JoxTransition *t) {
-    return t->to < machine->state_count;
 }
 
 /* Adds what a state does. */
@@ -151,8 +166,8 @@ static void add_state_lines(Graph *g, const JoxState *state) {
     if (state->removes)
         add_lines(g, "leaves the world", STATE_WIDTH);
     for (uint32_t k = 0; k < state->transition_count; k++)
-        if (!leads_to_state(g->machine, &state->transitions[k]))
-            add_transition_lines(g, state, k);
+        if (state->transitions[k].stays)
+            add_item_lines(g, state, k);
 }
 
 /* Adds the box of a state, titled by its name from `title` on. */
@@ -210,12 +225,12 @@ static void add_transitions(Graph *g, uint32_t s) {
     const JoxState *from = &g->machine->states[s];
     for (uint32_t k = 0; k < from->transition_count; k++) {
         const JoxTransition *t = &from->transitions[k];
-        if (!leads_to_state(g->machine, t))
+        if (t->stays)
             continue;
         jox_text_printf(&g->out, "  s%u -> s%u [id=\"transition%u_%u\", color=", s, t->to, s, k);
         print_tint(&g->out, g->inks[s], 0.0);
         jox_text_add(&g->out, ", label=<");
-        add_transition_lines(g, from, k);
+        add_item_lines(g, from, k);
         jox_text_add(&g->out, ">];\n");
     }
 }
@@ -284,7 +299,7 @@ static void add_locals(Graph *g) {
 /* Writes the graph of a machine; `inks` has the colours of its states. Returns its text. */
 static char *write_graph(const JoxLua *lua, const JoxScope *scope, const JoxMachine *machine,
                          const JoxInk *inks) {
-    Graph g = {.lua = lua, .scope = scope, .machine = machine, .inks = inks};
+    Graph g = {.lua = lua, .scope = scope, .machine = machine, .inks = inks, .margin = ""};
     jox_text_add(&g.out, "// The graph of a behaviour, by `jostle graph`; dot -Tsvg draws it.\n"
                          "digraph behaviour {\n"
                          "  graph [rankdir=TB, nodesep=0.4, ranksep=0.45, fontname=\"Helvetica\", "

@@ -28,7 +28,7 @@ return machine { name = "odd", start = "Guard.Walk", states = {
     { to = "Guard.Walk", id = "again", when = far:above(1) & after(1) & after(2) & after(3) & after(4) & after(5) & after(6) & after(8)
       & after(9) & after(10) & after(11) & after(12) & after(13) & after(14) & after(15) & after(16) & after(17) & after(18) },
     { to = "Out" } },
-  ["Guard.Rest"] = { steer = hold, { to = "Late" } },
+  ["Guard.Rest"] = { steer = hold, { when = heard "call", every = 2, set = { tags = "a" } }, { to = "Late" } },
   Late = build(),
   ["Guard.Inner.Deep"] = { steer = hold, { to = "Out" } },
   ["Out"] = { become = "stander" } } }
@@ -37,6 +37,7 @@ expect "texts that are markup are quoted" 0 'far = distance &quot;&lt;post&gt; ]
 dot_has "a change to another behaviour is told" '<b>Out</b>' 'becomes stander'
 dot_has "states of a machine within a state stand in a frame" 'subgraph cluster_' 'label=<<b>Guard</b>>' '<b>Walk</b>' 'label=<<b>Inner</b>>' '<b>Deep</b>'
 dot_has "functions in conditions and steering are named" '>function, odd.lua:5' '1. function, odd.lua:6' 'chance 0.5' 'set: tags = &quot;a&quot;' 'on_take: function, odd.lua:6' '3. at once'
+dot_has "reactions stand in the box of their state, and count as no transition" '>if heard &quot;call&quot;<br align="left"/>&#160;&#160;&#160;every 2<br align="left"/>&#160;&#160;&#160;set: tags' 'label=<at once<'
 dot_has "a long condition is cut" ' ...<br'
 dot_has "conditions are found that a function builds" 'label=<after(kept)<'
 ! grep -q unused "$work/out"; verdict "variables that nothing names are left out" $?
