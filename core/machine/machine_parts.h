@@ -147,8 +147,6 @@ const JoxSpot *jox_target_considered(void);
    not there. */
 double jox_target_measure(const JoxMachineRun *run, uint32_t agent, int32_t index, JoxNow what);
 
-/* inbox.c: returns the messages that wait for an agent, the oldest first. */
-const JoxMessage *jox_messages_of(const JoxMachineRun *run, uint32_t agent, uint32_t *count);
 /* Returns the value of a message by the number of its name; 0 if it has none. */
 double jox_message_value(const JoxMessage *message, uint32_t name);
 /* tell.c: tells a message. */

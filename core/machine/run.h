@@ -375,6 +375,8 @@ bool jox_sees_agent(const JoxMachineRun *run, uint32_t i, uint32_t j);
 bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row);
 /* Appends whom it means: "agent 17", "body 'ball'", "place 'gate'", "nobody". */
 void jox_who_print(const JoxMachineRun *run, double who, JoxText *out);
+/* Returns the messages that wait for an agent, the oldest first; some may have been used. */
+const JoxMessage *jox_messages_of(const JoxMachineRun *run, uint32_t agent, uint32_t *count);
 /* Returns the oldest message of a name, by number, that waits for the agent, or NULL. */
 const JoxMessage *jox_message_find(const JoxMachineRun *run, uint32_t agent, uint32_t name);
 /* Returns the same message and marks it as used. */

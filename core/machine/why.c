@@ -235,12 +235,37 @@ void jox_why_free(JoxWhyTransition *transition) {
 
 /* ---- the look ---- */
 
+static JoxMessage *copy_messages(const JoxMessage *messages, uint32_t count) {
+    JoxMessage *copy = jox_alloc((size_t)count + 1, sizeof *copy);
+    if (count)
+        memcpy(copy, messages, count * sizeof *copy);
+    return copy;
+}
+
+/* Delivers messages in a copy of the state, which the look reads. */
+static void deliver_to_copy(JoxMachineRun *run, JoxMachineLook *look) {
+    JoxMachineState *copy = &look->delivered;
+    copy->waiting = copy_messages(copy->waiting, copy->waiting_count);
+    copy->sent = copy_messages(copy->sent, copy->sent_count);
+    copy->waiting_capacity = copy->waiting_count + 1;
+    copy->sent_capacity = copy->sent_count + 1;
+    run->state = copy;
+    jox_messages_deliver(run);
+}
+
 void jox_machines_look(JoxMachineRun *run, JoxPool *pool, const JoxNeighbours *neighbours,
                        uint32_t tick, JoxMachineLook *before) {
     JoxMachineScratch *s = jox_machines_scratch(run);
-    *before = (JoxMachineLook){run->neighbours, run->tick, s->heading};
+    *before = (JoxMachineLook){.neighbours = run->neighbours,
+                               .tick = run->tick,
+                               .heading = s->heading,
+                               .state = run->state,
+                               .delivered = *run->state,
+                               .lost_name_count = run->lost_name_count,
+                               .notes = run->notes.length};
     run->neighbours = neighbours;
     run->tick = tick;
+    deliver_to_copy(run, before);
     s->heading = NULL; /* the preferred velocities are those of the last step until the next */
     jox_signals_peek(run);
     jox_machines_group_again(run, pool);
@@ -248,8 +273,13 @@ void jox_machines_look(JoxMachineRun *run, JoxPool *pool, const JoxNeighbours *n
     jox_machines_count_places(run);
 }
 
-void jox_machines_end_look(JoxMachineRun *run, const JoxMachineLook *before) {
+void jox_machines_end_look(JoxMachineRun *run, JoxMachineLook *before) {
+    jox_free(before->delivered.waiting);
+    jox_free(before->delivered.sent);
+    run->state = before->state;
     run->neighbours = before->neighbours;
     run->tick = before->tick;
     run->scratch->heading = before->heading;
+    run->lost_name_count = before->lost_name_count;
+    run->notes.length = before->notes;
 }

@@ -68,6 +68,8 @@ typedef struct JoxWhyTransition {
 void jox_why_transition(const JoxMachineRun *run, uint32_t agent, uint32_t index,
                         JoxWhyTransition *out);
 void jox_why_free(JoxWhyTransition *transition);
+/* Appends a message in words: "'shot' of agent 3, told at 2.30 s, damage 2". */
+void jox_why_add_message(const JoxMachineRun *run, const JoxMessage *message, JoxText *out);
 /* Returns whether gap `a` is less than gap `b`. */
 static inline bool jox_why_is_nearer(JoxWhyGap a, JoxWhyGap b) {
     return a.misses != b.misses ? a.misses < b.misses : a.far < b.far;
@@ -78,11 +80,15 @@ typedef struct JoxMachineLook {
     const JoxNeighbours *neighbours;
     uint32_t tick;
     JoxV2 *heading;
+    JoxMachineState *state;
+    JoxMachineState delivered; /* the state, after messages that were sent have been delivered */
+    uint32_t lost_name_count;
+    size_t notes;
 } JoxMachineLook;
-/* Begins a look: makes signals, states, places and queues known as the think at `tick` will know
-   them; changes scratch alone. The world has set the inputs of the run before. */
+/* Begins a look: makes signals, messages, states, places and queues known as the think at `tick`
+   will know them; changes scratch alone. The world has set the inputs of the run before. */
 void jox_machines_look(JoxMachineRun *run, JoxPool *pool, const JoxNeighbours *neighbours,
                        uint32_t tick, JoxMachineLook *before);
-void jox_machines_end_look(JoxMachineRun *run, const JoxMachineLook *before);
+void jox_machines_end_look(JoxMachineRun *run, JoxMachineLook *before);
 
 #endif

@@ -292,6 +292,34 @@ static void say_last_call(const JoxMachineRun *run, uint32_t i, uint32_t name, d
         jox_text_add(out, "; a signal is heard in the next step alone");
 }
 
+void jox_why_add_message(const JoxMachineRun *run, const JoxMessage *message, JoxText *out) {
+    jox_text_printf(out, "'%s' of agent %u, told at %.2f s", run->set->names[message->name],
+                    message->from, message->sent * run->dt);
+    for (uint32_t v = 0; v < message->count; v++) {
+        jox_text_printf(out, ", %s ", run->set->names[message->names[v]]);
+        if (message->somebody >> v & 1)
+            jox_who_print(run, message->values[v], out);
+        else
+            jox_text_printf(out, "%.4g", message->values[v]);
+    }
+}
+
+/* Says which message of a name waits, or which others do. */
+static void say_message(const JoxMachineRun *run, uint32_t i, uint32_t name, JoxText *out) {
+    const JoxMessage *found = jox_message_find(run, i, name);
+    uint32_t count, others = 0;
+    const JoxMessage *first = jox_messages_of(run, i, &count);
+    if (found) {
+        jox_why_add_message(run, found, out);
+        return;
+    }
+    jox_text_add(out, "no such message waits");
+    for (uint32_t m = 0; m < count; m++)
+        if (!first[m].used)
+            jox_text_printf(out, "%s'%s'",
+                            others++ ? ", " : "; others do: ", run->set->names[first[m].name]);
+}
+
 static void say_queue(const JoxMachineRun *run, uint32_t i, JoxText *out) {
     const uint32_t rank = run->scratch->rank[i];
     if (rank == UINT32_MAX)
@@ -356,6 +384,15 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
         break;
     case JOX_OP_HEARD:
         say_last_call(run, i, machine->names[in->name].number, a, &term->note);
+        break;
+    case JOX_OP_TOLD:
+        say_message(run, i, machine->names[in->name].number, &term->note);
+        break;
+    case JOX_OP_EVERY:
+        if (a > 0.0)
+            jox_text_printf(&term->note, "%.4g s in the state, next at %.4g s",
+                            jox_time_in_state(run, i),
+                            (floor(jox_time_in_state(run, i) / a + 1e-9) + 1.0) * a);
         break;
     case JOX_OP_HAS:
         say_holding(run, i, &term->note);

@@ -168,6 +168,34 @@ static void crowds_are_counted_by_term(void **state) {
     jo_scene_free(scene);
 }
 
+/* Messages count as delivered, as they are in the next step; reactions do not lead out. */
+static void messages_and_reactions_are_explained(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(
+        SCHOOL,
+        "local mine = memory { friend = nobody }\nlocal note = told \"note\"\n" MACHINE_START
+        "\"Lesson\", defaults = { perception = 5, speed = 1 }, states = {\n"
+        "  Lesson = { steer = hold,\n"
+        "    { every = 0.5, set = { friend = nearest \"pupil\" },\n"
+        "      tell = { nearest \"pupil\", \"note\", pages = 2, about = nearest \"pupil\" } },\n"
+        "    { to = \"Hide\", when = note & note.pages:above(3) },\n"
+        "    { to = \"Break\", when = told \"bell\" },\n"
+        "    { to = \"Break\", when = exists(mine.friend) & mine.friend.x:above(90) } },\n"
+        "  Hide = { steer = hold, { every = 1, tell = { nearest \"pupil\", \"bell\" } } },\n"
+        "  Break = { steer = hold } } }\n");
+    step_scene(scene, 11);
+    char *text = ask_agent(scene, 0);
+    CHECK_ORDER(text, "memory: friend agent 1",
+                "message: 'note' of agent 1, told at 0.50 s, about agent 0, pages 2", "It stays",
+                "-> Hide", "one term is missing", "told(\"note\").pages > 3", "2, needs > 3",
+                "yes  told(\"note\")", "'note' of agent 1", "-> Break", "told(\"bell\")",
+                "no such message waits; others do: 'note'", "-> Break", "mine.friend.x > 90",
+                "yes  exists(mine.friend)", "mine.friend is agent 1", "reaction",
+                "0.55 s in the state, next at 1 s");
+    jo_free(text);
+    jo_scene_free(scene);
+}
+
 static void unknown_names_are_refused(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(SCHOOL, CLASS("{ to = \"Hide\", when = after(5) },\n"));
@@ -249,6 +277,7 @@ int main(void) {
         cmocka_unit_test(last_call_of_a_signal_is_told),
         cmocka_unit_test(chance_and_functions_are_explained),
         cmocka_unit_test(crowds_are_counted_by_term),
+        cmocka_unit_test(messages_and_reactions_are_explained),
         cmocka_unit_test(unknown_names_are_refused),
         cmocka_unit_test(asking_does_not_change_the_run),
         cmocka_unit_test(told_transitions_fire_in_the_next_step),

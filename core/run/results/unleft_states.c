@@ -29,10 +29,17 @@ static uint32_t state_number(const JoxMachine *machine, const JoxState *state) {
 static uint64_t count_departures(const JoxMachineCounts *counts, const JoxState *state) {
     uint64_t sum = 0;
     for (uint32_t k = 0; k < state->transition_count; k++)
-        sum += counts->taken[state->first_transition + k];
+        sum += state->transitions[k].stays ? 0 : counts->taken[state->first_transition + k];
     for (uint32_t b = 0; b < counts->before_count; b++)
         sum += strcmp(counts->before[b].from, state->name) == 0 ? counts->before[b].taken : 0;
     return sum;
+}
+
+static bool has_transitions(const JoxState *state) {
+    for (uint32_t k = 0; k < state->transition_count; k++)
+        if (!state->transitions[k].stays)
+            return true;
+    return false;
 }
 
 /* Returns how often agents went into a state by transitions of this version. */
@@ -41,7 +48,8 @@ static uint64_t count_arrivals(const JoxMachine *machine, const JoxMachineCounts
     uint64_t sum = 0;
     for (uint32_t s = 0; s < machine->state_count; s++)
         for (uint32_t k = 0; k < machine->states[s].transition_count; k++)
-            if (machine->states[s].transitions[k].to == state)
+            if (machine->states[s].transitions[k].to == state &&
+                !machine->states[s].transitions[k].stays)
                 sum += counts->taken[machine->states[s].first_transition + k];
     return sum;
 }
@@ -84,7 +92,7 @@ static Stay *list_unleft(const JoScene *scene, uint32_t *count) {
         const JoxMachineCounts *counts = &scene->world->machines.state->counts[m];
         for (uint32_t s = 0; s < set->items[m]->state_count; s++) {
             const JoxState *state = &set->items[m]->states[s];
-            if (state->transition_count == 0 || count_departures(counts, state) > 0)
+            if (!has_transitions(state) || count_departures(counts, state) > 0)
                 continue;
             const Stay stay = find_stay(scene, m, s);
             if (stay.people == 0 || now - stay.since < SHORTEST_STAY ||
@@ -140,8 +148,9 @@ static uint32_t visit_never_fired(const JoScene *scene, NeverVisit *visit, void 
 static void say_never_fired(void *context, const JoxMachine *machine, const JoxState *from,
                             const JoxTransition *t, uint32_t number) {
     if (number < MOST_TRANSITIONS)
-        jox_text_printf(context, "%s%.60s -> %.60s", number ? ", " : "", from->name,
-                        machine->states[t->to].name);
+        jox_text_printf(context, t->stays ? "%s%.60s, reaction %.60s" : "%s%.60s -> %.60s",
+                        number ? ", " : "", from->name,
+                        t->stays ? t->id : machine->states[t->to].name);
 }
 
 void jox_run_say_unleft(const JoScene *scene, JoxText *out) {
@@ -179,7 +188,7 @@ static void add_never_fired(void *context, const JoxMachine *machine, const JoxS
     jox_json_object(json, NULL);
     jox_json_string(json, "machine", machine->name);
     jox_json_string(json, "from", from->name);
-    jox_json_string(json, "to", machine->states[t->to].name);
+    jox_json_string(json, "to", t->stays ? NULL : machine->states[t->to].name);
     jox_json_string(json, "id", t->id);
     jox_json_end(json);
 }

@@ -96,7 +96,8 @@ static bool leads_to(const Asked *asked, uint32_t i, const char *to) {
     const JoxMachine *machine = asked->scene->world->machines.set->items[a->machine[i]];
     const JoxState *state = &machine->states[a->state[i]];
     for (uint32_t k = 0; k < state->transition_count; k++)
-        if (!strcmp(machine->states[state->transitions[k].to].name, to))
+        if (!state->transitions[k].stays &&
+            !strcmp(machine->states[state->transitions[k].to].name, to))
             return true;
     return false;
 }

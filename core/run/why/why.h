@@ -22,6 +22,8 @@ typedef struct JoxWhyAgent {
 /* Explains an agent with a machine, within a look. Free it by jox_why_agent_free. */
 void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWhyAgent *out);
 void jox_why_agent_free(JoxWhyAgent *why);
+/* Returns how many items of a state are transitions, and no reactions. */
+uint32_t jox_why_count_leading(const JoxState *state);
 
 /* The agents of a state, explained together. */
 typedef struct JoxWhyCrowd {

@@ -3,14 +3,31 @@
 #include "base/mem.h"
 #include "run/why/why.h"
 
-/* Sorts the transitions of a state: nearest to firing first, else in the order of the state. */
-static void sort_by_gap(uint32_t *order, uint32_t count, const JoxWhyGap *gaps) {
+/* Returns whether an item of a state comes before another: transitions before reactions, then the
+   nearer one. */
+static bool comes_before(const JoxTransition *a, const JoxTransition *b, JoxWhyGap of_a,
+                         JoxWhyGap of_b) {
+    return a->stays != b->stays ? b->stays : jox_why_is_nearer(of_a, of_b);
+}
+
+/* Sorts the items of a state: nearest to firing first, else in the order of the state. */
+static void sort_by_gap(const JoxState *state, uint32_t *order, const JoxWhyGap *gaps) {
+    const uint32_t count = state->transition_count;
     for (uint32_t k = 0; k < count; k++) {
         uint32_t at = k;
-        for (; at > 0 && jox_why_is_nearer(gaps[k], gaps[order[at - 1]]); at--)
+        for (; at > 0 && comes_before(&state->transitions[k], &state->transitions[order[at - 1]],
+                                      gaps[k], gaps[order[at - 1]]);
+             at--)
             order[at] = order[at - 1];
         order[at] = k;
     }
+}
+
+uint32_t jox_why_count_leading(const JoxState *state) {
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < state->transition_count; k++)
+        count += !state->transitions[k].stays;
+    return count;
 }
 
 void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWhyAgent *out) {
@@ -30,7 +47,7 @@ void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWh
         jox_why_transition(&world->machines, agent, k, &out->transitions[k]);
         gaps[k] = out->transitions[k].gap;
     }
-    sort_by_gap(out->order, out->state->transition_count, gaps);
+    sort_by_gap(out->state, out->order, gaps);
 }
 
 void jox_why_agent_free(JoxWhyAgent *why) {
@@ -89,7 +106,7 @@ void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agent
     JoxWhyGap gaps[JOX_MOST_TRANSITIONS];
     for (uint32_t k = 0; k < out->state->transition_count; k++)
         gaps[k] = out->transitions[k].shown.gap;
-    sort_by_gap(out->order, out->state->transition_count, gaps);
+    sort_by_gap(out->state, out->order, gaps);
 }
 
 void jox_why_crowd_free(JoxWhyCrowd *crowd) {

@@ -45,7 +45,7 @@ static void add_term_members(const JoxWhyTransition *t, uint32_t index, const ui
 static void add_transition_members(const JoxMachine *machine, const JoxTransition *written,
                                    const JoxWhyTransition *t, const uint32_t *holders,
                                    JoxJson *json) {
-    jox_json_string(json, "to", machine->states[written->to].name);
+    jox_json_string(json, "to", written->stays ? NULL : machine->states[written->to].name);
     jox_json_string(json, "id", written->id);
     jox_json_string(json, "file", jox_machine_file(machine, written->source));
     jox_json_integer(json, "line", written->line);
@@ -58,8 +58,26 @@ static void add_transition_members(const JoxMachine *machine, const JoxTransitio
     }
 }
 
+/* Adds "messages": in words, those that wait for the agent. */
+static void add_messages(const JoScene *scene, uint32_t agent, JoxJson *json) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    uint32_t count;
+    const JoxMessage *first = jox_messages_of(machines, agent, &count);
+    jox_json_array(json, "messages");
+    for (uint32_t m = 0; m < count; m++) {
+        JoxText text = {0};
+        if (first[m].used)
+            continue;
+        jox_why_add_message(machines, &first[m], &text);
+        jox_json_string(json, NULL, text.data);
+        jox_text_free(&text);
+    }
+    jox_json_end(json);
+}
+
 void jox_why_agent_json(const JoScene *scene, const JoxWhyAgent *why, JoxJson *json) {
     static const char *const CHANCES[] = {[JOX_WHY_TO_ROLL] = "to roll", [JOX_WHY_LOST] = "lost"};
+    add_messages(scene, why->agent, json);
     jox_json_array(json, "transitions");
     for (uint32_t k = 0; k < why->state->transition_count; k++) {
         const uint32_t index = why->order[k];

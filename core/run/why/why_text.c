@@ -105,7 +105,10 @@ static void print_condition(const Printing *p) {
 }
 
 static void print_transition_head(const JoxMachine *machine, const JoxTransition *t, JoxText *out) {
-    jox_text_printf(out, "  -> %s  (", machine->states[t->to].name);
+    if (t->stays)
+        jox_text_printf(out, "  reaction %s  (", t->id);
+    else
+        jox_text_printf(out, "  -> %s  (", machine->states[t->to].name);
     jox_why_add_place(machine, t, out);
     jox_text_add(out, ")");
 }
@@ -117,7 +120,9 @@ static void print_transition(const JoScene *scene, const JoxWhyAgent *why, uint3
     const JoxWhyTransition *t = &why->transitions[index];
     const JoxTransition *written = &why->state->transitions[index];
     print_transition_head(why->machine, written, out);
-    if (t->fires)
+    if (t->fires && written->stays)
+        jox_text_add(out, ": holds, and is done in the next step");
+    else if (t->fires)
         jox_text_add(out, fires_first ? ": holds, and is taken in the next step"
                                       : ": holds, but one before it is taken");
     else if (t->root != JOX_WHY_NONE && !t->holds)
@@ -161,6 +166,29 @@ static void print_values(const JoScene *scene, const JoxWhyAgent *why, bool memo
         jox_text_add(out, "\n");
 }
 
+/* Appends a line for each message that waits for the agent. */
+static void print_messages(const JoScene *scene, const JoxWhyAgent *why, JoxText *out) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    uint32_t count;
+    const JoxMessage *first = jox_messages_of(machines, why->agent, &count);
+    for (uint32_t m = 0; m < count; m++) {
+        if (first[m].used)
+            continue;
+        jox_text_add(out, "  message: ");
+        jox_why_add_message(machines, &first[m], out);
+        jox_text_add(out, "\n");
+    }
+}
+
+/* Returns the transition that an agent takes next, or the number of transitions. */
+static uint32_t find_next_transition(const JoxWhyAgent *why) {
+    uint32_t first = 0;
+    while (first < why->state->transition_count &&
+           (!why->transitions[first].fires || why->state->transitions[first].stays))
+        first++;
+    return first;
+}
+
 static void print_agent_head(const JoScene *scene, const JoxWhyAgent *why, JoxText *out) {
     const JoxAgents *a = &scene->world->state.agents;
     const uint32_t i = why->agent;
@@ -178,21 +206,19 @@ void jox_why_agent_text(const JoScene *scene, const JoxWhyAgent *why, JoxText *o
     print_agent_head(scene, why, out);
     print_values(scene, why, false, out);
     print_values(scene, why, true, out);
-    if (count == 0) {
+    print_messages(scene, why, out);
+    const uint32_t leading = jox_why_count_leading(why->state);
+    const uint32_t first = find_next_transition(why);
+    if (leading == 0)
         jox_text_printf(out, "State %s has no transitions: nothing leads out of it.\n",
                         why->state->name);
-        return;
-    }
-    uint32_t first = 0;
-    while (first < count && !why->transitions[first].fires)
-        first++;
-    if (first < count)
+    else if (first < count)
         jox_text_printf(out, "It goes to %s in the next step:\n",
                         why->machine->states[why->state->transitions[first].to].name);
     else
-        jox_text_add(out, count == 1 ? "It stays, as its transition does not fire:\n"
-                                     : "It stays, as no transition fires; the nearest to firing "
-                                       "comes first:\n");
+        jox_text_add(out, leading == 1 ? "It stays, as its transition does not fire:\n"
+                                       : "It stays, as no transition fires; the nearest to firing "
+                                         "comes first:\n");
     for (uint32_t k = 0; k < count; k++)
         print_transition(scene, why, why->order[k], why->order[k] == first, out);
 }
@@ -207,8 +233,7 @@ static void print_crowd_transition(const JoScene *scene, const JoxWhyCrowd *crow
     char people[JOX_NOUN];
     print_transition_head(crowd->machine, written, out);
     if (t->fires)
-        jox_text_printf(out, ": %s in the next step",
-                        jox_noun(people, t->fires, "agent takes it|agents take it"));
+        jox_text_printf(out, ": holds for %s", jox_noun(people, t->fires, "agent"));
     else
         jox_text_printf(out, ": fires for nobody; the nearest is agent %u, with these values",
                         a->id[t->nearest]);
@@ -245,12 +270,13 @@ void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const Jo
     else
         jox_text_printf(out, ", since %.2f s (agent %u) to %.2f s\n", crowd->earliest,
                         a->id[crowd->longest], crowd->latest);
-    if (crowd->state->transition_count == 0)
+    if (jox_why_count_leading(crowd->state) == 0)
         jox_text_printf(out, "  State %s has no transitions: nothing leads out of it.\n",
                         crowd->state->name);
     for (uint32_t k = 0; k < crowd->state->transition_count; k++) {
         const uint32_t index = crowd->order[k];
-        if (!only_to || &crowd->machine->states[crowd->state->transitions[index].to] == only_to)
+        const JoxTransition *t = &crowd->state->transitions[index];
+        if (!only_to || (!t->stays && &crowd->machine->states[t->to] == only_to))
             print_crowd_transition(scene, crowd, index, out);
     }
 }

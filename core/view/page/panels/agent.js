@@ -44,7 +44,7 @@ function transitionRow(t) {
     const missing = t.fires ? "fires next" : t.misses === 0 ? "" : t.misses === 1 ? "one term is missing" : `${t.misses} terms are missing`;
     const terms = !t.when ? [] : t.when.kind === "all" ? sortedTerms(t.when.terms) : [t.when];
     return el("div", { className: "transition" },
-        el("p", {}, el("strong", {}, `→ ${t.to}`), el("span", { className: "faint" }, ` ${file}:${t.line} ${missing}`)),
+        el("p", {}, el("strong", {}, t.to ? `→ ${t.to}` : `reaction ${t.id}`), el("span", { className: "faint" }, ` ${file}:${t.line} ${missing}`)),
         el("ul", { className: "terms" }, terms.map(termRow),
             t.function ? el("li", {}, "a function: ", el("span", { className: "faint" }, t.function)) : null,
             t.chance_note ? el("li", {}, el("span", { className: "faint" }, t.chance_note)) : null));
@@ -53,8 +53,9 @@ function transitionRow(t) {
 /** What the person waits for: every transition out of its state, the nearest to firing first. */
 function whyRows(why) {
     if (!why) return [el("p", { className: "faint" }, "It has no behaviour.")];
-    if (!why.transitions.length) return [el("p", { className: "faint" }, "Nothing leads out of this state.")];
-    return why.transitions.map(transitionRow);
+    const messages = why.messages.map((text) => el("p", { className: "faint" }, `message ${text}`));
+    const last = why.transitions.some((t) => t.to) ? null : el("p", { className: "faint" }, "Nothing leads out of this state.");
+    return [messages, why.transitions.map(transitionRow), last];
 }
 
 /** Shows named values in `list`, or hides `part`, which has the list, if there are none. */
