@@ -106,10 +106,10 @@ static void rows_are_complete(void **state) {
         const JoxKey *key = &jox_scene_format.keys[k];
         bool holds = key->type == JOX_TYPE_TABLE || key->type == JOX_TYPE_LIST ||
                      key->type == JOX_TYPE_VALUES || key->type == JOX_TYPE_POINTS;
-        const bool drawn =
-            key->content && !strcmp(key->content, "draw"); /* a single value may be drawn, too */
+        const bool single = key->content && (!strcmp(key->content, "draw") ||
+                                             !strcmp(key->content, "plain")); /* of any kind */
         if (!is_owner(key->owner, strlen(key->owner)) || (holds && !key->content) ||
-            (!holds && key->content && !drawn) || !key->meaning || !*key->meaning ||
+            (!holds && key->content && !single) || !key->meaning || !*key->meaning ||
             !key->default_text || !key->unit)
             fail_msg("the row %s.%s", key->owner, key->name);
         for (size_t other = 0; other < k; other++)
