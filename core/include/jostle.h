@@ -1,6 +1,6 @@
 /* Public C interface of Jostle, an engine for dense crowds that push, with rigid bodies and
  * behaviours in Lua. A program that embeds the engine includes this header, which brings
- * jostle_act.h, jostle_read.h, jostle_tell.h and jostle_host.h with it.
+ * jostle_act.h, jostle_read.h, jostle_tell.h, jostle_host.h and jostle_words.h with it.
  *
  * Order of calls. A world made by hand: jo_default_world_def, jo_world_create, jo_world_add_solid
  * and jo_world_add_agent, then jo_world_step in a loop, jo_world_free. A scene from a file:
@@ -311,6 +311,9 @@ typedef struct JoSceneDef {
     size_t file_count;
     bool files_only;           /* read nothing else from the disk */
     const struct JoJobs *jobs; /* as JoWorldDef.jobs */
+    /* words of the program that behaviours may use (jostle_words.h); they are copied */
+    const struct JoWord *words;
+    size_t word_count;
     uint32_t cookie;
 } JoSceneDef;
 JO_API JoSceneDef jo_default_scene_def(void);
@@ -410,5 +413,6 @@ JO_API const char *jo_stage_name(int stage);
 #include "jostle_host.h"
 #include "jostle_read.h"
 #include "jostle_tell.h"
+#include "jostle_words.h"
 
 #endif

@@ -262,6 +262,8 @@ static void emit_expression(Code *code, const JoxNode *node, uint32_t to, uint32
         in.arg = jox_build_own_at(code->build, node);
     else if (node->op == JOX_OP_MEMORY)
         in.arg = jox_build_memory(code->build, node->name);
+    else if (node->op == JOX_OP_PROGRAM_NUMBER || node->op == JOX_OP_PROGRAM_CONDITION)
+        in.name = jox_build_name(code->build, node->name, 0);
     else if (node->op == JOX_OP_THEIRS)
         in.name = add_name_at(code->build, node->name, JOX_NAME_MEMORY, &node->written);
     else if (node->op == JOX_OP_TOLD || node->op == JOX_OP_MESSAGE)

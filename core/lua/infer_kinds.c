@@ -197,7 +197,7 @@ static JoxKind infer_index(JoxKinds *k, uint32_t source, const JoxTree *t) {
     return found;
 }
 
-static JoxKind infer_global(const JoxToken *t) {
+static JoxKind infer_global(const JoxKinds *k, const JoxToken *t) {
     static const char *const PLAIN_ONES[] = {"type", "tostring", "tonumber", "math", "string"};
     for (size_t w = 0; w < jox_word_count; w++) {
         const JoxWord *word = &jox_words[w];
@@ -214,6 +214,11 @@ static JoxKind infer_global(const JoxToken *t) {
     for (size_t i = 0; i < sizeof PLAIN_ONES / sizeof *PLAIN_ONES; i++)
         if (jox_token_is(t, PLAIN_ONES[i]))
             return PLAIN_ONE;
+    const JoWord *word = jox_program_word_find(k->script->owner, t);
+    if (word)
+        return word->kind == JO_WORD_NUMBER      ? VALUE
+               : word->kind == JO_WORD_CONDITION ? CONDITION
+                                                 : (JoxKind){.bits = JOX_KIND_FUNCTION};
     return UNKNOWN;
 }
 
@@ -264,7 +269,7 @@ static JoxKind infer_tree(JoxKinds *k, uint32_t source, int32_t tree) {
     case JOX_TREE_REST:
         return UNKNOWN;
     case JOX_TREE_NAME:
-        return t->variable == JOX_NO_TREE ? infer_global(jox_syntax_token(s, tree))
+        return t->variable == JOX_NO_TREE ? infer_global(k, jox_syntax_token(s, tree))
                                           : k->variables[source][t->variable];
     case JOX_TREE_INDEX:
         return infer_index(k, source, t);

@@ -81,7 +81,10 @@ int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key)
     int32_t extends = -1, hook = -1;
     jox_read_join(full, path, key);
     int type = jox_read_field(L, index, key);
-    if (jox_read_is_function(L, -1)) {
+    if (lua_iscfunction(L, -1) && !jox_program_word_is_action(L, -1)) {
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Write: function(me) ... end",
+                        "'%s' must be a function of an agent, not a word", key);
+    } else if (jox_read_is_function(L, -1)) {
         hook = jox_read_function(b, full, &extends);
         if (extends < 0)
             return hook;
@@ -152,6 +155,14 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     JoxNode *node = jox_node_get(L, -1);
     int type = lua_type(L, -1);
     int32_t expression = -1, extends = -1;
+    if (hook && lua_iscfunction(L, -1)) {
+        jox_build_error(b, jox_read_at(b, path), "bad-condition", "Example: when = after(5)",
+                        jox_program_word_is_action(L, -1)
+                            ? "an action of the program is no condition"
+                            : "a word that takes arguments is called, with parentheses");
+        lua_pop(L, 1);
+        return -1;
+    }
     if (hook && jox_read_is_function(L, -1)) {
         *hook = jox_read_function(b, path, &extends);
         if (extends < 0)

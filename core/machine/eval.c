@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/number/pi.h"
 #include "machine/kernels.h"
 
@@ -213,11 +214,29 @@ static bool are_gates_open(const JoxMachineRun *run, const char *gate) {
     return any;
 }
 
+/* Evaluates a word of the program. */
+static void eval_program_word(JoxProgramWord *word, bool condition, const uint32_t *agents,
+                              uint32_t count, double *to) {
+    uint32_t invalid = 0;
+    const JoxOutside outside = jox_guard_leave();
+    word->values(word->context, word->world, agents, count, to);
+    jox_guard_return(outside);
+    for (uint32_t n = 0; n < count; n++) {
+        invalid += !isfinite(to[n]);
+        to[n] = !isfinite(to[n]) ? 0.0 : condition ? to[n] != 0.0 : to[n];
+    }
+    if (invalid)
+        atomic_fetch_add(&word->invalid, invalid);
+}
+
 /* Evaluates a word about the surroundings for `count` agents; `a` is its first input for each. */
 static void eval_word(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
                       const uint32_t *agents, uint32_t count, const double *a, double *to) {
     if (in->op == JOX_OP_INSIDE) {
         eval_inside(run, machine, in, agents, count, to);
+    } else if (in->op == JOX_OP_PROGRAM_NUMBER || in->op == JOX_OP_PROGRAM_CONDITION) {
+        eval_program_word(&run->program_words[in->arg], in->op == JOX_OP_PROGRAM_CONDITION, agents,
+                          count, to);
     } else if (in->op == JOX_OP_CROSSES) {
         eval_crosses(run, machine, in, agents, count, to);
     } else if (in->op == JOX_OP_OPEN) {

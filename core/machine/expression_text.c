@@ -156,7 +156,8 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
 
 bool jox_op_is_condition(JoxOp op) {
     return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS &&
-           op != JOX_OP_OF && op != JOX_OP_MESSAGE && op != JOX_OP_QUEUED;
+           op != JOX_OP_OF && op != JOX_OP_MESSAGE && op != JOX_OP_QUEUED &&
+           op != JOX_OP_PROGRAM_NUMBER;
 }
 
 /* Prints one of the two texts of an instruction. */
@@ -183,6 +184,8 @@ static void print_instruction(const JoxMachine *machine, const JoxInstruction *i
         jox_text_printf(out, "own.%s", machine->own[in->arg].name);
     else if (op == JOX_OP_MEMORY)
         jox_text_printf(out, "mine.%s", machine->memory[in->arg].name);
+    else if (op == JOX_OP_PROGRAM_NUMBER || op == JOX_OP_PROGRAM_CONDITION)
+        jox_text_add(out, machine->names[in->name].text);
     else
         print_word(machine, in, registers, valued, out);
     if (valued && jox_op_is_condition(op))

@@ -98,6 +98,7 @@ typedef enum JoxNow {
     X(INCOMING) X(SEES)                                                         \
     X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(OF) X(EXISTS) X(SAME) X(TOLD)     \
     X(MESSAGE) X(EVERY) X(SHUT)                                                 \
+    X(PROGRAM_NUMBER) X(PROGRAM_CONDITION)                                      \
     X(QUEUED) X(OPEN)
 /* clang-format on */
 

@@ -33,7 +33,8 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT((op != JOX_OP_TOLD && op != JOX_OP_MESSAGE) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));
     JOX_ASSERT(op != JOX_OP_MESSAGE || (uint32_t)in->arg < m->name_count);
-    JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_THEIRS && op != JOX_OP_OPEN) ||
+    JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_THEIRS && op != JOX_OP_OPEN &&
+                op != JOX_OP_PROGRAM_NUMBER && op != JOX_OP_PROGRAM_CONDITION) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));
     JOX_ASSERT((op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS && op != JOX_OP_OF) ||
                in->target >= 0);

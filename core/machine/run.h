@@ -5,6 +5,8 @@
 #ifndef JOX_MACHINE_RUN_H
 #define JOX_MACHINE_RUN_H
 
+#include <stdatomic.h>
+
 #include "agents/agents.h"
 #include "agents/neighbours.h"
 #include "base/text.h"
@@ -214,6 +216,15 @@ typedef struct JoxMachineState {
                                replaced */
 } JoxMachineState;
 
+/* A number or condition that the program computes. */
+typedef struct JoxProgramWord {
+    const char *name;
+    JoWordValues *values; /* NULL: an action */
+    void *context;
+    const JoWorld *world;
+    atomic_uint invalid; /* values that were not finite, since run/ last looked */
+} JoxProgramWord;
+
 /* The machines of a world with their inputs, and the results of a step. */
 typedef struct JoxMachineRun {
     JoxMachineSet *set;
@@ -235,6 +246,7 @@ typedef struct JoxMachineRun {
     JoxHookBracket *bracket;
     JoxHookSections *hook_sections;
     void *call_context;
+    JoxProgramWord *program_words; /* by the argument of PROGRAM_NUMBER, PROGRAM_CONDITION */
     /* Velocities, m/s, that the player or the input log gives agents; the others get (0, 0). */
     const struct JoxPlayerInput {
         uint32_t agent_id;

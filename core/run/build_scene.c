@@ -1,6 +1,7 @@
 /* Builds a scene from its files: specification, world, bodies, places, machines, people, and the
    listeners that each run has. load_scene.c calls it, once for each set of mods that it tries. */
 #include "run/build_scene.h"
+#include "run/program_words.h"
 
 #include <errno.h>
 #include <string.h>
@@ -144,6 +145,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     const JoxLuaLimits limits = get_script_limits(spec);
     scene->lua = jox_lua_create(&limits);
     jox_lua_attach(scene->lua, &scene->world->machines, forward_message, scene);
+    jox_run_set_words(scene, def, diagnostics);
     jox_run_restore_tags_and_teams(scene);
     add_bodies(scene, diagnostics);
     add_places(scene);

@@ -51,6 +51,8 @@ static bool perform_verb(JoScene *scene, const JoxInputEntry *entry, JoError *er
 
 void jox_run_log_act(void *context, JoxInputEntry *entry) {
     JoScene *scene = context;
+    if (scene->acting) /* a replay in the same program acts again */
+        return;
     scene->acted_on = true;
     jox_run_log_entry(scene, entry);
 }
@@ -58,6 +60,8 @@ void jox_run_log_act(void *context, JoxInputEntry *entry) {
 static bool perform_and_log(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     if (!perform_verb(scene, entry, error))
         return false;
+    if (scene->acting)
+        return true;
     scene->acted_on |= entry->line == 0;
     if (jox_input_verbs[entry->verb].tool) /* a reload is logged when it goes live */
         jox_run_log_entry(scene, entry);

@@ -12,6 +12,7 @@
 #include "run/load_scene.h"
 #include "run/machine_names.h"
 #include "run/present_frame.h"
+#include "run/program_words.h"
 #include "run/read_scene.h"
 #include "run/reload.h"
 #include "run/run.h"
@@ -30,6 +31,7 @@ static void copy_def(JoScene *scene, const JoSceneDef *def) {
     *own = *def;
     own->path = jox_strdup(def->path);
     own->input_log = jox_strdup(def->input_log);
+    own->words = scene->words;
     const char **overrides = jox_alloc(def->override_count + 1, sizeof *overrides);
     for (size_t i = 0; i < def->override_count; i++)
         overrides[i] = jox_strdup(def->overrides[i]);
@@ -298,6 +300,7 @@ static void free_scene(JoScene *scene) {
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
     jox_lua_free(scene->lua);
+    jox_run_free_words(scene);
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);

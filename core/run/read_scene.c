@@ -18,6 +18,8 @@ bool jox_run_is_def_whole(const JoSceneDef *def) {
     for (size_t f = 0; f < def->file_count; f++)
         if (!def->files || !def->files[f].path || (!def->files[f].text && def->files[f].length))
             return false;
+    if (def->word_count && !def->words)
+        return false;
     return (!def->jobs || def->jobs->run) && has_all_texts(def->overrides, def->override_count) &&
            has_all_texts(def->mods, def->mod_count);
 }

@@ -34,7 +34,12 @@ struct JoScene {
     void *diagnosed_context;
     double swap_seconds; /* the longest that the swap of a machine has delayed a step */
     JoSceneDef def;      /* as given to the load, with copies of its texts */
-    char **spec_files;   /* paths of the scene's file and of the files that it includes */
+    const JoWord *words; /* of the program: copies */
+    uint32_t word_count;
+    JoxProgramWord *program_words; /* by number of the word */
+    double words_told_until;       /* s: until then values that are not finite are only counted */
+    bool acting;                   /* actions of the program are done: they are not logged */
+    char **spec_files;             /* paths of the scene's file and of the files that it includes */
     uint32_t spec_file_count;
     JoxListeners listeners;
     struct JoxRunFrame *frame; /* frame of the present step (present_frame.c); NULL before its

@@ -3,6 +3,7 @@
 #include "base/guard.h"
 #include "run/input_actions.h"
 #include "run/input_log.h"
+#include "run/program_words.h"
 #include "run/reload.h"
 #include "run/run.h"
 
@@ -18,6 +19,7 @@ static bool perform_step(JoScene *scene, JoError *error) {
         jox_error(error, JO_FAILED, "%s", scene->world->failure);
         return false;
     }
+    jox_run_do_program_acts(scene);
     const char *stalled = jox_lua_stalled(scene->lua);
     if (stalled) {
         jox_error(error, JO_FAILED,
@@ -30,7 +32,9 @@ static bool perform_step(JoScene *scene, JoError *error) {
 }
 
 bool jo_scene_step(JoScene *scene, JoError *error) {
-    JOX_REQUIRE(scene && !scene->finished && !scene->def.dry && !scene->world->busy, false);
+    JOX_REQUIRE(scene && !scene->finished && !scene->def.dry && !scene->world->busy &&
+                    !scene->acting,
+                false);
     JOX_GUARD (scene->heap, error) {
         scene->world->busy = false;
         return false;

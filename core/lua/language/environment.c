@@ -61,10 +61,16 @@ static int env_index(lua_State *L) {
             jox_word_position(L, name); /* marks this occurrence as used */
         return 1;
     }
+    if (jox_program_word_push(L, name)) {
+        if (script->vm.loading)
+            jox_word_position(L, name);
+        return 1;
+    }
     if (!script->vm.loading)
         return luaL_error(L, "unknown name '%s'", name);
-    const char *names[128];
-    size_t count = jox_word_names(names, 128);
+    const char *names[512];
+    size_t count = jox_word_names(names, 256);
+    count += jox_program_word_names(script->owner, names + count, 256);
     char hint[JOX_HINT];
     const char *near = jox_did_you_mean(name, names, count, hint);
     if (jox_parameter_find(name) >= 0)
@@ -80,8 +86,8 @@ static int env_index(lua_State *L) {
     else if (!near)
         snprintf(
             hint, sizeof hint,
-            "Words and locals are all that a behaviour can use; names of places and tags stand "
-            "in quotes");
+            "Words, locals and names in quotes are all that a behaviour can use. A program that has "
+            "more words must register them");
     return jox_word_error(L, name, "unknown-word", hint, "unknown word '%s'", name);
 }
 

@@ -70,6 +70,7 @@ void jox_lua_free(JoxLua *lua) {
     jox_free(lua->before_machine);
     jox_free(lua->before_memory);
     jox_free(lua->writes);
+    jox_free(lua->acts);
     jox_free(lua);
 }
 

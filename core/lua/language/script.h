@@ -277,6 +277,11 @@ struct JoxLua {
     JoxWrite *writes;
     uint32_t write_count;
     size_t write_capacity;
+    const JoWord *words; /* of the program; not owned */
+    uint32_t word_count;
+    JoxAct *acts; /* actions of the program in this step */
+    uint32_t act_count;
+    size_t act_capacity;
     uint64_t lost_writes; /* lost writes since the last report */
     uint32_t lost_second;
 };
@@ -357,6 +362,16 @@ size_t jox_word_names(const char **names, size_t capacity);
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
 /* Pushes the value of a word; false with nothing pushed if there is none of that name. */
 bool jox_word_lookup(lua_State *L, const char *name);
+
+/* Words of the program (program_words.c). Pushes the value of one; false with nothing pushed if
+   there is none of that name. */
+bool jox_program_word_push(lua_State *L, const char *name);
+/* Returns the word that a token names, or NULL. */
+const JoWord *jox_program_word_find(const JoxLua *lua, const JoxToken *name);
+/* Writes their names to `names`, up to `capacity`; returns how many. */
+size_t jox_program_word_names(const JoxLua *lua, const char **names, size_t capacity);
+/* Returns whether a value is an action of the program. */
+bool jox_program_word_is_action(lua_State *L, int index);
 
 /* Registers `me` and the views of neighbours. */
 void jox_me_open(JoxScript *script);
