@@ -84,10 +84,10 @@ static int env_index(lua_State *L) {
         snprintf(hint, sizeof hint, "Names of places, tags and gates stand in quotes: \"%.60s\"",
                  name);
     else if (!near)
-        snprintf(
-            hint, sizeof hint,
-            "Words, locals and names in quotes are all that a behaviour can use. A program that has "
-            "more words must register them");
+        snprintf(hint, sizeof hint,
+                 "Words, locals and names in quotes are all that a behaviour can use. A program "
+                 "that has "
+                 "more words must register them");
     return jox_word_error(L, name, "unknown-word", hint, "unknown word '%s'", name);
 }
 

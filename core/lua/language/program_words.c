@@ -7,7 +7,6 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
-#include "lua/loader.h"
 
 enum { MOST_NAME = 40, MOST_ACTS = 1000000 };
 
