@@ -107,4 +107,4 @@ std = {
   },
 }
 max_line_length = 120
-files["**/*_test.lua"] = { read_globals = { "test", "scene", "equal", "near", "truthy", "fails", "refused" } }
+files["**/*_test.lua"] = { read_globals = { "test", "scene", "refused", "equal", "near", "truthy", "fails" } }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lua/language/vocabulary.h"
+#include "lua/test_words.h"
 
 static const struct Section {
     const char *title, *intro;
@@ -89,6 +90,32 @@ static double get_sample_value(const JoxParameterInfo *p) {
     return value > p->greatest ? p->greatest : value;
 }
 
+/* Prints the functions of tests and the methods of their scenes. */
+static void print_tests(JoxText *out) {
+    jox_text_add(out,
+                 "\n## Tests\n\nA file NAME_test.lua has tests, which `jostle test` runs. `s` is a "
+                 "scene. Options are tables, as\n`s:reaches(\"Exit\", { within = 20, agents "
+                 "= \"visitors\" })`.\n\n| function | meaning |\n|---|---|\n");
+    for (size_t w = 0; w < jox_test_word_count; w++)
+        jox_text_printf(out, "| `%s` | %s |\n", jox_test_words[w].signature,
+                        jox_test_words[w].meaning);
+    jox_text_add(out, "\n| options of | option | meaning |\n|---|---|---|\n");
+    for (size_t o = 0; o < jox_test_option_count; o++) {
+        const JoxTestOption *option = &jox_test_options[o];
+        const char *separator = "";
+        jox_text_add(out, "| ");
+        char class[48];
+        snprintf(class, sizeof class, "jostle.%.30s", option->owner);
+        for (size_t w = 0; w < jox_test_word_count; w++)
+            if (strstr(jox_test_words[w].types, class)) {
+                jox_text_printf(out, "%s`%s`", separator,
+                                jox_test_words[w].name + (*jox_test_words[w].name == ':'));
+                separator = ", ";
+            }
+        jox_text_printf(out, " | `%s` | %s |\n", option->name, option->meaning);
+    }
+}
+
 void jox_lua_reference(JoxText *out) {
     jox_text_add(
         out,
@@ -128,196 +155,10 @@ void jox_lua_reference(JoxText *out) {
     for (size_t k = 0; k < jox_me_key_count; k++)
         jox_text_printf(out, "| `%s` | %s | %s | %s |\n", jox_me_keys[k].name, jox_me_keys[k].type,
                         jox_me_keys[k].unit, jox_me_keys[k].meaning);
+    print_tests(out);
 }
 
-/* ---- editors ---- */
-
-/* Returns the class of what a word makes, for lua-language-server. */
-static const char *get_word_class(const JoxWord *word) {
-    switch (word->makes) {
-    case JOX_NODE_CONDITION:
-        return "jostle.Condition";
-    case JOX_NODE_NUMBER:
-        return "jostle.Number";
-    case JOX_NODE_TARGET:
-        return "jostle.Target";
-    case JOX_NODE_STEER:
-        return "jostle.Steering";
-    case JOX_NODE_DIST:
-        return "jostle.Drawn";
-    default:
-        return "any";
-    }
-}
-
-/* Returns the type of an argument by its letter, for lua-language-server. */
-static const char *get_argument_type(char letter) {
-    return letter == 'p'   ? "string|jostle.Target|jostle.Number"
-           : letter == 't' ? "string|jostle.Target|jostle.Number"
-           : letter == 'm' ? "jostle.Target"
-           : letter == 'n' ? "number|jostle.Number"
-           : letter == 'd' ? "number"
-                           : "string";
-}
-
-static void print_word_definition(JoxText *out, const JoxWord *word) {
-    if (*word->name == ':') /* a method, which jox_lua_definitions prints */
-        return;
-    static const char *const KEYWORDLESS[] = {"require", "print", "machine"};
-    for (size_t k = 0; k < 2; k++)
-        if (!strcmp(word->name, KEYWORDLESS[k]))
-            return; /* Lua's own */
-    jox_text_printf(out, "\n--- `%s`%s%s: %s\n", word->signature, *word->unit ? " in " : "",
-                    word->unit, word->meaning);
-    if (word->takes && *word->takes != '*') {
-        char list[64] = "";
-        int n = 0;
-        for (const char *t = word->takes; *t; t++) {
-            bool optional = *t == '?';
-            t += optional;
-            n++;
-            jox_text_printf(out, "---@param a%d%s %s\n", n, optional ? "?" : "",
-                            get_argument_type(*t));
-            snprintf(list + strlen(list), sizeof list - strlen(list), "%sa%d", n > 1 ? ", " : "",
-                     n);
-        }
-        jox_text_printf(out, "---@return %s\nfunction %s(%s) end\n", get_word_class(word),
-                        word->name, list);
-    } else if (!strcmp(word->name, "machine")) {
-        jox_text_add(
-            out, "---@param sheet jostle.Machine\n---@return any\nfunction machine(sheet) end\n");
-    } else if (!strcmp(word->name, "patch") || !strcmp(word->name, "replace")) {
-        jox_text_printf(out,
-                        "---@param behaviour string\n---@return fun(sheet: table): any\nfunction "
-                        "%s(behaviour) end\n",
-                        word->name);
-    } else if (!strcmp(word->name, "before") || !strcmp(word->name, "afterwards") ||
-               !strcmp(word->name, "around")) {
-        jox_text_printf(
-            out, "---@param f fun(me: jostle.Me%s)%s\n---@return any\nfunction %s(f) end\n",
-            !strcmp(word->name, "around") ? ", previous: fun(me: jostle.Me): any, any" : "",
-            !strcmp(word->name, "around") ? ": any, any" : "", word->name);
-    } else if (word->takes) {
-        jox_text_printf(out, "---@return %s\nfunction %s(...) end\n", get_word_class(word),
-                        word->name);
-    } else if (!strcmp(word->name, "now") || !strcmp(word->name, "own") ||
-               !strcmp(word->name, "settings")) {
-        jox_text_printf(out, "---@type table<string, jostle.Number>\n%s = {}\n", word->name);
-    } else {
-        jox_text_printf(out, "---@type %s\n%s = nil\n", get_word_class(word), word->name);
-    }
-}
-
-/* Returns a key's type in the notation of lua-language-server. */
-static const char *editor_type(const char *type) {
-    static const char *const TYPES[][2] = {
-        {"text", "string"},
-        {"number", "number"},
-        {"plain number", "number"},
-        {"true or false", "boolean"},
-        {"name", "string"},
-        {"name of a state", "string"},
-        {"name of a behaviour", "string"},
-        {"name of a place", "string"},
-        {"name, or table", "string|table"},
-        {"table", "table"},
-        {"table of parameters", "jostle.State"},
-        {"table of names", "table<string, string>"},
-        {"table of states", "table<string, jostle.State>"},
-        {"steering or function", "jostle.Steering|fun(me: jostle.Me): number, number"},
-        {"number, distribution", "number|jostle.Number|jostle.Drawn"},
-        {"condition", "jostle.Condition"},
-        {"condition or function(me)", "jostle.Condition|fun(me: jostle.Me): boolean"},
-        {"target", "string|jostle.Target|jostle.Number"},
-        {"\"equal\" or \"nearest\"", "\"equal\"|\"nearest\""},
-        {"tag or list of tags", "string|string[]"},
-        {"name or list of names", "string|string[]"},
-        {"function(me)", "fun(me: jostle.Me)"},
-        {"function(name)", "fun(name: string)"},
-        {"list", "jostle.Me[]"}};
-    for (size_t t = 0; t < sizeof TYPES / sizeof *TYPES; t++)
-        if (!strcmp(TYPES[t][0], type))
-            return TYPES[t][1];
-    return "any";
-}
-
-static void print_table_definition(JoxText *out, const char *class, const char *owner,
-                                   bool parameters) {
-    jox_text_printf(out, "\n---@class %s\n", class);
-    for (size_t k = 0; k < jox_table_key_count; k++)
-        if (!strcmp(jox_table_keys[k].owner, owner))
-            jox_text_printf(out, "---@field %s? %s %s%s%s\n", jox_table_keys[k].name,
-                            editor_type(jox_table_keys[k].type), jox_table_keys[k].meaning,
-                            *jox_table_keys[k].unit ? ", " : "", jox_table_keys[k].unit);
-    for (int p = 0; parameters && p < JOX_PARAM_COUNT; p++) {
-        const JoxParameterInfo *info = &jox_parameters[p];
-        jox_text_printf(
-            out, "---@field %s? number|jostle.Number|jostle.Drawn %s%s%s; %g to %g, default %g\n",
-            info->name, info->meaning, *info->unit ? ", " : "", info->unit, info->least,
-            info->greatest, info->value);
-    }
-}
-
-/* Prints a method of `nearest` and `neighbours`. */
-static void print_filter_definition(JoxText *out, const JoxWord *word) {
-    static const char *const CLASSES[] = {"Number", "Target"};
-    const bool flying = !strcmp(word->name, ":flying");
-    const bool plain = flying || !strcmp(word->name, ":fallen");
-    const bool metres = !strcmp(word->name, ":incoming");
-    for (size_t c = flying; c < 2; c++) { /* `neighbours` are people, who do not fly */
-        jox_text_printf(out, "--- %s\n", word->meaning);
-        if (!plain)
-            jox_text_printf(out, "---@param %s\n", metres ? "metres number" : "name string");
-        jox_text_printf(out, "---@return jostle.%s\nfunction %s%s(%s%s) end\n", CLASSES[c],
-                        CLASSES[c], word->name,
-                        plain    ? ""
-                        : metres ? "metres"
-                                 : "name",
-                        !strcmp(word->name, ":where") ? ", ..." : "");
-    }
-}
-
-void jox_lua_definitions(JoxText *out) {
-    jox_text_add(
-        out,
-        "---@meta\n"
-        "-- Definitions of the words of behaviours for lua-language-server.\n"
-        "-- Made by `jostle reference lua-ls`. In .luarc.json: \"workspace.library\": "
-        "[\"scripts/editor\"]\n"
-        "\n---@class jostle.Condition\n---@operator band(jostle.Condition): jostle.Condition\n"
-        "---@operator bor(jostle.Condition): jostle.Condition\n---@operator bnot: "
-        "jostle.Condition\n"
-        "\n---@class jostle.Number\n---@operator add(number|jostle.Number): jostle.Number\n"
-        "---@operator sub(number|jostle.Number): jostle.Number\n"
-        "---@operator mul(number|jostle.Number): jostle.Number\n"
-        "---@operator div(number|jostle.Number): jostle.Number\n---@operator unm: jostle.Number\n"
-        "local Number = {}\n");
-    static const char *const METHODS[] = {"above", "below", "at_least", "at_most", "is"};
-    for (size_t m = 0; m < 5; m++)
-        jox_text_printf(out,
-                        "---@param n number|jostle.Number\n---@return jostle.Condition\nfunction "
-                        "Number:%s(n) end\n",
-                        METHODS[m]);
-    jox_text_add(out, "\n---@class jostle.Target\nlocal Target = {}\n");
-    for (size_t w = 0; w < jox_word_count; w++)
-        if (*jox_words[w].name == ':')
-            print_filter_definition(out, &jox_words[w]);
-    jox_text_add(out,
-                 "\n---@class jostle.Drawn\n"
-                 "\n---@class jostle.Steering\n---@operator add(jostle.Steering): jostle.Steering\n"
-                 "---@operator mul(number|jostle.Number): jostle.Steering\n");
-    print_table_definition(out, "jostle.Machine", "machine", false);
-    print_table_definition(out, "jostle.State", "state", true);
-    print_table_definition(out, "jostle.Transition", "transition", false);
-    jox_text_add(out, "\n---@class jostle.Me\n");
-    for (size_t k = 0; k < jox_me_key_count; k++)
-        jox_text_printf(out, "---@field %s %s %s%s%s\n", jox_me_keys[k].name,
-                        editor_type(jox_me_keys[k].type), jox_me_keys[k].meaning,
-                        *jox_me_keys[k].unit ? ", " : "", jox_me_keys[k].unit);
-    jox_text_add(out, "---@field [string] any a parameter, or what memory declares\n");
-    for (size_t w = 0; w < jox_word_count; w++)
-        print_word_definition(out, &jox_words[w]);
-}
+/* ---- luacheck ---- */
 
 void jox_lua_luacheck(JoxText *out) {
     static const char *const PLAIN[] = {"pairs",    "ipairs", "next",   "type",   "tostring",
@@ -331,11 +172,15 @@ void jox_lua_luacheck(JoxText *out) {
             jox_text_printf(out, "    \"%s\",\n", jox_words[w].name);
     for (size_t p = 0; p < sizeof PLAIN / sizeof *PLAIN; p++)
         jox_text_printf(out, "    \"%s\",\n", PLAIN[p]);
-    jox_text_add(
-        out,
-        "  },\n}\nmax_line_length = 120\n"
-        "files[\"**/*_test.lua\"] = { read_globals = { \"test\", \"scene\", \"equal\", \"near\", "
-        "\"truthy\", \"fails\", \"refused\" } }\n");
+    jox_text_add(out, "  },\n}\nmax_line_length = 120\n"
+                      "files[\"**/*_test.lua\"] = { read_globals = {");
+    const char *comma = " ";
+    for (size_t w = 0; w < jox_test_word_count; w++)
+        if (*jox_test_words[w].name != ':') {
+            jox_text_printf(out, "%s\"%s\"", comma, jox_test_words[w].name);
+            comma = ", ";
+        }
+    jox_text_add(out, " } }\n");
 }
 
 /* ---- examples ---- */

@@ -6,7 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/clock.h"
+#include "lua/test_words.h"
 #include "luatest/history.h"
 
 static const char SCENE[] = "jostle scene";
@@ -451,6 +453,15 @@ static int word_refused(lua_State *L) {
     return found ? 0 : luaL_error(L, "%s", lua_tostring(L, -1));
 }
 
+/* Asserts that functions are described for the reference page and for editors. */
+static void check_described(const char *prefix, const luaL_Reg *functions) {
+    char name[64];
+    for (; functions->name; functions++) {
+        snprintf(name, sizeof name, "%s%s", prefix, functions->name);
+        JOX_ASSERT(jox_test_word_is_known(name));
+    }
+}
+
 void jox_test_scene_words(lua_State *L) {
     static const luaL_Reg WORDS[] = {
         {"scene", word_scene}, {"refused", word_refused}, {NULL, NULL}};
@@ -460,6 +471,9 @@ void jox_test_scene_words(lua_State *L) {
         {"reaches", scene_reaches}, {"never", scene_never},     {"slower_than", scene_slower_than},
         {"agents", scene_agents},   {"agent", scene_agent},     {"faster_than", scene_faster_than},
         {"body", scene_body},       {"why", scene_why},         {NULL, NULL}};
+    check_described("", WORDS);
+    check_described("", jox_test_assertions);
+    check_described(":", METHODS);
     luaL_setfuncs(L, WORDS, 0);
     luaL_setfuncs(L, jox_test_assertions, 0);
     luaL_newmetatable(L, SCENE);
