@@ -187,6 +187,9 @@ void jox_lua_luacheck(JoxText *out) {
 
 static const char MEMORY[] = "local mine = memory { laps = 0, touched = false, prey = nobody }\n";
 
+static const char RUNS[] =
+    "runs = machine { start = \"Wait\", states = { Wait = { ends = true, steer = hold } } },";
+
 /* Prints a behaviour with an example in its machine, in a state, or in a transition. */
 static void print_example(JoxText *out, const char *top, const char *state,
                           const char *transition) {
@@ -212,7 +215,7 @@ static void print_word_example(const JoxWord *word, JoxText *out, bool *of_mod) 
     switch (word->makes) {
     case JOX_NODE_CONDITION:
         snprintf(part, sizeof part, ", when = %s | after(1)", e);
-        print_example(out, "", "", part);
+        print_example(out, "", word->op == JOX_OP_DONE ? RUNS : "", part);
         return;
     case JOX_NODE_NUMBER:
         snprintf(part, sizeof part, "speed = clamp(%s, 0, 2), steer = drift(1, 0),", e);
@@ -240,6 +243,8 @@ static void print_word_example(const JoxWord *word, JoxText *out, bool *of_mod) 
     if (strstr(e, "patch") || strstr(e, "replace")) {
         jox_text_printf(out, "return %s\n", e);
         *of_mod = true;
+    } else if (!strcmp(e, "back")) {
+        print_example(out, "", "{ to = back, when = after(0.5) },", ", when = after(1)");
     } else if (!strncmp(e, "machine", 7)) {
         jox_text_printf(out, "return %s\n", e);
     } else if (!strncmp(e, "memory", 6)) {

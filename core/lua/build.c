@@ -1,6 +1,7 @@
 /* Builds a JoxMachine from the table that a behaviour returns. Every error is reported, not only
    the first. The loader calls jox_build once the file has run and mods have changed the table. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -10,106 +11,12 @@
 #include "lua/language/vocabulary.h"
 #include "lua/read_table.h"
 
-/* Reads `defaults`. Every parameter gets an own value of its name, so that a group of the scene can
-   set it. */
-static void read_defaults(JoxBuild *b, int index) {
-    lua_State *L = b->script->vm.L;
-    JOX_ASSERT(lua_istable(L, index) && b->machine->own_count == 0);
-    const char *known[JOX_PARAM_COUNT];
-    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
-        const JoxParameterInfo *info = &jox_parameters[p];
-        known[p] = info->name;
-        int32_t slot = jox_build_own(b, info->name);
-        b->machine->own[slot].dist = jox_dist_constant(info->value);
-        b->machine->defaults[p] = (JoxValue){JOX_VALUE_OWN, 0.0, slot, 0, 0};
-    }
-    if (jox_read_field(L, index, "defaults") == LUA_TTABLE) {
-        int table = lua_gettop(L);
-        jox_read_check(b, table, "defaults", known, JOX_PARAM_COUNT, false);
-        for (int p = 0; p < JOX_PARAM_COUNT; p++) {
-            char path[256];
-            bool is_dist;
-            JoxDist dist;
-            jox_read_join(path, "defaults", known[p]);
-            if (jox_read_field(L, table, known[p]) == LUA_TNIL) {
-                lua_pop(L, 1);
-                continue;
-            }
-            JoxValue value = jox_read_value(b, path, &jox_parameters[p], &is_dist, &dist);
-            b->machine->defaults[p].line = value.line;
-            b->machine->defaults[p].source = value.source;
-            if (is_dist)
-                b->machine->own[p].dist = dist;
-            else if (value.kind == JOX_VALUE_CONST)
-                b->machine->own[p].dist = jox_dist_constant(value.number);
-            else if (value.kind != JOX_VALUE_UNSET)
-                b->machine->defaults[p] = value;
-        }
-    } else if (!lua_isnil(L, -1)) {
-        jox_build_error(b, jox_read_at(b, "defaults"), "bad-value", NULL,
-                        "defaults must be a table");
-    }
-    lua_pop(L, 1);
-}
-
 /* Returns whether the value at a stack index can name a state or machine. */
 static bool is_valid_name_at(lua_State *L, int index) {
     if (lua_type(L, index) != LUA_TSTRING)
         return false;
     const char *text = lua_tostring(L, index);
     return strlen(text) == lua_rawlen(L, index) && jox_name_is_plain(text);
-}
-
-/* Adds a blank state for each name in the table, in ascending order, as tables have no order. */
-static void add_blank_states(JoxBuild *b, int table) {
-    lua_State *L = b->script->vm.L;
-    JOX_ASSERT(lua_istable(L, table) && b->machine->state_count == 0);
-    JoxMachine *m = b->machine;
-    lua_pushnil(L);
-    while (lua_next(L, table)) {
-        bool good = is_valid_name_at(L, -2) && lua_type(L, -1) == LUA_TTABLE;
-        const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
-        char path[256];
-        jox_read_join(path, "states", name);
-        if (lua_type(L, -2) == LUA_TSTRING && !is_valid_name_at(L, -2))
-            jox_build_error(b, jox_read_at(b, path), "bad-name", JOX_NAME_RULE,
-                            "'%.60s' is no name for a state", name);
-        else if (!good || m->state_count >= 1000)
-            jox_build_error(b, jox_read_at(b, path), "bad-value",
-                            "Example: Walk = { steer = seek(goal) }",
-                            "states must be tables with names");
-        lua_pop(L, 1);
-        if (!good || m->state_count >= 1000)
-            continue;
-        JOX_RESERVE(m->states, b->state_capacity, m->state_count + 1);
-        uint32_t place = m->state_count++;
-        for (; place > 0 && strcmp(m->states[place - 1].name, name) > 0; place--)
-            m->states[place] = m->states[place - 1];
-        m->states[place] = jox_state_blank(jox_strdup(name));
-    }
-}
-
-/* Reads `states` in ascending order of names. */
-static void read_states(JoxBuild *b, int index) {
-    lua_State *L = b->script->vm.L;
-    JoxMachine *m = b->machine;
-    if (jox_read_field(L, index, "states") != LUA_TTABLE) {
-        jox_build_error(b, jox_read_at(b, "states"), "missing-key", "states = { Walk = { ... } }",
-                        "a machine needs `states`, a table");
-        lua_pop(L, 1);
-        return;
-    }
-    int table = lua_gettop(L);
-    add_blank_states(b, table);
-    for (uint32_t s = 0; s < m->state_count; s++) {
-        jox_read_field(L, table, m->states[s].name);
-        jox_read_state(b, lua_gettop(L), &m->states[s], (int32_t)s);
-        lua_settop(L, table);
-    }
-    if (m->state_count == 0)
-        jox_build_error(b, jox_read_at(b, "states"), "no-states", NULL,
-                        "a machine needs at least one state");
-    lua_pop(L, 1);
 }
 
 /* Reads `version`, the author's number of the file, which messages show. */
@@ -125,33 +32,15 @@ static void read_version(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* Reads `start`, the state that agents begin in. */
-static void read_start_state(JoxBuild *b, int index) {
-    lua_State *L = b->script->vm.L;
-    JOX_ASSERT(b->machine->start == 0);
-    JoxMachine *m = b->machine;
-    const char *start =
-        jox_read_field(L, index, "start") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-    int state = start ? jox_machine_state(m, start) : -1;
-    if (state < 0 && m->state_count > 0)
-        jox_build_error(b, jox_read_at(b, "start"), start ? "unknown-state" : "missing-key", NULL,
-                        start ? "there is no state '%s' to start in"
-                              : "a machine needs `start`, the name of a state%s",
-                        start ? start : "");
-    m->start = state < 0 ? 0 : (uint16_t)state;
-    lua_pop(L, 1);
-}
-
 /* Reads `renamed`: old names of states, own values and memory. */
 static void read_renamed(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
     JoxMachine *m = b->machine;
-    size_t capacity = 0;
     if (jox_read_field(L, index, "renamed") == LUA_TTABLE) {
         lua_pushnil(L);
         while (lua_next(L, -2)) {
             if (lua_type(L, -1) == LUA_TSTRING && lua_type(L, -2) == LUA_TSTRING) {
-                JOX_RESERVE(m->renamed, capacity, m->renamed_count + 1);
+                JOX_RESERVE(m->renamed, b->renamed_capacity, m->renamed_count + 1);
                 m->renamed[m->renamed_count++] = (struct JoxRenamed){
                     jox_strdup(lua_tostring(L, -2)), jox_strdup(lua_tostring(L, -1))};
             } else {
@@ -255,12 +144,9 @@ static void build_machine(JoxBuild *build) {
                         "a machine needs a name");
     lua_pop(L, 1);
     read_version(build, table);
-    read_defaults(build, table);
-    jox_read_own(build, table);
-    read_states(build, table);
-    read_start_state(build, table);
-    jox_read_counts(build, table, "", -1);
-    jox_read_public(build, table);
+    jox_read_parameter_values(build);
+    jox_nest_collect(build, node->hook);
+    jox_nest_read(build);
     check_renamed_names(build);
     m->belongings = script->belongings;
     m->belonging_count = script->belonging_count;
@@ -274,4 +160,5 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     JoxBuild build = {.script = script, .source = source};
     build_machine(&build);
     jox_kinds_free(build.kinds);
+    jox_nest_free(&build);
 }

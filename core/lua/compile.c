@@ -31,7 +31,8 @@ int32_t jox_build_own(JoxBuild *build, const char *name) {
 }
 
 int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node) {
-    int32_t slot = jox_build_own(build, node->name);
+    int32_t slot = jox_nest_own(build, node->name);
+    slot = slot < 0 ? jox_build_own(build, node->name) : slot;
     JoxOwnSlot *own = &build->machine->own[slot];
     if (own->line == 0) { /* keeps the first place that uses it */
         own->line = node->written.at.line;
@@ -229,10 +230,31 @@ typedef struct Code {
     JoxBuild *build;
     JoxInstruction *items;
     size_t count, capacity;
-    bool too_deep;
+    bool too_deep, without_machine;
 } Code;
 
 enum { LONGEST = 1000, DEEPEST = 200 };
+
+/* Makes an instruction on the clock of a state read the outer state's that is being built. */
+static void use_outer_clock(Code *code, JoxInstruction *in) {
+    const int32_t level = code->build->level;
+    const JoxMachine *m = code->build->machine;
+    code->without_machine |= in->op == JOX_OP_DONE && level < 0;
+    if (in->op == JOX_OP_DONE)
+        in->arg = level < 0 ? 0 : level;
+    if (level < 0)
+        return;
+    const bool time = in->op == JOX_OP_NOW && in->arg == JOX_NOW_time_in_state;
+    if (in->op != JOX_OP_AFTER && in->op != JOX_OP_LASTED && in->op != JOX_OP_EVERY && !time)
+        return;
+    if (in->op == JOX_OP_LASTED)
+        in->number = m->lasting[level] - 1;
+    in->op = in->op == JOX_OP_AFTER    ? JOX_OP_OUTER_AFTER
+             : in->op == JOX_OP_LASTED ? JOX_OP_OUTER_LASTED
+             : in->op == JOX_OP_EVERY  ? JOX_OP_OUTER_EVERY
+                                       : JOX_OP_OUTER_TIME;
+    in->arg = (int32_t)m->clock[level] - 1;
+}
 
 /* Appends the code of an expression, with its result in register `to`. */
 static void emit_expression(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
@@ -278,6 +300,7 @@ static void emit_expression(Code *code, const JoxNode *node, uint32_t to, uint32
         in.target = jox_build_target(code->build, node->target);
     if (node->place)
         in.place = jox_build_target(code->build, node->place);
+    use_outer_clock(code, &in);
     JOX_RESERVE(code->items, code->capacity, code->count + 1);
     if (in.op == JOX_OP_AND && !code->too_deep)
         code->items[first_input].skip = (uint16_t)(code->count - first_input);
@@ -288,7 +311,7 @@ int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition p
     JoxMachine *m = build->machine;
     if (node->kind == JOX_NODE_ERROR)
         return -1;
-    if (node->compiled > 0 && !build->scores) /* used in several places, compiled once */
+    if (node->compiled > 0 && node->compiled_in == build->scope && !build->scores)
         return node->compiled - 1;
     Code code = {.build = build};
     emit_expression(&code, node, 0, 0);
@@ -298,9 +321,19 @@ int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition p
         jox_free(code.items);
         return -1;
     }
+    if (code.without_machine) {
+        jox_build_error(
+            build, position, "no-machine",
+            "Give the state one: runs = machine { ... }, or ask in the state that has it",
+            "`done` asks for the machine that a state runs, and this state runs none");
+        jox_free(code.items);
+        return -1;
+    }
     JOX_RESERVE(m->expressions, build->expression_capacity, m->expression_count + 1);
     m->expressions[m->expression_count] = (JoxExpression){code.items, (uint32_t)code.count};
-    if (!build->scores) /* a score may name `other`, which has no meaning elsewhere */
+    if (!build->scores) { /* a score may name `other`, which has no meaning elsewhere */
         ((JoxNode *)node)->compiled = (int32_t)m->expression_count + 1;
+        ((JoxNode *)node)->compiled_in = build->scope;
+    }
     return (int32_t)m->expression_count++;
 }

@@ -26,6 +26,10 @@ static void read_own_value(JoxBuild *b, const char *path, const char *name) {
     lua_State *L = b->script->vm.L;
     const int32_t slot = jox_build_own(b, name);
     JoxOwnSlot *own = &b->machine->own[slot];
+    if (own->declared) { /* by a machine around this one */
+        lua_pop(L, 1);
+        return;
+    }
     own->declared = true;
     if (lua_type(L, -1) == LUA_TSTRING) {
         own->is_place = true;
@@ -71,20 +75,22 @@ static uint32_t list_sorted_names(JoxBuild *b, int table, const char *path, cons
     return count;
 }
 
-void jox_read_own(JoxBuild *b, int index) {
+void jox_read_own(JoxBuild *b, int index, const char *prefix) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index));
+    char all[256];
+    jox_read_join(all, prefix, "own");
     const int type = jox_read_field(L, index, "own"), table = lua_gettop(L);
     const char *names[MOST_NAMES];
     uint32_t count = 0;
     if (type == LUA_TTABLE)
-        count = list_sorted_names(b, table, "own", names);
+        count = list_sorted_names(b, table, all, names);
     else if (type != LUA_TNIL)
-        jox_build_error(b, jox_read_at(b, "own"), "bad-value", "own = { courage = uniform(0, 1) }",
+        jox_build_error(b, jox_read_at(b, all), "bad-value", "own = { courage = uniform(0, 1) }",
                         "own must be a table");
     for (uint32_t n = 0; n < count; n++) {
         char path[256];
-        jox_read_join(path, "own", names[n]);
+        jox_read_join(path, all, names[n]);
         if (jox_parameter_find(names[n]) >= 0) {
             jox_build_error(b, jox_read_at(b, path), "bad-key", "Put it into `defaults`",
                             "'%s' is a parameter, which every agent has", names[n]);
@@ -97,7 +103,7 @@ void jox_read_own(JoxBuild *b, int index) {
 }
 
 /* Makes the memory public whose name is on top of the stack; pops the name. */
-static void make_memory_public(JoxBuild *b) {
+static void make_memory_public(JoxBuild *b, const char *path) {
     lua_State *L = b->script->vm.L;
     JoxMachine *m = b->machine;
     const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL, *names[64];
@@ -109,29 +115,31 @@ static void make_memory_public(JoxBuild *b) {
     if (slot >= 0)
         m->memory[slot].is_public = true;
     else
-        jox_build_error(b, jox_read_at(b, "public"), "unknown-memory",
+        jox_build_error(b, jox_read_at(b, path), "unknown-memory",
                         name ? jox_did_you_mean(name, names, count, hint) : NULL,
                         name ? "memory has no '%.60s' to make public" : "public lists names%s",
                         name ? name : "");
     for (uint32_t c = 0; slot >= 0 && c < m->counter_count; c++)
         if (m->counters[c].value == slot)
             jox_build_error(
-                b, jox_read_at(b, "public"), "bad-value", "Copy it with `set` where it changes",
+                b, jox_read_at(b, path), "bad-value", "Copy it with `set` where it changes",
                 "'%.60s' counts by itself while others look: it cannot be public", name);
     lua_pop(L, 1);
 }
 
-void jox_read_public(JoxBuild *b, int index) {
+void jox_read_public(JoxBuild *b, int index, const char *prefix) {
     lua_State *L = b->script->vm.L;
+    char path[256];
+    jox_read_join(path, prefix, "public");
     const int type = jox_read_field(L, index, "public"), table = lua_gettop(L);
     if (type == LUA_TSTRING) {
         lua_pushvalue(L, table);
-        make_memory_public(b);
+        make_memory_public(b, path);
     } else if (type == LUA_TTABLE) {
         for (lua_Integer n = 1; lua_rawgeti(L, table, n) != LUA_TNIL && n <= MOST_NAMES; n++)
-            make_memory_public(b);
+            make_memory_public(b, path);
     } else if (type != LUA_TNIL) {
-        jox_build_error(b, jox_read_at(b, "public"), "bad-value", "public = { \"infected\" }",
+        jox_build_error(b, jox_read_at(b, path), "bad-value", "public = { \"infected\" }",
                         "public lists names of memory");
     }
     lua_settop(L, table - 1);

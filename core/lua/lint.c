@@ -43,7 +43,7 @@ static void check_reachable(JoxBuild *b) {
         char path[256], hint[JOX_HINT];
         const char *names[64], *near = NULL;
         size_t count = 0;
-        jox_read_join(path, "states", m->states[s].name);
+        jox_state_path(&m->states[s], path);
         const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
         bool added = origin && origin->mod >= 0 && strcmp(origin->path, path) == 0;
         for (uint32_t o = 0; added && o < m->state_count && count < 64; o++)
@@ -70,8 +70,9 @@ static void check_exits(JoxBuild *b) {
         const JoxState *state = &m->states[s];
         bool stands = state->steer_count == 1 && state->steer[0].kind == JOX_STEER_HOLD;
         char path[256];
-        jox_read_join(path, "states", state->name);
-        if (!has_way_out(state) && !state->removes && !state->become && !stands)
+        jox_state_path(state, path);
+        if (!has_way_out(state) && !state->removes && !state->become && !stands &&
+            !(state->ends && state->depth == 0))
             jox_diag_add(
                 b->script->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path), "no-way-out",
                 "Add a transition, or `removes = true`; a state with `steer = hold` may be "
@@ -101,21 +102,32 @@ static bool requires_operation(const JoxMachine *m, int32_t expression, JoxOp op
     return found;
 }
 
-/* Warns of transitions that never fire. */
-static void check_firing(JoxBuild *b, const JoxState *state, const char *path) {
+/* Writes the path of a transition, in the table of the state that lists it. */
+static void write_transition_path(const JoxMachine *m, const JoxState *state,
+                                  const JoxTransition *t, char path[256]) {
+    char around[256], item[160];
+    jox_state_path(jox_state_on_level(m, state, t->level), around);
+    snprintf(item, sizeof item, "%u", t->item + 1u);
+    jox_read_join(path, around, item);
+}
+
+/* Warns of transitions that never fire. Those of the outer states around are checked there. */
+static void check_firing(JoxBuild *b, const JoxState *state) {
     const JoxMachine *m = b->machine;
-    char full[256], item[160];
+    char full[256];
     for (uint32_t t = 0; t < state->transition_count; t++) {
         const JoxTransition *taken = &state->transitions[t];
-        snprintf(item, sizeof item, "%u", t + 1);
-        jox_read_join(full, path, item);
+        if (taken->level < state->depth)
+            continue;
+        write_transition_path(m, state, taken, full);
         if (t > 0 && is_unconditional(&state->transitions[t - 1])) {
             add_warning(b, full, "never-fires", "Put it before that one",
                         "this transition never fires: the one before it is always taken");
             return;
         }
         if (!state->has_lasts && state->lasts_expression < 0 &&
-            requires_operation(m, taken->when, JOX_OP_LASTED))
+            (requires_operation(m, taken->when, JOX_OP_LASTED) ||
+             requires_operation(m, taken->when, JOX_OP_OUTER_LASTED)))
             add_warning(b, full, "never-fires", "Give the state one: lasts = 5, or write after(5)",
                         "this transition never fires: the state has no `lasts`");
         for (uint32_t o = 0; o < t; o++)
@@ -155,12 +167,12 @@ static double get_perception(const JoxMachine *m, const JoxState *state) {
 }
 
 /* Warns of a condition on a distance beyond perception, which holds for everything that is seen. */
-static void check_distances(JoxBuild *b, const JoxState *state, const char *path) {
+static void check_distances(JoxBuild *b, const JoxState *state) {
     const JoxMachine *m = b->machine;
     const double most = get_perception(m, state);
-    char full[256], item[160], text[160];
+    char full[256], text[160];
     for (uint32_t t = 0; t < state->transition_count; t++) {
-        if (state->transitions[t].when < 0)
+        if (state->transitions[t].when < 0 || state->transitions[t].level < state->depth)
             continue;
         const JoxExpression *e = &m->expressions[state->transitions[t].when];
         for (uint32_t k = 1; k < e->count; k++) {
@@ -170,8 +182,7 @@ static void check_distances(JoxBuild *b, const JoxState *state, const char *path
                 continue;
             if (in->op == JOX_OP_NEAR && !jox_target_kind_moves(m->targets[in->target].kind))
                 continue;
-            snprintf(item, sizeof item, "%u", t + 1);
-            jox_read_join(full, path, item);
+            write_transition_path(m, state, &state->transitions[t], full);
             snprintf(text, sizeof text,
                      "nobody is seen or heard as far as %g m: perception is %g m", asked->number,
                      most);
@@ -184,12 +195,16 @@ static void check_distances(JoxBuild *b, const JoxState *state, const char *path
 void jox_lint(JoxBuild *b) {
     check_reachable(b);
     check_exits(b);
+    for (uint32_t o = 0; o < b->machine->outer_count; o++) {
+        check_firing(b, &b->machine->outer[o]);
+        check_distances(b, &b->machine->outer[o]);
+    }
     for (uint32_t s = 0; s < b->machine->state_count; s++) {
         const JoxState *state = &b->machine->states[s];
         char path[256];
-        jox_read_join(path, "states", state->name);
-        check_firing(b, state, path);
+        jox_state_path(state, path);
+        check_firing(b, state);
         check_cycle(b, state, path);
-        check_distances(b, state, path);
+        check_distances(b, state);
     }
 }

@@ -33,6 +33,13 @@ void jox_origin_keep(JoxScript *script, const char *path, const char *number,
 /* Returns the source that a path of the machine was written in, with its path there. */
 static const JoxSource *locate_path(const JoxBuild *b, const char *path, char there[512]) {
     const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
+    const char *inner;
+    const JoxNested *nested = jox_nest_enclosing(b, path, &inner);
+    if (nested && nested->outer >= 0 && nested->source >= 0 &&
+        (!origin || strlen(origin->path) <= strlen(nested->path))) {
+        snprintf(there, 512, "%s%s%.250s", nested->root, *nested->root && *inner ? "." : "", inner);
+        return b->script->vm.sources[nested->source];
+    }
     if (!origin) {
         snprintf(there, 512, "%s", path);
         return b->source;

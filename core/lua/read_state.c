@@ -114,6 +114,7 @@ static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state
     char full[256];
     state->removes = read_flag(b, index, path, "removes");
     state->lies = read_flag(b, index, path, "lies");
+    state->ends = read_flag(b, index, path, "ends");
     int type = jox_read_field(L, index, "push_weight");
     jox_read_join(full, path, "push_weight");
     const char *weight = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
@@ -149,9 +150,12 @@ void jox_read_id(lua_State *L, int index, int nth, char id[128]) {
         lua_pop(L, 1);
         jox_read_field(L, index, "to");
     }
+    const JoxNode *node = jox_node_get(L, -1);
+    const bool back = node && node->kind == JOX_NODE_BACK;
     snprintf(id, 100, "%s",
              lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1)
              : lua_isnil(L, -1)             ? "reaction"
+             : back                         ? "back"
                                             : "?");
     lua_pop(L, 1);
     if (nth > 1)
@@ -227,39 +231,61 @@ static void read_item_condition(JoxBuild *b, int index, const char *path, JoxTra
     lua_settop(L, index);
 }
 
+/* Reports a name that no state of the machine that is read has. */
+static void report_unknown_state(JoxBuild *b, const char *path, const char *to) {
+    const JoxMachine *m = b->machine;
+    const char *names[256];
+    char hint[JOX_HINT], prefix[256];
+    size_t count = 0;
+    jox_nest_name(b, b->nest, "", prefix);
+    const size_t n = strlen(prefix);
+    for (uint32_t s = 0; s < m->state_count + m->outer_count && count < 256; s++) {
+        const char *name =
+            s < m->state_count ? m->states[s].name : m->outer[s - m->state_count].name;
+        if (strncmp(name, prefix, n) == 0 && (b->nest == 0 || !strchr(name + n, '.')))
+            names[count++] = name + n;
+    }
+    const char *near = jox_did_you_mean(to, names, count, hint);
+    if (!near && jox_machine_entry(m, to) >= 0) /* of the behaviour that runs this machine */
+        near = "A machine that a state runs knows its own states: end it by a state with `ends = "
+               "true`, and ask `done` around it";
+    jox_build_error(b, jox_read_at(b, path), "unknown-state", near, "there is no state '%s'", to);
+}
+
 /* Reads the state that a transition leads to. */
-static uint16_t read_destination(JoxBuild *b, int index, const char *path) {
+static void read_destination(JoxBuild *b, int index, const char *path, const JoxState *state,
+                             JoxTransition *t) {
     lua_State *L = b->script->vm.L;
     const JoxMachine *m = b->machine;
-    char full[256], hint[JOX_HINT];
+    char full[256], whole[256];
     jox_read_join(full, path, "to");
     const char *to = jox_read_field(L, index, "to") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-    int target = to ? jox_machine_state(m, to) : -1;
-    const char *now = to && target < 0 ? jox_machine_renamed(m, JOX_PART_STATE, to) : NULL;
-    if (!to && lua_isnil(L, -1)) {
-        lua_pop(L, 1);
-        return JOX_NO_STATE;
-    }
-    if (!to) {
+    const JoxNode *node = jox_node_get(L, -1);
+    jox_nest_name(b, b->nest, to ? to : "", whole);
+    int target = to ? jox_machine_entry(m, whole) : -1;
+    const char *now = to && target < 0 ? jox_machine_renamed(m, JOX_PART_STATE, whole) : NULL;
+    t->stays = lua_isnil(L, -1);
+    if (node && node->kind == JOX_NODE_BACK) {
+        t->back = true;
+        target = b->nest == 0 ? m->start : m->outer[b->nested[b->nest].outer].start;
+    } else if (t->stays) {
+        target = b->level >= 0 ? state->start : (int)(state - m->states);
+    } else if (!to && !(node && node->kind == JOX_NODE_ERROR)) {
         jox_build_error(b, jox_read_at(b, full), "missing-key",
                         "Example: { to = \"Exit\", when = after(5) }",
                         "`to` is the name of a state");
     } else if (now) {
-        jox_diag_renamed(b->script->diagnostics, locate_value(b, full), to, now);
-    } else if (target < 0) {
-        const char *names[256];
-        size_t count = m->state_count < 256 ? m->state_count : 256;
-        for (size_t s = 0; s < count; s++)
-            names[s] = m->states[s].name;
-        jox_build_error(b, jox_read_at(b, full), "unknown-state",
-                        jox_did_you_mean(to, names, count, hint), "there is no state '%s'", to);
+        jox_diag_renamed(b->script->diagnostics, locate_value(b, full), to,
+                         now + strlen(whole) - strlen(to));
+    } else if (to && target < 0) {
+        report_unknown_state(b, full, to);
     }
     lua_pop(L, 1);
-    return target < 0 ? 0 : (uint16_t)target;
+    t->to = target < 0 ? 0 : (uint16_t)target;
 }
 
-static void read_transition(JoxBuild *b, int index, const char *path, const char *id, int32_t state,
-                            JoxTransition *t) {
+static void read_transition(JoxBuild *b, int index, const char *path, const char *id,
+                            const JoxState *state, JoxTransition *t) {
     const JoxParameterInfo chance = jox_table_key_number("transition", "chance");
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && *id);
@@ -269,10 +295,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
     t->line = jox_read_line(b, path, &t->source);
     jox_read_check(b, index, path, known, jox_table_key_names("transition", false, known, 16),
                    false);
-    t->to = read_destination(b, index, path);
-    t->stays = t->to == JOX_NO_STATE;
-    if (t->stays)
-        t->to = (uint16_t)state;
+    read_destination(b, index, path, state, t);
     read_item_condition(b, index, path, t);
     jox_read_join(full, path, "chance");
     if (jox_read_field(L, index, "chance") == LUA_TNIL)
@@ -288,8 +311,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
                         "signal or on_take");
 }
 
-static void read_state_transitions(JoxBuild *b, int index, const char *path, int32_t number,
-                                   JoxState *state) {
+static void read_state_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(!state->transitions);
     uint32_t count = (uint32_t)lua_rawlen(L, index);
@@ -323,7 +345,9 @@ static void read_state_transitions(JoxBuild *b, int index, const char *path, int
                 if (strcmp(b->script->changes.items[o].path, canonical) == 0)
                     memcpy(full, canonical, sizeof full);
         }
-        read_transition(b, lua_gettop(L), full, id, number, t);
+        read_transition(b, lua_gettop(L), full, id, state, t);
+        t->level = state->depth;
+        t->item = (uint16_t)i;
         state->transition_count++;
         lua_pop(L, 1);
     }
@@ -333,9 +357,9 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     const char *known[96];
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_istable(L, index) && state->name);
-    JOX_ASSERT(number >= 0 && (uint32_t)number < b->machine->state_count);
+    JOX_ASSERT(number < (int32_t)b->machine->state_count && number != -1);
     char path[256], full[256];
-    snprintf(path, sizeof path, "states.%.200s", state->name);
+    jox_state_path(state, path);
     jox_read_check(b, index, path, known, jox_table_key_names("state", true, known, 96), true);
     state->line = jox_read_line(b, path, &state->source);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
@@ -362,5 +386,5 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     state->push_only = jox_read_tags(b, index, path, "push_only", false);
     state->on_enter = jox_read_hook(b, index, path, "on_enter");
     state->on_exit = jox_read_hook(b, index, path, "on_exit");
-    read_state_transitions(b, index, path, number, state);
+    read_state_transitions(b, index, path, state);
 }

@@ -6,6 +6,20 @@
 
 #include "lua/language/script.h"
 
+/* A machine of those that are built into one: the behaviour's own, or one that an outer state
+   runs. */
+typedef struct JoxNested {
+    int table;       /* registry reference of its table */
+    int32_t outer;   /* index of the outer state that runs it; -1: the behaviour's own */
+    uint32_t parent; /* number of the machine that has this state */
+    char path[256];  /* of its table: "states.Guard.runs" */
+    int32_t source;  /* number of the source that writes it; -1 unknown */
+    char root[24];   /* its path in the outline of that source */
+    /* Its defaults, of those that no machine around it sets; UNSET: it has none. */
+    bool is_set[JOX_PARAM_COUNT]; /* by it or a machine around it */
+    JoxValue defaults[JOX_PARAM_COUNT];
+} JoxNested;
+
 /* The machine under construction. */
 typedef struct JoxBuild {
     JoxScript *script;
@@ -13,8 +27,18 @@ typedef struct JoxBuild {
     JoxMachine *machine;
     struct JoxKinds *kinds; /* kinds of the script's expressions, made on first use */
     size_t expression_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
-        state_capacity, name_capacity, sighting_capacity;
-    bool scores; /* the score of a target is being compiled, in which `other` has a meaning */
+        state_capacity, name_capacity, sighting_capacity, outer_capacity, nested_capacity,
+        renamed_capacity;
+    bool scores;       /* the score of a target is being compiled, in which `other` has a meaning */
+    JoxNested *nested; /* item 0: the behaviour's own machine */
+    uint32_t nested_count;
+    uint32_t *state_nested, *outer_nested; /* per state and outer state: the machine that has it */
+    size_t state_nested_capacity, outer_nested_capacity;
+    /* What clocks and names of own values mean at present: machine, and level of the outer state
+       that is read, -1: a state without `runs`. `scope` numbers these. */
+    uint32_t nest;
+    int32_t level;
+    uint32_t scope;
 } JoxBuild;
 /* Returns the index of a target in the machine, added on first use; -1 for an error node. */
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node);
@@ -54,18 +78,38 @@ void jox_misuse_find(JoxBuild *build);
 bool jox_misuse_explains(JoxBuild *build, const char *path);
 /* Returns the slot of memory of a name, or -1. */
 int32_t jox_read_memory(const JoxBuild *build, const char *name);
-/* Reads `counts` of the table at `index`, for state number `state` or, with -1, for all states. */
+/* Reads `counts` of the table at `index`, for `state` as in JoxCounter. */
 void jox_read_counts(JoxBuild *build, int index, const char *prefix, int32_t state);
 /* Reads `set` and `signal` of the table at `index`; `every` NULL: the signal takes no interval. */
 void jox_read_actions(JoxBuild *build, int index, const char *path, JoxActions *actions,
                       double *every);
 /* Reads kick, take, throw, grasp and become of a state. */
 void jox_read_body_actions(JoxBuild *build, int index, const char *path, JoxState *state);
+/* nest_states.c: finds all states of a machine and of those that its states run, by registry
+   reference `table`; adds them without content. */
+void jox_nest_collect(JoxBuild *build, int table);
+/* nest.c: reads the content of all states, and what nested machines say for all of theirs. */
+void jox_nest_read(JoxBuild *build);
+/* nest_names.c. */
+void jox_nest_free(JoxBuild *build);
+/* Returns the machine whose table encloses a path, with the rest of the path; the behaviour's own
+   if no state runs one there. */
+const JoxNested *jox_nest_enclosing(const JoxBuild *build, const char *path, const char **rest);
+/* Writes the whole name of a state that a machine calls `name`. */
+void jox_nest_name(const JoxBuild *build, uint32_t nested, const char *name, char whole[256]);
+/* Returns the own slot of a parameter's default in the present scope, or -1. */
+int32_t jox_nest_own(const JoxBuild *build, const char *name);
+/* Adds a slot of hidden memory; returns 1 + its index. */
+uint32_t jox_nest_slot(JoxBuild *build, const char *role, const char *name, JoxMemoryKind kind);
+/* Gives every parameter an own value of its name. In defaults.c. */
+void jox_read_parameter_values(JoxBuild *build);
+/* Reads `defaults` of the machine's table at `index` and `path`. In defaults.c. */
+void jox_read_defaults(JoxBuild *build, int index, const char *path, uint32_t nested);
 /* Warns of parts of the machine that have no effect. In lint.c. */
 void jox_lint(JoxBuild *build);
-/* Read `own` and `public` of the machine's table at `index`. In declare.c. */
-void jox_read_own(JoxBuild *build, int index);
-void jox_read_public(JoxBuild *build, int index);
+/* Read `own` and `public` of the machine's table at `index` and `path`. In declare.c. */
+void jox_read_own(JoxBuild *build, int index, const char *path);
+void jox_read_public(JoxBuild *build, int index, const char *path);
 /* Writes the id of the transition table at `index`; `nth` numbers equal ids: "Exit", "Exit#2". */
 void jox_read_id(lua_State *L, int index, int nth, char id[128]);
 /* Joins a path and a key with a dot. */
@@ -108,7 +152,7 @@ void jox_read_check_moves(JoxBuild *build, const char *path, const char *key, in
 int16_t jox_read_mover(JoxBuild *build, int index, const char *path, const char *key);
 /* Returns the bits of a tag or list of tags, which are given to agents (`is_set`) or asked for. */
 uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char *key, bool is_set);
-/* Reads the table at `index` into a state whose name is set. */
+/* Reads the table at `index` into a state whose name is set; `number` as JoxCounter.state. */
 void jox_read_state(JoxBuild *build, int index, JoxState *state, int32_t number);
 
 /* Records where a transition of the state at `path` is written, by its number, unless that is

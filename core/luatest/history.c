@@ -3,9 +3,11 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/name.h"
 #include "base/mem.h"
 
-int jox_test_history_find(const JoxTestHistory *h, const char *name) {
+/* Returns the index of a state's name in `been`, or -1 if no agent has been in it. */
+static int find_state_name(const JoxTestHistory *h, const char *name) {
     for (uint32_t n = 0; n < h->name_count; n++)
         if (strcmp(h->names[n], name) == 0)
             return (int)n;
@@ -14,7 +16,7 @@ int jox_test_history_find(const JoxTestHistory *h, const char *name) {
 
 /* Records that an agent has been in a state. */
 static void mark_state(JoxTestHistory *h, const char *state, uint32_t id) {
-    int n = jox_test_history_find(h, state);
+    int n = find_state_name(h, state);
     if (n < 0 && h->name_count < JOX_TEST_STATES) {
         n = (int)h->name_count++;
         h->names[n] = jox_strdup(state);
@@ -54,11 +56,20 @@ void jox_test_history_note(JoxTestHistory *h, const JoxMachineRun *machines) {
     }
 }
 
-uint32_t jox_test_history_been(const JoxTestHistory *h, const char *state, int32_t group) {
-    int n = jox_test_history_find(h, state);
-    uint32_t count = 0;
-    for (uint32_t id = 0; n >= 0 && id < h->known; id++)
-        count += h->been[n][id] && (group < 0 || h->group[id] == group);
+uint32_t jox_test_history_been(const JoxTestHistory *h, const char *state, int32_t group,
+                               int32_t *first) {
+    uint32_t within[JOX_TEST_STATES], states = 0, count = 0;
+    for (uint32_t n = 0; n < h->name_count; n++)
+        if (jox_name_is_within(h->names[n], state))
+            within[states++] = n;
+    for (uint32_t id = 0; id < h->known && states; id++) {
+        bool been = false;
+        for (uint32_t k = 0; k < states; k++)
+            been |= h->been[within[k]][id];
+        been &= group < 0 || h->group[id] == group;
+        if (been && count++ == 0 && first)
+            *first = (int32_t)id;
+    }
     return count;
 }
 

@@ -18,10 +18,10 @@ typedef struct JoxTestHistory {
 
 /* Records new agents and the transitions of the last step. */
 void jox_test_history_note(JoxTestHistory *history, const JoxMachineRun *machines);
-/* Returns the index of a state's name in `been`, or -1 if no agent has been in it. */
-int jox_test_history_find(const JoxTestHistory *history, const char *name);
-/* Returns the number of agents of a group (-1: of all) that have been in a state. */
-uint32_t jox_test_history_been(const JoxTestHistory *history, const char *state, int32_t group);
+/* Returns the number of agents of a group (-1: of all) that have been in a state, or in one within
+   it; writes the id of the first of them to `first`, unless NULL. */
+uint32_t jox_test_history_been(const JoxTestHistory *history, const char *state, int32_t group,
+                               int32_t *first);
 void jox_test_history_free(JoxTestHistory *history);
 
 #endif

@@ -89,7 +89,7 @@ static const char *check_state_name(lua_State *L, const Scene *t, int index) {
     size_t count = 0;
     for (uint32_t m = 0; m < machines->set->count; m++)
         for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
-            if (strcmp(machines->set->items[m]->states[s].name, name) == 0)
+            if (jox_state_is_in(&machines->set->items[m]->states[s], name))
                 return name;
             if (count < 256)
                 names[count++] = machines->set->items[m]->states[s].name;
@@ -108,10 +108,11 @@ static uint32_t count_agents_in_state(const JoxMachineRun *machines, const char 
     const JoxAgents *a = machines->agents;
     uint32_t count = 0;
     for (uint32_t i = 0; i < a->count; i++)
-        count += (group < 0 || a->group[i] == group) &&
-                 (!state ||
-                  (a->machine[i] != JOX_NO_MACHINE &&
-                   !strcmp(machines->set->items[a->machine[i]]->states[a->state[i]].name, state)));
+        count +=
+            (group < 0 || a->group[i] == group) &&
+            (!state ||
+             (a->machine[i] != JOX_NO_MACHINE &&
+              jox_state_is_in(&machines->set->items[a->machine[i]]->states[a->state[i]], state)));
     return count;
 }
 
@@ -142,7 +143,7 @@ static int scene_count(lua_State *L) {
 static int scene_entered(lua_State *L) {
     Scene *t = check_scene_handle(L);
     const char *state = check_state_name(L, t, 2);
-    lua_pushinteger(L, jox_test_history_been(&t->history, state, read_group_option(L, t, 3)));
+    lua_pushinteger(L, jox_test_history_been(&t->history, state, read_group_option(L, t, 3), NULL));
     return 1;
 }
 
@@ -251,10 +252,10 @@ static int scene_reaches(lua_State *L) {
     jox_test_run_of(L)->assertions++;
     const JoxMachineRun *machines = find_test_machines(L, t);
     double until = read_test_time(L, t) + within - 0.5 * machines->dt;
-    while (jox_test_history_been(&t->history, state, group) < wanted &&
+    while (jox_test_history_been(&t->history, state, group, NULL) < wanted &&
            read_test_time(L, t) < until)
         step_test_scene(L, t);
-    uint32_t been = jox_test_history_been(&t->history, state, group);
+    uint32_t been = jox_test_history_been(&t->history, state, group, NULL);
     if (been >= wanted) {
         lua_pushnumber(L, read_test_time(L, t));
         return 1;
@@ -278,11 +279,10 @@ static int scene_never(lua_State *L) {
         read_test_time(L, t) + jox_test_number_option(L, 3, "during", 0.0) - 0.5 * machines->dt;
     jox_test_run_of(L)->assertions++;
     for (;;) {
-        int n = jox_test_history_find(&t->history, state);
-        for (uint32_t id = 0; n >= 0 && id < t->history.known; id++)
-            if (t->history.been[n][id] && (group < 0 || t->history.group[id] == group))
-                return luaL_error(L, "agent %d has been in '%s', by t = %f s", (int)id, state,
-                                  read_test_time(L, t));
+        int32_t id;
+        if (jox_test_history_been(&t->history, state, group, &id))
+            return luaL_error(L, "agent %d has been in '%s', by t = %f s", (int)id, state,
+                              read_test_time(L, t));
         if (read_test_time(L, t) >= until)
             return 0;
         step_test_scene(L, t);

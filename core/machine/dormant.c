@@ -20,8 +20,10 @@ const char *jox_name_before(const JoxMachine *old, const JoxMachine *next, JoxPa
 static const char *find_old_identity(const JoxMachine *old, const JoxMachine *next, uint32_t slot,
                                      char buffer[256]) {
     const char *is = jox_memory_identity(&next->memory[slot]);
-    const char *owner = jox_identity_owner(is);
-    const char *before = jox_name_before(old, next, JOX_PART_MEMORY, owner ? owner : is);
+    const char *state = *is == *JOX_IDENTITY_CAME_FROM ? is + 1 : NULL;
+    const char *owner = state ? state : jox_identity_owner(is);
+    const char *before =
+        jox_name_before(old, next, state ? JOX_PART_STATE : JOX_PART_MEMORY, owner ? owner : is);
     if (!owner || strlen(before) > 250)
         return before;
     snprintf(buffer, 256, "%c%s", *is, before);
@@ -105,7 +107,7 @@ void jox_dormant_keep(const JoxMachine *old, JoxMachine *next) {
 /* Returns whether the slot is memory of the behaviour's author, not a hidden one or a post. */
 static bool is_named_by_author(const JoxMemorySlot *slot) {
     const char *identity = jox_memory_identity(slot);
-    return *identity && !jox_identity_owner(identity) && strcmp(identity, "home x") != 0 &&
+    return *identity > *JOX_IDENTITY_LASTS && strcmp(identity, "home x") != 0 &&
            strcmp(identity, "home y") != 0;
 }
 

@@ -65,30 +65,78 @@ float jox_duration_of(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     return isnan(seconds) ? INFINITY : (float)seconds;
 }
 
-void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
+/* Draws a duration on entering a state by a transition on `level`; infinite if the state has none.
+   Those of outer states have random numbers of their own. */
+static float draw_lasts(JoxMachineRun *run, const JoxState *on, uint32_t i, uint32_t outer) {
+    const JoxAgents *a = run->agents;
+    return on->has_lasts ? (float)jox_dist_draw(&on->lasts, run->seed, a->id[i], run->tick,
+                                                JOX_DRAW_LASTS, outer)
+                         : INFINITY;
+}
+
+void jox_machines_draw_lasts(JoxMachineRun *run, uint32_t i, uint32_t level) {
+    JoxAgents *a = run->agents;
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const JoxState *state = &machine->states[a->state[i]],
+                   *on = jox_state_on_level(machine, state, level);
+    if (on->lasts_expression < 0)
+        return;
+    const float lasts = jox_duration_of(run, machine, on, i);
+    if (level == state->depth)
+        a->lasts[i] = lasts;
+    else if (machine->lasting[level])
+        a->memory[(size_t)i * a->memory_stride + machine->lasting[level] - 1] = lasts;
+}
+
+/* Starts the clocks of the outer states that a transition on `level` enters. */
+static void start_outer_clocks(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                               uint32_t i, uint32_t level) {
+    const JoxAgents *a = run->agents;
+    double *memory = a->memory + (size_t)i * a->memory_stride;
+    for (uint32_t l = level; l < state->depth; l++) {
+        if (machine->clock[l])
+            memory[machine->clock[l] - 1] = run->tick;
+        if (machine->lasting[l])
+            memory[machine->lasting[l] - 1] =
+                draw_lasts(run, &machine->outer[state->around[l]], i, 1 + l);
+    }
+}
+
+/* Returns the bits of the conditions of outer states that the agent does not leave. */
+static uint32_t get_kept_conditions(const JoxState *state, uint32_t level) {
+    uint32_t kept = 0;
+    for (uint32_t k = 0; level > 0 && k < state->transition_count; k++)
+        kept |= state->transitions[k].level < level ? 1u << k : 0;
+    return kept;
+}
+
+void jox_machines_enter_level(JoxMachineRun *run, uint32_t i, uint16_t to, uint32_t level) {
     JoxAgents *a = run->agents;
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
-    JOX_ASSERT(to < machine->state_count && i < a->count);
+    JOX_ASSERT(to < machine->state_count && i < a->count && level <= state->depth);
+    const bool keeps_goal = level > 0 && state->goal_level < (int8_t)level &&
+                            machine->states[a->state[i]].goal_level == state->goal_level;
     if (a->state[i] != to) /* columns that stay zero take no memory */
         a->state[i] = to;
     if (a->entered[i] != run->tick)
         a->entered[i] = run->tick;
     if (a->was_true[i])
-        a->was_true[i] = 0;
-    a->lasts[i] = INFINITY;
+        a->was_true[i] &= get_kept_conditions(state, level);
+    start_outer_clocks(run, machine, state, i, level);
     if (jox_queue_target(state) < 0 && a->queue_at[i])
         a->queue_at[i] = 0;
     if (a->turn[i] && !jox_gather_term(state)) /* it keeps its turn in states that wait in the same
                                                   way */
         a->turn[i] = 0;
-    if (state->has_lasts)
-        a->lasts[i] =
-            (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);
-    else if (state->lasts_expression >= 0 && !run->spawning)
-        a->lasts[i] = jox_duration_of(run, machine, state, i);
-    pick_goal(run, machine, state, i);
+    a->lasts[i] = draw_lasts(run, state, i, 0);
+    if (!keeps_goal)
+        pick_goal(run, machine, state, i);
     jox_machines_write_parameters(run, i);
     if (state->removes)
         a->removed[i] = 1;
+}
+
+void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
+    jox_machines_enter_level(run, i, to, 0);
 }

@@ -120,8 +120,7 @@ static bool is_same_target(const JoxMachineRun *run, uint32_t i, const JoxInstru
 }
 
 /* Returns whether the time in state has reached a multiple of `every`, s, in this step. */
-static bool is_due(const JoxMachineRun *run, uint32_t i, double every) {
-    const double time = jox_time_in_state(run, i);
+static bool is_due(const JoxMachineRun *run, double time, double every) {
     return time > 0.0 && every > 0.0 &&
            floor(time / every + 1e-9) > floor((time - run->dt) / every + 1e-9);
 }
@@ -186,8 +185,10 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
     case JOX_OP_MESSAGE:
         return jox_message_value(jox_message_find(run, i, machine->names[in->name].number),
                                  machine->names[in->arg].number);
+    case JOX_OP_OUTER_EVERY:
+        return is_due(run, jox_time_since(run, i, (uint32_t)in->arg), a);
     case JOX_OP_EVERY:
-        return is_due(run, i, a);
+        return is_due(run, jox_time_in_state(run, i), a);
     case JOX_OP_SAME:
         return is_same_target(run, i, in);
     case JOX_OP_QUEUED:

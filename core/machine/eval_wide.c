@@ -155,6 +155,15 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
         EACH_AGENT(jox_time_in_state(run, i) >= a[n] - 1e-9);
     case JOX_OP_LASTED:
         EACH_AGENT(jox_time_in_state(run, i) >= g->lasts[i] - 1e-6);
+    case JOX_OP_DONE:
+        EACH_AGENT(run->set->items[g->machine[i]]->states[g->state[i]].done >> arg & 1);
+    case JOX_OP_OUTER_AFTER:
+        EACH_AGENT(jox_time_since(run, i, arg) >= a[n] - 1e-9);
+    case JOX_OP_OUTER_LASTED:
+        EACH_AGENT(jox_time_since(run, i, arg) >=
+                   g->memory[(size_t)i * stride + (uint32_t)in->number] - 1e-6);
+    case JOX_OP_OUTER_TIME:
+        EACH_AGENT(jox_time_since(run, i, arg));
     case JOX_OP_STUCK:
         EACH_AGENT(g->still[i] >= a[n]);
     case JOX_OP_FALLEN:

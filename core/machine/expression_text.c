@@ -32,8 +32,9 @@ static const struct {
     JoxOp op;
     const char *word;
 } WORDS[] = {
-    {JOX_OP_PLACE_DENSITY, "density"},
-    {JOX_OP_PLACE_COUNT, "count"},
+    {JOX_OP_PLACE_DENSITY, "density"},    {JOX_OP_PLACE_COUNT, "count"},
+    {JOX_OP_OUTER_AFTER, "after"},        {JOX_OP_OUTER_LASTED, "lasted"},
+    {JOX_OP_OUTER_TIME, "time_in_state"}, {JOX_OP_OUTER_EVERY, "every"},
 };
 
 /* Returns one of the two texts of an expression. */
@@ -157,7 +158,7 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
 bool jox_op_is_condition(JoxOp op) {
     return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS &&
            op != JOX_OP_OF && op != JOX_OP_MESSAGE && op != JOX_OP_QUEUED &&
-           op != JOX_OP_PROGRAM_NUMBER;
+           op != JOX_OP_PROGRAM_NUMBER && op != JOX_OP_OUTER_TIME;
 }
 
 /* Prints one of the two texts of an instruction. */

@@ -7,13 +7,6 @@
 #include "base/mem.h"
 #include "machine/machine_parts.h"
 
-int jox_machine_state(const JoxMachine *machine, const char *name) {
-    for (uint32_t s = 0; s < machine->state_count; s++)
-        if (strcmp(machine->states[s].name, name) == 0)
-            return (int)s;
-    return -1;
-}
-
 const char *jox_machine_version(const JoxMachine *machine, char out[JOX_VERSION_TEXT]) {
     char version[40] = "", reload[20] = ""; /* both and the text between them fit into `out` */
     if (!isnan(machine->version))
@@ -75,6 +68,8 @@ static void free_state(JoxState *state) {
     jox_free(state->enters.set);
     jox_free(state->enters.tell);
     for (uint32_t t = 0; t < state->transition_count; t++) {
+        if (state->transitions[t].level < state->depth)
+            continue; /* belongs to an outer state */
         jox_free(state->transitions[t].id);
         jox_free(state->transitions[t].does.set);
         jox_free(state->transitions[t].does.tell);
@@ -87,7 +82,7 @@ const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *s
 }
 
 bool jox_machine_has(const JoxMachine *m, JoxPart part, const char *name) {
-    return part == JOX_PART_STATE    ? jox_machine_state(m, name) >= 0
+    return part == JOX_PART_STATE    ? jox_machine_entry(m, name) >= 0
            : part == JOX_PART_MEMORY ? jox_machine_memory(m, name) >= 0
                                      : jox_machine_own_slot(m, name) >= 0;
 }
@@ -105,6 +100,9 @@ void jox_machine_free(JoxMachine *m) {
         return;
     for (uint32_t s = 0; s < m->state_count; s++)
         free_state(&m->states[s]);
+    for (uint32_t o = 0; o < m->outer_count; o++)
+        free_state(&m->outer[o]);
+    jox_free(m->outer);
     for (uint32_t p = 0; p < m->expression_count; p++)
         jox_free(m->expressions[p].code);
     for (uint32_t t = 0; t < m->target_count; t++)
@@ -179,8 +177,8 @@ void jox_machine_renumber(JoxMachine *m, const uint16_t *numbers) {
     for (uint32_t t = 0; t < m->target_count; t++)
         if (m->targets[t].kind == JOX_TARGET_NEAREST)
             m->targets[t].arg = (int32_t)find_new_bit(m, numbers, (uint32_t)m->targets[t].arg);
-    for (uint32_t s = 0; s < m->state_count; s++) {
-        JoxState *state = &m->states[s];
+    for (uint32_t s = 0; s < m->state_count + m->outer_count; s++) {
+        JoxState *state = s < m->state_count ? &m->states[s] : &m->outer[s - m->state_count];
         renumber_tags(m, numbers, &state->ignore);
         renumber_tags(m, numbers, &state->push_only);
         renumber_actions(m, numbers, &state->enters);

@@ -11,119 +11,16 @@
 #include "agents/parameters.h"
 #include "base/format/colour.h"
 #include "base/number/distribution.h"
+#include "machine/expressions.h"
 #include "machine/target_kinds.h"
 
-enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
+enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_TERMS = 8 };
 /* Greatest absolute weight of a steering term. */
 enum { JOX_MOST_WEIGHT = 1000000 };
 /* Greatest absolute component of a drift, in multiples of the wanted speed. */
 enum { JOX_MOST_DRIFT = 100 };
 /* Force with which an agent holds on to another, N: default, and greatest. */
 enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
-
-#define JOX_LOAD_MEANING                                                                           \
-    "greatest push borne from any one direction: over directions d, the greatest sum of the "      \
-    "positive parts of f.d over its contacts f"
-
-/* Quantities measured of the agent itself. Each row is the complete definition: name (`now.NAME`),
-   word, unit, meaning, and the value for agent `i` of `run` with columns `a`. Rows of
-   JOX_MEASURED_WORDS can also be written as the plain word in their second column. */
-/* clang-format off */
-#define JOX_MEASURED_WORDS(X)                                                                      \
-    X(density, density_here, "1/m2",                                                               \
-      "people per square metre about the agent, from its neighbours' distances", a->density[i])    \
-    X(headway, headway, "m",                                                                       \
-      "free distance ahead to the next neighbour that does not come the other way; the perception " \
-      "radius if there is none", jox_headway(run, i))                                                            \
-    X(eagerness, eagerness, "",                                                                    \
-      "how eager the agent is to get on, 0 to 1: the crowd about it raises it, within the bounds " \
-      "of `haste`", a->eager[i])                                                                   \
-    X(pushed, pushed, "N", "magnitude of the net force on the agent",                              \
-      jox_length((JoxV2){a->force_x[i], a->force_y[i]}))                                           \
-    X(compression, compression, "N/m", "sum of contact force magnitudes, divided by the circumference",      \
-      a->compression[i])                                                                           \
-    X(load, load, "N", JOX_LOAD_MEANING, a->load[i])                                               \
-    X(contacts, contacts, "", "agents and bodies touched", a->contacts[i])                         \
-    X(holders, holders, "", "agents that hold on to the agent (see `grasp`)", a->held[i])                \
-    X(time_in_state, time_in_state, "s", "since the state was entered", jox_time_in_state(run, i))
-#define JOX_MEASURED_OTHERS(X)                                                                     \
-    X(speed, , "m/s", "present speed", jox_length((JoxV2){a->vx[i], a->vy[i]}))                    \
-    X(fallen, , "s", "time since the agent fell; 0 while it stands", a->fallen[i])                 \
-    X(x, , "m", "position east", a->x[i])                                                          \
-    X(y, , "m", "position north", a->y[i])                                                         \
-    X(neighbours, , "", "neighbours seen", run->neighbours->count[i])                              \
-    X(driven, , "m/s", "speed that a person or an input log asks of the agent (`player`); 0: none", \
-      jox_driven(run, i))                                                                          \
-    X(time, , "s", "simulated time", run->tick * run->dt)
-#define JOX_MEASURED(X) JOX_MEASURED_OTHERS(X) JOX_MEASURED_WORDS(X)
-/* clang-format on */
-
-typedef enum JoxNow {
-#define X(name, ...) JOX_NOW_##name,
-    JOX_MEASURED(X)
-#undef X
-        JOX_NOW_COUNT
-} JoxNow;
-
-/* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. Target -1 is the
-   agent itself. x / 0 is 0. CLAMP: a within [b, c]. DISTANCE: metres from the agent's centre to the
-   target, infinite when absent. PLACE_DENSITY, PLACE_COUNT: people in place (a polygon, else a disc
-   of 2 m about it). INSIDE: target is in place. ARRIVED: the agent is in place, or agents who have
-   arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the last move crossed
-   line `place` from its right to its left. FIRST_IN: the agent heads its queue. JOINED: it has its
-   place in its queue. AFTER: time in state is at least a. LASTED: the drawn duration of the state
-   is over. STUCK: the agent has not moved 0.25 m for a seconds. FALLEN: the agent lies after a
-   fall. TOUCHES: the gap to target is below 0.05 m. GROUNDED: target, a body, touches the ground.
-   KICKED: the agent kicked target, or a body with its tag, in the last step. HIT_BY: target, faster
-   than 1 m/s, touches the agent, or such a body hit it in the last step. INCOMING: target, at its
-   present velocity, comes within a metres of where the agent stands during the next 2 s. SEES:
-   target exists within perception. HAS: the agent holds target, a body or an agent. HEARD: another
-   agent within perception, and within a metres, gave the signal `name` in the last step.
-   NEIGHBOURS: number of neighbours that match target. THEIRS: memory `name` of the agent that is
-   the target, if its machine makes that public; else 0. OF: what is measured of the target, a
-   JoxNow in `arg`; 0 if there is none. EXISTS: target is in the world, seen or not. SAME: target
-   and `place`, a second target, are the same person, body or place. TOLD: a message `name` waits
-   for the agent. MESSAGE: the value called names[arg] of the oldest such message; 0 if there is
-   none. EVERY: the time in state has reached a multiple of a, s, in this step. SHUT: a gate at
-   place is closed, and the agent sees it. QUEUED: number of agents in the queue `place`. OPEN: the
-   gates called `name` are open. Agents behind a wall are not seen, heard or touched. */
-/* clang-format off */
-#define JOX_OPS(X)                                                              \
-    X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
-    X(ADD) X(SUB) X(MUL) X(DIV) X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP)    \
-    X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                           \
-    X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
-    X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(JOINED) X(AFTER)      \
-    X(LASTED) X(STUCK) X(TOUCHES) X(FALLEN) X(GROUNDED) X(KICKED) X(HIT_BY)     \
-    X(INCOMING) X(SEES)                                                         \
-    X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(OF) X(EXISTS) X(SAME) X(TOLD)     \
-    X(MESSAGE) X(EVERY) X(SHUT)                                                 \
-    X(PROGRAM_NUMBER) X(PROGRAM_CONDITION)                                      \
-    X(QUEUED) X(OPEN)
-/* clang-format on */
-
-typedef enum JoxOp {
-#define X(name) JOX_OP_##name,
-    JOX_OPS(X)
-#undef X
-        JOX_OP_COUNT
-} JoxOp;
-
-typedef struct JoxInstruction {
-    uint8_t op, to, a, b, c;
-    int16_t target, place; /* indices into the machine's targets; -1 none (or: the agent itself) */
-    int16_t name;          /* index into the machine's names; -1 none */
-    uint16_t skip; /* if `to` is 0 for all agents, the next `skip` instructions change nothing */
-    int32_t arg;
-    double number;
-} JoxInstruction;
-
-/* A compiled condition or number: straight-line code that leaves its result in register 0. Parts of
-   it may be skipped: the right side of an AND if its left side is false for all agents. */
-typedef struct JoxExpression {
-    JoxInstruction *code;
-    uint32_t count;
-} JoxExpression;
 
 typedef enum JoxValueKind {
     JOX_VALUE_UNSET,
@@ -216,8 +113,12 @@ typedef struct JoxActions {
 /* An item of a state: a transition, or a reaction, which does something and stays in the state. */
 typedef struct JoxTransition {
     char *id;
-    uint16_t to; /* of a reaction: its own state */
-    bool stays;  /* it is a reaction */
+    uint16_t
+        to; /* of a reaction: its own state; with `back`: state if there is none to go back to */
+    bool stays;    /* it is a reaction */
+    bool back;     /* leads to the state that was left for the present one */
+    uint8_t level; /* number of outer states around the state that lists it, which it leaves */
+    uint16_t item; /* its number in that state's list, from 0 */
     JoxActions does;
     int32_t when;      /* index of an expression; -1: always (unless when_hook) */
     int32_t when_hook; /* index of a Lua function; -1 none */
@@ -227,11 +128,27 @@ typedef struct JoxTransition {
     uint16_t source; /* index of the line's file in the machine's `files` */
 } JoxTransition;
 
+/* Greatest number of outer states around a state. */
+enum { JOX_MOST_LEVELS = 3 };
+
+/* A state. An outer state runs a machine of its own; agents are in the states of that machine,
+   never in the outer state itself. States inherit from the outer states around them: their
+   transitions come first, outermost first, and what a state does not set. */
 typedef struct JoxState {
-    char *name;
-    JoxColour colour;          /* colour of its agents in pictures */
-    uint32_t name_number;      /* number of the name in the set of machines; assigned when the
-                                  machine is added */
+    char *name;                       /* of a state within an outer one: "Guard.Walk" */
+    uint8_t depth;                    /* number of outer states around it */
+    uint16_t around[JOX_MOST_LEVELS]; /* their indices in JoxMachine.outer, outermost first */
+    uint16_t start;                   /* of an outer state: state in which its machine begins */
+    bool ends;                        /* the machine that has this state ends in it */
+    uint8_t done;         /* bit per level of an outer state around it: its machine has ended */
+    int8_t goal_level;    /* level of the state from which it has a target "one of" */
+    uint32_t came_from;   /* 1 + slot of memory that holds 1 + index of the state that was left for
+                             this one (0: none); 0: no transition leads back from it */
+    JoxColour colour;     /* colour of its agents in pictures */
+    uint32_t name_number; /* number of the name in the set of machines; assigned when the
+                             machine is added */
+    uint32_t also[9];     /* numbers of its other names, with `:in_state`: "Guard", "Walk" */
+    uint8_t also_count;
     uint32_t first_transition; /* number of its first transition, counted over all states; assigned
                                   likewise */
     JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */
@@ -274,9 +191,11 @@ typedef struct JoxOwnSlot {
     char *name;   /* "speed", "court"; "" for a distribution written in a state */
     JoxDist dist; /* drawn once per agent; groups may override it by name */
     bool is_place;
-    bool kept;                        /* carried over from an earlier version; this version does not
-                                         read it */
-    bool declared;                    /* in the machine's `own`: no group need set it */
+    uint32_t general; /* 1 + slot of the own value of which this is the default within an outer
+                        state; 0: none */
+    bool kept;        /* carried over from an earlier version; this version does not
+                         read it */
+    bool declared;    /* in the machine's `own`: no group need set it */
     int32_t line, column, end_column; /* first use of own.NAME in the source; 0 unknown */
     uint32_t source;                  /* index of that file in the machine's `files` */
 } JoxOwnSlot;
@@ -285,6 +204,7 @@ typedef enum {
     JOX_MEMORY_NUMBER,
     JOX_MEMORY_BOOLEAN,
     JOX_MEMORY_SOMEBODY, /* a person, body or place: see JOX_WHO_BODY */
+    JOX_MEMORY_STATE,    /* 1 + index of a state, 0: none; hidden slots alone */
     JOX_MEMORY_KINDS
 } JoxMemoryKind;
 /* Prefixes that turn the name of memory into the identities of hidden slots: of a counter, turned
@@ -295,6 +215,11 @@ typedef enum {
 #define JOX_IDENTITY_SEEN_X "\4"
 #define JOX_IDENTITY_SEEN_Y "\5"
 #define JOX_LAST_IDENTITY '\5'
+/* Prefixes of the identities of hidden slots of nested machines: state that was left for the named
+   one; tick at which the outer state on a level was entered, and its duration, s. */
+#define JOX_IDENTITY_CAME_FROM "\6"
+#define JOX_IDENTITY_CLOCK "\7"
+#define JOX_IDENTITY_LASTS "\10"
 /* Greatest number of dormant slots of a machine, memory that no name refers to any more; beyond it
    the oldest are dropped. */
 enum { JOX_MOST_DORMANT = 64 };
@@ -315,7 +240,7 @@ typedef struct JoxMemorySlot {
 typedef struct JoxCounter {
     int16_t target;
     int32_t value, angle, begun;
-    int32_t state; /* state in which it counts; -1: all states */
+    int32_t state; /* state in which it counts; -1: all states; else -2 - index of an outer state */
 } JoxCounter;
 
 /* Where an agent last saw what a slot of memory holds. Uses memory slots `who`, for whom the
@@ -372,6 +297,11 @@ typedef struct JoxMachine {
     JoxValue defaults[JOX_PARAM_COUNT];
     JoxState *states;
     uint32_t state_count;
+    JoxState *outer; /* states that run a machine, those around others before them */
+    uint32_t outer_count;
+    uint32_t clock[JOX_MOST_LEVELS]; /* per level: 1 + memory slot of the clock of the outer states
+                                        on it; 0: none */
+    uint32_t lasting[JOX_MOST_LEVELS]; /* likewise of their drawn durations */
     JoxExpression *expressions;
     uint32_t expression_count;
     JoxTarget *targets;
@@ -429,6 +359,24 @@ static inline const char *jox_memory_identity(const JoxMemorySlot *slot) {
 static inline const char *jox_identity_owner(const char *identity) {
     return *identity && *identity <= JOX_LAST_IDENTITY ? identity + 1 : NULL;
 }
+/* Returns the index of an outer state by name, or -1. */
+int jox_machine_outer(const JoxMachine *machine, const char *name);
+/* Returns the state that agents enter by this name: the state itself, or the one in which an outer
+   state's machine begins; -1: none. */
+int jox_machine_entry(const JoxMachine *machine, const char *name);
+/* Returns the state on a level: the outer state around `state`, or `state` itself. */
+static inline const JoxState *jox_state_on_level(const JoxMachine *machine, const JoxState *state,
+                                                 uint32_t level) {
+    return level < state->depth ? &machine->outer[state->around[level]] : state;
+}
+/* Returns whether a state has this name, or is within an outer state that has it. */
+bool jox_state_is_in(const JoxState *state, const char *name);
+/* Returns whether `:in_state` means a state by this name: its whole name, or parts of it. */
+bool jox_state_answers(const JoxState *state, const char *name);
+/* Writes the path of a state's table: "states.Guard.runs.states.Walk". */
+void jox_state_path(const JoxState *state, char path[256]);
+/* Returns whether a counter counts in a state. */
+bool jox_counter_counts(const JoxMachine *machine, const JoxCounter *counter, uint32_t state);
 /* Returns the memory slot of a name, or -1; slots without a name are never found. */
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name);
 /* Returns the slot of an own value by name, or -1; slots without a name are never found. */

@@ -18,7 +18,8 @@ uint32_t jox_op_inputs(JoxOp op) {
     if (op >= JOX_OP_ADD && op <= JOX_OP_OR)
         return 2;
     return op == JOX_OP_NEAR || op == JOX_OP_AFTER || op == JOX_OP_STUCK || op == JOX_OP_INCOMING ||
-           op == JOX_OP_HEARD || op == JOX_OP_EVERY;
+           op == JOX_OP_HEARD || op == JOX_OP_EVERY || op == JOX_OP_OUTER_AFTER ||
+           op == JOX_OP_OUTER_EVERY;
 }
 
 static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
@@ -40,6 +41,10 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
                in->target >= 0);
     JOX_ASSERT(op != JOX_OP_OF || (in->arg >= 0 && in->arg < JOX_NOW_COUNT));
     JOX_ASSERT(op != JOX_OP_SAME || (in->target >= 0 && in->place >= 0));
+    JOX_ASSERT((op != JOX_OP_OUTER_AFTER && op != JOX_OP_OUTER_LASTED && op != JOX_OP_OUTER_TIME &&
+                op != JOX_OP_OUTER_EVERY) ||
+               (uint32_t)in->arg < m->memory_count);
+    JOX_ASSERT(op != JOX_OP_DONE || (in->arg >= 0 && in->arg < JOX_MOST_LEVELS));
 }
 
 /* Asserts that an expression reads only registers it has written, and that its last instruction
@@ -87,6 +92,7 @@ static void check_transitions(const JoxMachine *m, const JoxState *state) {
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         JOX_ASSERT(t->to < m->state_count && is_index(t->when, m->expression_count));
+        JOX_ASSERT(t->level <= state->depth && (k == 0 || t[-1].level <= t->level));
         JOX_ASSERT(t->when < 0 || t->when_hook < 0); /* a condition is an expression or a
                                                         function */
         check_value(m, &t->chance);
@@ -94,7 +100,15 @@ static void check_transitions(const JoxMachine *m, const JoxState *state) {
     }
 }
 
+/* Asserts what is said of the outer states around a state. */
+static void check_levels(const JoxMachine *m, const JoxState *state) {
+    JOX_ASSERT(state->depth <= JOX_MOST_LEVELS && state->came_from <= m->memory_count);
+    for (uint32_t l = 0; l < state->depth; l++)
+        JOX_ASSERT(state->around[l] < m->outer_count && m->outer[state->around[l]].depth == l);
+}
+
 static void check_machine_state(const JoxMachine *m, const JoxState *state) {
+    check_levels(m, state);
     const int16_t targets[] = {state->push_toward, state->face,    state->approach,
                                state->kick,        state->kick_at, state->take,
                                state->toss,        state->toss_at, state->grasp};
@@ -128,6 +142,12 @@ void jox_machine_check(const JoxMachine *m) {
         check_expression(m, &m->expressions[e]);
     for (uint32_t s = 0; s < m->state_count; s++)
         check_machine_state(m, &m->states[s]);
+    for (uint32_t o = 0; o < m->outer_count; o++) {
+        check_machine_state(m, &m->outer[o]);
+        JOX_ASSERT(m->outer[o].start < m->state_count);
+    }
+    for (uint32_t l = 0; l < JOX_MOST_LEVELS; l++)
+        JOX_ASSERT(m->clock[l] <= m->memory_count && m->lasting[l] <= m->memory_count);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         check_value(m, &m->defaults[p]);
     for (uint32_t t = 0; t < m->target_count; t++) {
@@ -151,7 +171,8 @@ void jox_machine_check(const JoxMachine *m) {
     for (uint32_t c = 0; c < m->counter_count; c++) {
         const JoxCounter *counter = &m->counters[c];
         JOX_ASSERT(is_index(counter->target, m->target_count));
-        JOX_ASSERT(is_index(counter->state, m->state_count));
+        JOX_ASSERT(counter->state < -1 ? -2 - counter->state < (int32_t)m->outer_count
+                                       : is_index(counter->state, m->state_count));
         JOX_ASSERT((uint32_t)counter->value < m->memory_count);
         JOX_ASSERT((uint32_t)counter->angle < m->memory_count);
         JOX_ASSERT((uint32_t)counter->begun < m->memory_count);
@@ -236,6 +257,10 @@ static const char *rows_fault(const JoxAgents *a, uint32_t i, const JoxMachine *
         JOX_MUST(jox_own(a, i, s) == 0.0);
     for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
         JOX_MUST(a->memory[(size_t)i * a->memory_stride + s] == 0.0);
+    for (uint32_t s = 0; s < machine->memory_count; s++)
+        JOX_MUST(machine->memory[s].kind != JOX_MEMORY_STATE ||
+                 (a->memory[(size_t)i * a->memory_stride + s] >= 0.0 &&
+                  a->memory[(size_t)i * a->memory_stride + s] <= machine->state_count));
     return NULL;
 }
 
@@ -298,7 +323,8 @@ void jox_taken_check(const JoxMachineRun *run) {
                                                                        agent */
         const JoxState *from = &run->set->items[taken->machine]->states[taken->from];
         JOX_ASSERT(taken->transition < from->transition_count);
-        JOX_ASSERT(from->transitions[taken->transition].to == taken->to);
+        JOX_ASSERT(from->transitions[taken->transition].to == taken->to ||
+                   from->transitions[taken->transition].back);
     }
 }
 

@@ -114,6 +114,12 @@ static inline double jox_time_in_state(const JoxMachineRun *run, uint32_t agent)
     return (double)(run->tick - run->agents->entered[agent]) * run->dt;
 }
 
+/* Returns the time since the tick in a slot of the agent's memory, s. */
+static inline double jox_time_since(const JoxMachineRun *run, uint32_t agent, uint32_t slot) {
+    const JoxAgents *a = run->agents;
+    return (run->tick - a->memory[(size_t)agent * a->memory_stride + slot]) * run->dt;
+}
+
 /* Returns the agent's post (where it entered the world): x and y in its memory. Only for machines
    with `home`. */
 static inline double *jox_home_position(const JoxMachineRun *run, uint32_t agent) {
@@ -344,8 +350,32 @@ void jox_machines_scratch_free(JoxMachineRun *run);
    is reported. */
 float jox_duration_of(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t agent);
-/* Puts an agent into a state: clock, duration, goal, constant parameters. The caller runs hooks. */
+/* Puts an agent into a state, and the outer states around it: clock, duration, goal, constant
+   parameters. The caller runs hooks. */
 void jox_machines_enter(JoxMachineRun *run, uint32_t agent, uint16_t state);
+/* The same by a transition on `level`, which leaves the outer states on lower levels as they are.
+ */
+void jox_machines_enter_level(JoxMachineRun *run, uint32_t agent, uint16_t state, uint32_t level);
+/* Evaluates the duration of the agent's state on a level that an expression gives. */
+void jox_machines_draw_lasts(JoxMachineRun *run, uint32_t agent, uint32_t level);
+/* Returns the time since the agent entered its state, or the outer state on a level, s. */
+static inline double jox_time_on_level(const JoxMachineRun *run, const JoxMachine *machine,
+                                       uint32_t agent, uint32_t level) {
+    return level < machine->states[run->agents->state[agent]].depth
+               ? jox_time_since(run, agent, machine->clock[level] - 1)
+               : jox_time_in_state(run, agent);
+}
+/* Calls a function of the agent's machine, if there is one. */
+void jox_call_hook(JoxMachineRun *run, int32_t hook, JoxHookKind kind, uint32_t agent);
+/* Calls the exit functions of the agent's state and the outer states down to a level. */
+void jox_exit_states(JoxMachineRun *run, uint32_t agent, uint32_t level);
+/* Carries out the entries of the agent's state and the outer states from a level on, outermost
+   first: durations, actions and functions. */
+void jox_complete_entry(JoxMachineRun *run, uint32_t agent, uint32_t level);
+/* Returns the state to which a transition leads the agent. */
+uint16_t jox_destination(const JoxMachineRun *run, const JoxTransition *t, uint32_t agent);
+/* Notes the state that the agent leaves by a transition, for transitions that lead back. */
+void jox_note_left_state(JoxMachineRun *run, const JoxTransition *t, uint32_t agent, uint16_t to);
 /* Writes the parameters of the agent's state that are constants or own values. */
 void jox_machines_write_parameters(JoxMachineRun *run, uint32_t agent);
 /* Returns the parameter as the state sets it, else as the machine does; UNSET if neither does. */

@@ -1,6 +1,7 @@
 /* Replaces a machine by a new version while agents are in it (a reload). A plan with all
    comparisons by name is prepared beforehand on any thread; the swap then touches an agent only
    where something differs. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,7 +45,7 @@ struct JoxReplacement {
 /* Returns the state of `next` that continues `name`, or -1. */
 static int find_next_state(const JoxMachine *next, const char *name) {
     const char *now = jox_machine_renamed(next, JOX_PART_STATE, name);
-    return jox_machine_state(next, now ? now : name);
+    return jox_machine_entry(next, now ? now : name);
 }
 
 /* Returns the old slot that continues as next->own[slot], or -1. Slots without a name are matched
@@ -142,7 +143,8 @@ static void map_state(JoxReplacement *r, uint32_t from) {
     for (uint32_t k = 0; k < JOX_MOST_TRANSITIONS; k++) {
         r->truth[from][k] = -1;
         for (uint32_t o = 0; k < is->transition_count && o < was->transition_count; o++)
-            if (strcmp(was->transitions[o].id, is->transitions[k].id) == 0)
+            if (strcmp(was->transitions[o].id, is->transitions[k].id) == 0 &&
+                was->transitions[o].level == is->transitions[k].level)
                 r->truth[from][k] = (int8_t)o;
         r->truth_moves[from] |= k < is->transition_count && r->truth[from][k] != (int8_t)k;
     }
@@ -172,6 +174,8 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
     map_slots(r, seed);
     for (uint32_t s = 0; s < states; s++)
         map_state(r, s);
+    for (uint32_t s = 0; s < next->memory_count && r->states_move; s++)
+        r->memory_moves |= next->memory[s].kind == JOX_MEMORY_STATE;
     return r;
 }
 
@@ -215,9 +219,10 @@ const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index, const
         char agents[JOX_NOUN];
         snprintf(why, size,
                  "%s in '%s', which this version lacks. Name the state that they go on in: "
-                 "renamed = { %s = \"...\" }",
+                 "renamed = { %s%s%s = \"...\" }",
                  jox_noun(agents, people[s], "agent is|agents are"), old->states[s].name,
-                 old->states[s].name);
+                 old->states[s].depth ? "[\"" : "", old->states[s].name,
+                 old->states[s].depth ? "\"]" : "");
         return why;
     }
     return NULL;
@@ -251,11 +256,34 @@ static void redraw_own(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) 
         uint32_t s = r->redrawn[d];
         if (s < 64 && (given >> s & 1))
             continue;
+        const uint32_t general = r->next->own[s].general;
+        if (general && general <= 64 && (given >> (general - 1) & 1)) {
+            jox_own_set(a, i, s, jox_own(a, i, general - 1));
+            a->given[i] |= s < 64 ? (uint64_t)1 << s : 0;
+            continue;
+        }
         jox_own_set(a, i, s,
                     id < r->drawn_count
                         ? drawn[d]
                         : jox_dist_draw(&r->next->own[s].dist, run->seed, id, 0, JOX_DRAW_OWN, s));
     }
+}
+
+/* Returns the value of a slot that continues: a state is that which continues it, or 0. */
+static double carry_slot(const JoxReplacement *r, uint32_t slot, double was) {
+    if (r->next->memory[slot].kind != JOX_MEMORY_STATE)
+        return was;
+    const bool known = was >= 1.0 && was <= r->old->state_count;
+    return known && r->state[(uint32_t)was - 1] >= 0 ? 1.0 + r->state[(uint32_t)was - 1] : 0.0;
+}
+
+/* Returns the value of a slot that begins at the reload. An outer state that is put around the
+   agent's state was entered with it, and lasts for ever, as a state that has no duration yet. */
+static double begin_slot(const JoxMachineRun *run, const JoxMemorySlot *slot, uint32_t i) {
+    const char *identity = jox_memory_identity(slot);
+    return *identity == *JOX_IDENTITY_CLOCK   ? run->agents->entered[i]
+           : *identity == *JOX_IDENTITY_LASTS ? INFINITY
+                                              : slot->initial;
 }
 
 /* Moves an agent's memory to its new slots; new memory gets its initial value. */
@@ -264,7 +292,8 @@ static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i
     double *memory = a->memory + (size_t)i * a->memory_stride;
     memcpy(r->before, memory, r->old->memory_count * sizeof *memory);
     for (uint32_t s = 0; s < r->next->memory_count; s++)
-        memory[s] = r->memory[s] >= 0 ? r->before[r->memory[s]] : r->next->memory[s].initial;
+        memory[s] = r->memory[s] >= 0 ? carry_slot(r, s, r->before[r->memory[s]])
+                                      : begin_slot(run, &r->next->memory[s], i);
     if (r->next->home && r->memory[r->next->home - 1] < 0)
         jox_set_home_post(run, i); /* first version with a post */
 }

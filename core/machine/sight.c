@@ -118,6 +118,15 @@ double jox_public_memory(const JoxMachineRun *run, uint32_t agent, uint32_t name
     return NAN;
 }
 
+/* Returns whether a state has the name with this number, or is within an outer state that has it.
+ */
+static bool has_name(const JoxState *state, uint32_t number) {
+    bool also = false;
+    for (uint32_t n = 0; n < state->also_count; n++)
+        also |= state->also[n] == number;
+    return also || state->name_number == number;
+}
+
 /* Names are those of agent i's machine. */
 static bool passes_names(const JoxMachineRun *run, const JoxAgentFilter *filter, uint32_t i,
                          uint32_t j) {
@@ -133,8 +142,7 @@ static bool passes_names(const JoxMachineRun *run, const JoxAgentFilter *filter,
     const JoxMachine *machine = jox_machine_of(run, j);
     if (filter->machine >= 0 && machine->name_number != names[filter->machine].number)
         return false;
-    if (filter->state >= 0 &&
-        machine->states[a->state[j]].name_number != names[filter->state].number)
+    if (filter->state >= 0 && !has_name(&machine->states[a->state[j]], names[filter->state].number))
         return false;
     if (filter->memory < 0)
         return true;

@@ -56,27 +56,53 @@ void jox_machines_announce(JoxMachineRun *run, uint32_t name) {
     run->state->announced[run->state->announced_count++] = name;
 }
 
+/* Returns the name of the signal that the agent's state, or the outer state on a level, repeats in
+   this step; -1: none. Entering gave the first one. */
+static int32_t find_repeated_signal(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
+                                    uint32_t level) {
+    const JoxState *state = &machine->states[run->agents->state[i]];
+    const JoxState *on = jox_state_on_level(machine, state, level);
+    const double every = on->signal_every;
+    if (!(every > 0.0))
+        return -1;
+    const double time = jox_time_on_level(run, machine, i, level);
+    const bool due = floor(time / every + 1e-9) > floor((time - run->dt) / every + 1e-9);
+    return due && time > 0.0 ? on->enters.signal : -1;
+}
+
+static bool repeats_signals(const JoxMachine *machine, const JoxState *state) {
+    bool repeats = state->signal_every > 0.0;
+    for (uint32_t l = 0; l < state->depth; l++)
+        repeats |= machine->outer[state->around[l]].signal_every > 0.0;
+    return repeats;
+}
+
 void jox_machines_repeat_signals(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
     s->list_count = 0;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        const JoxState *state = &run->set->items[batch->machine]->states[batch->state];
-        for (uint32_t n = 0; state->signal_every > 0.0 && n < batch->count; n++) {
-            uint32_t i = s->grouped[batch->begin + n];
-            double time = jox_time_in_state(run, i), every = state->signal_every;
-            if (floor(time / every + 1e-9) > floor((time - run->dt) / every + 1e-9))
+        const JoxMachine *machine = run->set->items[batch->machine];
+        const JoxState *state = &machine->states[batch->state];
+        for (uint32_t n = 0; repeats_signals(machine, state) && n < batch->count; n++) {
+            const uint32_t i = s->grouped[batch->begin + n];
+            int32_t name = -1;
+            for (uint32_t l = 0; name < 0 && l <= state->depth; l++)
+                name = find_repeated_signal(run, machine, i, l);
+            if (name >= 0)
                 s->list[s->list_count++] = i;
         }
     }
     jox_sort_by_id(run, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
-        uint32_t i = s->list[n];
+        const uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(run, i);
-        const JoxState *state = &machine->states[a->state[i]];
-        if (jox_time_in_state(run, i) > 0.0) /* entering gave the first one */
-            jox_machines_call(run, i, machine->names[state->enters.signal].number);
+        for (uint32_t l = 0; l <= machine->states[a->state[i]].depth; l++) {
+            const int32_t name = find_repeated_signal(run, machine, i, l);
+            if (name >= 0)
+                jox_machines_call(run, i, machine->names[name].number);
+        }
     }
 }
 

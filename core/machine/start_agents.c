@@ -2,11 +2,32 @@
    another machine. */
 #include "machine/run.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "machine/machine_parts.h"
+
+/* Numbers the names of a state within outer ones that are parts of its whole name: of "A.B.C" these
+   are A, A.B, B, B.C and C. */
+static void number_other_names(JoxMachineRun *run, JoxState *state) {
+    const char *begin = state->name;
+    state->also_count = 0;
+    for (uint32_t first = 0; first <= state->depth && state->depth > 0; first++) {
+        const char *end = begin;
+        for (uint32_t last = first; last <= state->depth; last++) {
+            char part[256];
+            end += strcspn(end, ".");
+            snprintf(part, sizeof part, "%.*s", (int)(end - begin), begin);
+            if (first > 0 || last < state->depth)
+                state->also[state->also_count++] = jox_machines_name(run, part);
+            end += *end == '.';
+        }
+        begin += strcspn(begin, ".") + 1;
+    }
+    JOX_ASSERT(state->also_count <= sizeof state->also / sizeof *state->also);
+}
 
 /* Assigns the numbers of names, unique in the set, and of transitions, unique in the machine. */
 static void assign_numbers(JoxMachineRun *run, JoxMachine *machine) {
@@ -19,6 +40,7 @@ static void assign_numbers(JoxMachineRun *run, JoxMachine *machine) {
             machine->memory[s].name_number = jox_machines_name(run, machine->memory[s].name);
     for (uint32_t s = 0; s < machine->state_count; s++) {
         machine->states[s].name_number = jox_machines_name(run, machine->states[s].name);
+        number_other_names(run, &machine->states[s]);
         machine->states[s].first_transition = transitions;
         transitions += machine->states[s].transition_count;
     }
@@ -89,6 +111,9 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
         draw_own(run, agent, s, overrides_slot(own, s) ? own[s] : &kind->own[s].dist);
     for (uint32_t s = kind->own_count; s < a->own_count; s++)
         jox_own_set(a, agent, s, 0.0);
+    for (uint32_t s = 0; s < kind->own_count; s++) /* what the scene gives holds in all states */
+        if (kind->own[s].general && overrides_slot(own, kind->own[s].general - 1))
+            jox_own_set(a, agent, s, jox_own(a, agent, kind->own[s].general - 1));
     for (uint32_t s = 0; s < kind->memory_count; s++) {
         double value = kind->memory[s].initial;
         if (overrides_slot(memory, s))
@@ -113,8 +138,8 @@ static void enter_between_steps(JoxMachineRun *run, uint32_t agent, uint16_t to)
     run->spawning = true;
     jox_machines_enter(run, agent, to);
     run->spawning = false;
-    if (state->on_enter < 0 && state->lasts_expression < 0 && !does->set_count &&
-        does->signal < 0 && !does->tell)
+    if (state->depth == 0 && state->on_enter < 0 && state->lasts_expression < 0 &&
+        !does->set_count && does->signal < 0 && !does->tell)
         return;
     JOX_RESERVE(pending->pending, pending->pending_capacity, pending->pending_count + 1);
     pending->pending[pending->pending_count++] = run->agents->id[agent];
@@ -129,7 +154,9 @@ float jox_machines_birth_radius(const JoxMachineRun *run, uint32_t id, uint32_t 
     if (value->kind == JOX_VALUE_CONST)
         radius = value->number;
     if (value->kind == JOX_VALUE_OWN) {
-        const uint32_t slot = (uint32_t)value->index;
+        const uint32_t general = kind->own[value->index].general;
+        const bool follows = general && overrides_slot(own, general - 1);
+        const uint32_t slot = follows ? general - 1 : (uint32_t)value->index;
         const JoxDist *dist = overrides_slot(own, slot) ? own[slot] : &kind->own[slot].dist;
         radius = jox_dist_draw(dist, run->seed, id, 0, JOX_DRAW_OWN, slot);
     }
@@ -145,7 +172,10 @@ void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
         a->machine[agent] = (uint16_t)machine;
     draw_values(run, agent, kind, own, memory);
     for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
-        a->given[agent] |= own[s] ? (uint64_t)1 << s : 0;
+        a->given[agent] |=
+            own[s] || (kind->own[s].general && overrides_slot(own, kind->own[s].general - 1))
+                ? (uint64_t)1 << s
+                : 0;
     for (JoxParameter p = 0; p < JOX_PARAM_COUNT; p++) /* for parameters that are computed in the
                                                           step */
         if (jox_state_parameter(kind, &kind->states[kind->start], p)->kind == JOX_VALUE_EXPRESSION)
@@ -159,15 +189,20 @@ static bool is_carried_along(const JoxAgents *a, uint32_t i, const JoxOwnSlot *s
                              uint32_t number) {
     int parameter = jox_parameter_find(slot->name);
     bool given = number < 64 && (a->given[i] >> number & 1);
-    return *slot->name &&
-           (given || parameter < 0 || parameter == JOX_PARAM_radius || parameter == JOX_PARAM_mass);
+    return *slot->name && (given || (parameter < 0 && !slot->general) ||
+                           parameter == JOX_PARAM_radius || parameter == JOX_PARAM_mass);
 }
 
 void jox_machines_set_own(JoxMachineRun *run, uint32_t i, uint32_t slot, double value) {
     JoxAgents *a = run->agents;
     JOX_ASSERT(slot < jox_machine_of(run, i)->own_count);
-    jox_own_set(a, i, slot, value);
-    a->given[i] |= slot < 64 ? (uint64_t)1 << slot : 0;
+    const JoxMachine *machine = jox_machine_of(run, i);
+    for (uint32_t s = 0; s < machine->own_count; s++) {
+        if (s != slot && machine->own[s].general != slot + 1)
+            continue;
+        jox_own_set(a, i, s, value);
+        a->given[i] |= s < 64 ? (uint64_t)1 << s : 0;
+    }
     jox_machines_write_parameters(run, i);
 }
 
@@ -193,6 +228,9 @@ void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
                 own[n] = &kept[n];
                 given |= n < 64 ? (uint64_t)1 << n : 0;
             }
+    for (uint32_t n = 0; n < next->own_count && n < 64; n++)
+        if (next->own[n].general && overrides_slot(own, next->own[n].general - 1))
+            given |= (uint64_t)1 << n;
     for (uint32_t n = 0; n < next->memory_count && n < JOX_MOST_GIVEN; n++)
         for (uint32_t o = 0; o < old->memory_count; o++)
             if (*next->memory[n].name && !strcmp(old->memory[o].name, next->memory[n].name) &&

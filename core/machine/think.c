@@ -84,7 +84,7 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
     const JoxState *state = &machine->states[batch->state];
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     for (uint32_t c = 0; c < machine->counter_count; c++)
-        if (machine->counters[c].state < 0 || machine->counters[c].state == batch->state)
+        if (jox_counter_counts(machine, &machine->counters[c], batch->state))
             count_circuits_of_batch(run, machine, &machine->counters[c], agents, batch->count);
     int32_t known = -1;   /* expression whose result is in register 0 */
     uint32_t nobodys = 0; /* bits of the conditions that are false for all agents */
@@ -171,27 +171,17 @@ static void evaluate_function_conditions(JoxMachineRun *run) {
     }
 }
 
-/* Calls a hook of the agent's machine, if there is one. */
-static void call_hook(JoxMachineRun *run, int32_t hook, JoxHookKind kind, uint32_t agent) {
-    double unused[2] = {0.0, 0.0};
-    if (hook >= 0 && run->call)
-        run->call(run->call_context, jox_machine_of(run, agent), hook, kind, agent, unused);
-}
-
-/* Enters a state: actions and hook, then the switch to another machine if the state says so. */
-static void enter_state(JoxMachineRun *run, uint32_t i, uint16_t to) {
-    const JoxMachine *machine = jox_machine_of(run, i);
-    const JoxState *state = &machine->states[to];
-    jox_machines_enter(run, i, to);
-    jox_actions_do(run, machine, &state->enters, i);
-    call_hook(run, state->on_enter, JOX_HOOK_ENTER, i);
+/* Enters a state by a transition on a level: actions and functions, then the switch to another
+   machine if the state says so. */
+static void enter_state(JoxMachineRun *run, uint32_t i, uint16_t to, uint32_t level) {
+    const JoxState *state = &jox_machine_of(run, i)->states[to];
+    jox_machines_enter_level(run, i, to, level);
+    jox_complete_entry(run, i, level);
     if (state->become_machine < 0)
         return;
     JOX_ASSERT((uint32_t)state->become_machine < run->set->count);
     jox_machines_become(run, i, (uint32_t)state->become_machine);
-    machine = jox_machine_of(run, i); /* a start state cannot switch machines again */
-    jox_actions_do(run, machine, &machine->states[machine->start].enters, i);
-    call_hook(run, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
+    jox_complete_entry(run, i, 0); /* a start state cannot switch machines again */
 }
 
 /* Lists the agents that take a transition. Blocks without any are skipped, as few agents do in a
@@ -224,7 +214,7 @@ static bool is_still_due(const JoxMachineRun *run, const JoxMachine *machine,
 static void do_item(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
                     uint32_t i) {
     jox_actions_do(run, machine, &t->does, i);
-    call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
+    jox_call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
     if (jox_asks_for_messages(machine, t->when))
         jox_messages_use(run, machine, t->when, i);
 }
@@ -277,15 +267,17 @@ static void take_transitions(JoxMachineRun *run) {
         if (!is_still_due(run, machine, t, i))
             continue;
         run->state->counts[a->machine[i]].taken[from->first_transition + (uint32_t)s->fired[i]]++;
+        const uint16_t to = jox_destination(run, t, i);
         run->taken[run->taken_count++] =
-            (JoxTaken){a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)s->fired[i]};
+            (JoxTaken){a->id[i], a->machine[i], a->state[i], to, (uint16_t)s->fired[i]};
         if (run->traces && a->id[i] == run->trace_id)
             jox_machines_explain(run, &run->taken[run->taken_count - 1], &run->trace);
         if (run->watched_count)
             jox_watch_taken(run, &run->taken[run->taken_count - 1]);
-        call_hook(run, from->on_exit, JOX_HOOK_EXIT, i);
+        jox_exit_states(run, i, t->level);
         do_item(run, machine, t, i);
-        enter_state(run, i, t->to);
+        jox_note_left_state(run, t, i, to);
+        enter_state(run, i, to, t->level);
     }
 }
 
@@ -296,14 +288,8 @@ static void complete_entries(JoxMachineRun *run) {
     JoxAgents *a = run->agents;
     for (uint32_t n = 0; n < pending->pending_count; n++) {
         uint32_t i = jox_agents_find(a, pending->pending[n]);
-        if (i == JOX_NO_INDEX)
-            continue;
-        const JoxMachine *machine = jox_machine_of(run, i);
-        const JoxState *state = &machine->states[a->state[i]];
-        if (state->lasts_expression >= 0)
-            a->lasts[i] = jox_duration_of(run, machine, state, i);
-        jox_actions_do(run, machine, &state->enters, i);
-        call_hook(run, state->on_enter, JOX_HOOK_ENTER, i);
+        if (i != JOX_NO_INDEX)
+            jox_complete_entry(run, i, 0);
     }
     pending->pending_count = 0;
 }

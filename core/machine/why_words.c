@@ -359,6 +359,14 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
     case JOX_OP_LASTED:
         set_measure(term, jox_time_in_state(run, i), ">=", (double)agents->lasts[i], "s");
         break;
+    case JOX_OP_OUTER_AFTER:
+        set_measure(term, jox_time_since(run, i, (uint32_t)in->arg), ">=", a, "s");
+        break;
+    case JOX_OP_OUTER_LASTED:
+        set_measure(term, jox_time_since(run, i, (uint32_t)in->arg),
+                    ">=", agents->memory[(size_t)i * agents->memory_stride + (uint32_t)in->number],
+                    "s");
+        break;
     case JOX_OP_STUCK:
         set_measure(term, (double)agents->still[i], ">=", a, "s");
         jox_text_add(&term->note, "time without moving 0.25 m");

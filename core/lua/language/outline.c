@@ -27,6 +27,14 @@ static void add_path(JoxOutline *outline, const char *path, size_t key, size_t f
         (JoxPath){jox_strdup(path), (uint32_t)key, (uint32_t)first, (uint32_t)last};
 }
 
+/* Returns whether machine { begins at token `i`. */
+static bool begins_machine(const JoxSource *source, size_t i) {
+    return i + 2 < source->token_count && jox_token_is(&source->tokens[i], "machine") &&
+           jox_token_is(&source->tokens[i + 1], "{");
+}
+
+enum { DEEPEST = 16 }; /* levels of tables */
+
 /* Adds the keys of the table constructor that opens at token `at`; returns the token after it. */
 static size_t outline_table(const JoxSource *source, size_t at, const char *prefix, int level) {
     JoxOutline *outline = source->outline;
@@ -58,8 +66,9 @@ static size_t outline_table(const JoxSource *source, size_t at, const char *pref
         }
         if (key < end) /* else nothing stands between two commas, a syntax error */
             add_path(outline, path, key, value, end);
-        if (value < count && jox_token_is(&t[value], "{") && level < 6)
-            outline_table(source, value, path, level + 1);
+        const bool table = value < count && jox_token_is(&t[value], "{");
+        if (level < DEEPEST && (table || begins_machine(source, value)))
+            outline_table(source, table ? value : value + 1, path, level + 1);
         at = end < count && jox_token_is(&t[end], "}") ? end : end + 1;
     }
     return at + 1;
@@ -73,18 +82,62 @@ static bool begins_patch(const JoxSource *source, size_t i) {
            t[1].kind == JOX_TOKEN_STRING && jox_token_is(&t[2], "{");
 }
 
+/* Adds the tables of machines that states run, under the numbers of their tokens. */
+static void outline_machines(JoxSource *source, size_t main) {
+    enum { MOST = 64 };
+    size_t count = 0;
+    for (size_t i = 0; i < source->token_count && count < MOST; i++) {
+        char root[24];
+        if (i == main || !begins_machine(source, i))
+            continue;
+        snprintf(root, sizeof root, "#%zu", i);
+        add_path(source->outline, root, i, i + 1, i + 2);
+        outline_table(source, i + 1, root, 0);
+        count++;
+    }
+}
+
+/* Returns the token of the table that the file returns: the last machine, patch or replacement that
+   is not within another; the number of tokens if there is none. */
+static size_t find_main_table(const JoxSource *source) {
+    size_t found = source->token_count;
+    int depth = 0, least = 0;
+    for (size_t i = 0; i < source->token_count; i++) {
+        if ((begins_machine(source, i) || begins_patch(source, i)) &&
+            (found == source->token_count || depth <= least)) {
+            found = i;
+            least = depth;
+        }
+        depth += get_depth_change(&source->tokens[i]);
+    }
+    return found;
+}
+
 /* Makes the outline of a source from its tokens. */
 static void read_outline(JoxSource *source) {
     JOX_ASSERT(!source->outline);
     JoxOutline *outline = source->outline = jox_alloc(1, sizeof *outline);
-    for (size_t i = source->token_count; i-- > 0;) /* backwards, as the file ends with it */
-        if (i + 2 < source->token_count && ((jox_token_is(&source->tokens[i], "machine") &&
-                                             jox_token_is(&source->tokens[i + 1], "{")) ||
-                                            begins_patch(source, i))) {
-            outline->patches = begins_patch(source, i) ? &source->tokens[i + 1] : NULL;
-            outline_table(source, i + (outline->patches ? 2 : 1), "", 0);
-            break;
-        }
+    size_t main = find_main_table(source);
+    if (main == source->token_count)
+        return;
+    outline->main = main;
+    outline->patches = begins_patch(source, main) ? &source->tokens[main + 1] : NULL;
+    outline_table(source, main + (outline->patches ? 2 : 1), "", 0);
+    outline_machines(source, main);
+}
+
+bool jox_outline_root(const JoxSource *source, int line, int column, char root[24]) {
+    const JoxOutline *outline = jox_outline_of(source);
+    for (size_t i = 0; i < source->token_count; i++) {
+        const JoxToken *t = &source->tokens[i];
+        if (t->line != line || t->column != column)
+            continue;
+        snprintf(root, 24, "#%zu", i);
+        if (i == outline->main)
+            *root = 0;
+        return i == outline->main || jox_outline_find(source, root);
+    }
+    return false;
 }
 
 void jox_outline_free(JoxSource *source) {

@@ -26,6 +26,7 @@ typedef struct JoxPath {
 typedef struct JoxOutline {
     JoxPath *paths;
     size_t path_count, path_capacity;
+    size_t main;             /* token of the table that the file returns */
     const JoxToken *patches; /* in a mod's file: the name of the behaviour it changes */
     JoxSyntax *syntax;       /* NULL until jox_outline_syntax makes it */
 } JoxOutline;
@@ -42,6 +43,9 @@ void jox_outline_free(JoxSource *source);
 JoxPosition jox_outline_at(const JoxSource *source, const char *path);
 /* Returns the entry of a path, or NULL. */
 const JoxPath *jox_outline_find(const JoxSource *source, const char *path);
+/* Writes the path under which the outline has the table of the machine that is written at a
+   position: "" for the one that the file ends with; false if it is not found. */
+bool jox_outline_root(const JoxSource *source, int line, int column, char root[24]);
 /* Names, in each diagnostic of the source, the part of the machine's table that it is in. */
 void jox_outline_contexts(const JoxSource *source, JoxDiagnostics *diagnostics);
 /* Returns the first token where a function on these lines, or one nested in it, assigns one of the
@@ -68,6 +72,7 @@ typedef enum {
     JOX_NODE_MACHINE,
     JOX_NODE_PATCH,   /* in a mod: a table that changes another file's machine */
     JOX_NODE_REPLACE, /* in a mod: a table that replaces another file's machine */
+    JOX_NODE_BACK,    /* in a transition's `to`: the state that was left */
     JOX_NODE_NONE,    /* in a patch: removes a key */
     JOX_NODE_LAYER,   /* in a patch: a function that extends the one before it; `op` is its JoxLayer
                        */
@@ -113,9 +118,12 @@ struct JoxNode {
     JoxNode *weight;
     JoxNode *next;    /* next term of a sum of steerings */
     int32_t compiled; /* 1 + index of the expression that it was compiled to; 0: not yet */
-    int hook;         /* registry reference of the function or table it holds, or LUA_NOREF */
+    uint32_t
+        compiled_in; /* scope of that (JoxBuild.scope), as clocks and own values depend on it */
+    int hook;        /* registry reference of the function or table it holds, or LUA_NOREF */
     JoxPosition position;
-    JoxNamePlace written; /* where the name of an own value, state or memory is written */
+    JoxNamePlace written; /* where the name of an own value, state or memory, or the word `machine`,
+                             is written */
 };
 
 /* ---- kinds of values, and calls while a file loads ---- */

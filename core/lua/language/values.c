@@ -69,6 +69,7 @@ static int make_machine(lua_State *L) {
         return jox_word_error(L, "machine", "bad-argument",
                               "machine { name = ..., states = { ... } }", "machine takes a table");
     JoxNode *node = jox_node_push(L, JOX_NODE_MACHINE);
+    node->written = jox_word_place(L, "machine");
     lua_pushvalue(L, 1);
     node->hook = luaL_ref(L, LUA_REGISTRYINDEX);
     return 1;
@@ -288,6 +289,8 @@ void jox_values_add(lua_State *L) {
     lua_setfield(L, -2, "replace");
     jox_node_push(L, JOX_NODE_NONE);
     lua_setfield(L, -2, "none");
+    jox_node_push(L, JOX_NODE_BACK);
+    lua_setfield(L, -2, "back");
     add_object(L, NULL, "jostle memory", memory_index);
     add_object(L, "now", "jostle now", now_index);
     add_object(L, "own", "jostle own", own_index);

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/format/name.h"
 #include "base/mem.h"
 #include "base/number/statistics.h"
 #include "record/probes/probe_parts.h"
@@ -63,7 +64,9 @@ static void take_transit_frame(const JoxProbeDef *def, void *state, const JoxFra
 }
 
 static uint8_t classify_state(const JoxProbeDef *def, const char *name) {
-    return strcmp(name, def->states[0]) == 0 ? 1 : strcmp(name, def->states[1]) == 0 ? 2 : 0;
+    return jox_name_is_within(name, def->states[0])   ? 1
+           : jox_name_is_within(name, def->states[1]) ? 2
+                                                      : 0;
 }
 
 /* Takes a frame of the probe `visit`: notes who enters the first state and who completes a visit

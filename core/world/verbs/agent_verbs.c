@@ -156,7 +156,7 @@ bool jox_perform_state(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
     const JoxMachine *machine = i == JOX_NO_INDEX ? NULL : get_machine(world, i, why);
     if (!machine)
         return false;
-    int state = jox_machine_state(machine, entry->names[0]);
+    int state = jox_machine_entry(machine, entry->names[0]);
     if (state >= 0) {
         update_machines(world);
         jox_machines_set_state(&world->machines, i, (uint16_t)state);

@@ -1,0 +1,59 @@
+/* Names and paths of states, and of the outer states around them, which run machines of their own.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/format/name.h"
+#include "machine/machine.h"
+
+int jox_machine_state(const JoxMachine *machine, const char *name) {
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (strcmp(machine->states[s].name, name) == 0)
+            return (int)s;
+    return -1;
+}
+
+int jox_machine_outer(const JoxMachine *machine, const char *name) {
+    for (uint32_t o = 0; o < machine->outer_count; o++)
+        if (strcmp(machine->outer[o].name, name) == 0)
+            return (int)o;
+    return -1;
+}
+
+int jox_machine_entry(const JoxMachine *machine, const char *name) {
+    const int state = jox_machine_state(machine, name),
+              outer = state < 0 ? jox_machine_outer(machine, name) : -1;
+    return outer < 0 ? state : machine->outer[outer].start;
+}
+
+bool jox_state_is_in(const JoxState *state, const char *name) {
+    return state->depth > 0 ? jox_name_is_within(state->name, name)
+                            : strcmp(state->name, name) == 0;
+}
+
+bool jox_state_answers(const JoxState *state, const char *name) {
+    bool answers = strcmp(state->name, name) == 0;
+    for (const char *part = state->name; part && !answers && state->depth > 0;) {
+        answers = jox_name_is_within(part, name);
+        part = strchr(part, '.');
+        part = part ? part + 1 : NULL;
+    }
+    return answers;
+}
+
+void jox_state_path(const JoxState *state, char path[256]) {
+    int n = snprintf(path, 256, "states.");
+    for (const char *c = state->name; *c && n < 255; c++)
+        if (*c == '.' && state->depth > 0)
+            n += snprintf(path + n, 256 - (size_t)n, ".runs.states.");
+        else
+            n += snprintf(path + n, 256 - (size_t)n, "%c", *c);
+}
+
+bool jox_counter_counts(const JoxMachine *machine, const JoxCounter *counter, uint32_t state) {
+    const JoxState *is = &machine->states[state];
+    bool within = false;
+    for (uint32_t l = 0; l < is->depth; l++)
+        within |= counter->state == -2 - (int32_t)is->around[l];
+    return within || counter->state == -1 || counter->state == (int32_t)state;
+}
