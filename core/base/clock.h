@@ -8,6 +8,9 @@
 double jox_clock_wall(void);
 double jox_clock_cpu(void);
 double jox_clock_thread(void);
+/* Returns how long a call of jox_clock_thread takes, s, the least of a few: to be taken off short
+   times between two of them. */
+double jox_clock_thread_cost(void);
 /* The date: s since 1970-01-01 UTC. */
 double jox_clock_date(void);
 

@@ -20,6 +20,13 @@ bool jox_lua_is_timed(uint64_t call) {
     return call < TIMED || call * UINT64_C(0x9e3779b97f4a7c15) >> (64 - TIMED_BITS) == 0;
 }
 
+/* Returns the time since `begun`, s, without that of reading the clock, which takes longer than a
+   short function. */
+static double get_time_since(const JoxLua *lua, double begun) {
+    const double took = jox_clock_thread() - begun - lua->clock_cost;
+    return took > 0.0 ? took : 0.0;
+}
+
 /* Reads the result of `when` or `steer`; returns NULL, or what is wrong with it. */
 static const char *read_result(lua_State *L, JoxHookKind kind, double result[2]) {
     if (kind == JOX_HOOK_WHEN) {
@@ -98,11 +105,11 @@ static void call_within(lua_State *L, JoxScript *script, int32_t number, double 
     if (why)
         luaL_error(L, "%s", why);
     lua_pop(L, 2);
-    const double took = timed ? jox_clock_thread() - begun : 0.0;
+    const double took = timed ? get_time_since(script->owner, begun) : 0.0;
     if (first || counted)
         *(first ? &hook->first : &hook->seconds) += took - script->nested;
     hook->timed += counted;
-    script->nested = nested + took;
+    script->nested = nested + took + (timed ? 2.0 * script->owner->clock_cost : 0.0);
     script->running = outer;
 }
 
@@ -237,7 +244,7 @@ static bool call_function(JoxLua *lua, JoxScript *script, int32_t number, double
         why = changed;
     }
     if (timed) {
-        const double took = jox_clock_thread() - begun;
+        const double took = get_time_since(lua, begun);
         *(first ? &hook->first : &hook->seconds) += took - script->nested;
         hook->timed += !first;
         lua->arriving += lua->machines->spawning ? (first ? 1.0 : TIMED_ONE_IN) * took : 0.0;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/mem.h"
 #include "lua/language/script.h"
 #include "lua/loader.h"
@@ -13,6 +14,7 @@
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
     JOX_ASSERT(!machines || machines->agents);
     lua->machines = machines;
+    lua->clock_cost = jox_clock_thread_cost();
     lua->group.say = complain;
     lua->group.say_context = context;
 }

@@ -277,7 +277,8 @@ struct JoxLua {
     uint32_t script_count;
     size_t script_capacity;
     JoxMachineRun *machines;
-    double arriving; /* estimated time of functions as agents arrive, outside of steps, s */
+    double clock_cost; /* time of reading the clock, s */
+    double arriving;   /* estimated time of functions as agents arrive, outside of steps, s */
     /* Columns of all agents before the step, which views of neighbours read. */
     uint16_t *before_state, *before_machine;
     double *before_memory;
