@@ -394,6 +394,7 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
                         "Example: throw = { nearest \"ball\", at = goal, speed = 6 }",
                         "throw needs `at`, a target");
     state->take = jox_read_mover(b, index, path, "take");
+    state->drop = jox_read_mover(b, index, path, "drop");
     state->grasp = jox_read_mover(b, index, path, "grasp");
     read_grip(b, index, path, state);
     read_become(b, index, path, state);

@@ -68,7 +68,8 @@ static void check_exits(JoxBuild *b) {
     const JoxMachine *m = b->machine;
     for (uint32_t s = 0; s < m->state_count && m->state_count > 1; s++) {
         const JoxState *state = &m->states[s];
-        bool stands = state->steer_count == 1 && state->steer[0].kind == JOX_STEER_HOLD;
+        bool stands = state->steer_count == 1 && (state->steer[0].kind == JOX_STEER_HOLD ||
+                                                  state->steer[0].kind == JOX_STEER_GATHER);
         char path[256];
         jox_state_path(state, path);
         if (!has_way_out(state) && !state->removes && !state->become && !stands &&

@@ -181,9 +181,10 @@ static JoxPosition locate_value(JoxBuild *b, const char *path) {
     return (JoxPosition){source->path, t->line, t->column, t->end_column};
 }
 
-/* Returns whether an item does anything besides leading to a state. */
-static bool does_something(const JoxTransition *t) {
-    return t->does.set_count || t->does.signal >= 0 || t->does.tell || t->does.sets_team ||
+/* Returns whether an item does anything besides leading to a state; one that rests on messages uses
+   them up. */
+static bool does_something(const JoxMachine *m, const JoxTransition *t) {
+    return jox_asks_for_messages(m, t->when) || t->does.set_count || t->does.signal >= 0 || t->does.tell || t->does.sets_team ||
            t->does.sets_tags || t->on_take >= 0;
 }
 
@@ -304,7 +305,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
         t->chance = jox_read_parameter(b, full, &chance);
     jox_read_actions(b, index, path, &t->does, NULL);
     t->on_take = jox_read_hook(b, index, path, "on_take");
-    if (t->stays && !does_something(t))
+    if (t->stays && !does_something(b->machine, t))
         jox_build_error(b, jox_read_at(b, path), "missing-key",
                         "Example: { to = \"Exit\", when = after(5) }",
                         "an item needs `to`, the name of a state, or something to do: set, tell, "

@@ -180,6 +180,7 @@ static bool sets_key(const JoxState *state, const char *key) {
                 {"approach", state->approach >= 0},
                 {"kick", state->kick >= 0},
                 {"take", state->take >= 0},
+                {"drop", state->drop >= 0},
                 {"throw", state->toss >= 0},
                 {"become", state->become != NULL},
                 {"on_enter", state->on_enter >= 0},

@@ -250,6 +250,16 @@ static void throw_body(JoxMachineRun *run, const JoxMachine *machine, const JoxS
     jox_throwers_note(run, run->objects->rows[row].id, a->id[i]);
 }
 
+/* Lets the held body go, which falls with the agent's velocity. */
+static void drop_body(JoxMachineRun *run, const JoxState *state, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    const int32_t row = jox_held_body_row(run, i, state->drop);
+    if (row >= 0)
+        add_grip(run, (JoxGrip){.object = (uint32_t)row,
+                                .agent_id = a->id[i],
+                                .velocity = {a->vx[i], a->vy[i], 0.0f}});
+}
+
 /* Lists all agents whose state satisfies `matches` in scratch->list, by id. */
 static void list_agents_in(JoxMachineRun *run, bool (*matches)(const JoxState *state)) {
     JoxMachineScratch *s = run->scratch;
@@ -264,7 +274,7 @@ static void list_agents_in(JoxMachineRun *run, bool (*matches)(const JoxState *s
 }
 
 static bool acts_on_bodies(const JoxState *state) {
-    return state->kick >= 0 || state->take >= 0 || state->toss >= 0;
+    return state->kick >= 0 || state->take >= 0 || state->toss >= 0 || state->drop >= 0;
 }
 
 static bool holds_on(const JoxState *state) {
@@ -286,6 +296,8 @@ static void act_on_bodies(JoxMachineRun *run) {
             throw_body(run, machine, state, i);
         if (state->take >= 0)
             pick_up_body(run, state, i);
+        if (state->drop >= 0)
+            drop_body(run, state, i);
     }
 }
 

@@ -47,6 +47,7 @@ JoxState jox_state_blank(char *name) {
                       .kick = -1,
                       .kick_at = -1,
                       .take = -1,
+                      .drop = -1,
                       .toss = -1,
                       .toss_at = -1,
                       .grasp = -1,
@@ -93,6 +94,13 @@ const char *jox_machine_renamed(const JoxMachine *m, JoxPart part, const char *n
             !jox_machine_has(m, part, name))
             return m->renamed[r].to;
     return NULL;
+}
+
+bool jox_asks_for_messages(const JoxMachine *machine, int32_t when) {
+    for (uint32_t k = 0; when >= 0 && k < machine->expressions[when].count; k++)
+        if (machine->expressions[when].code[k].op == JOX_OP_TOLD)
+            return true;
+    return false;
 }
 
 void jox_machine_free(JoxMachine *m) {

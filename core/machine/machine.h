@@ -95,7 +95,10 @@ typedef struct JoxTell {
     } carries[JOX_MOST_CARRIED];
 } JoxTell;
 
-/* Side effects of entering a state or taking a transition. */
+enum { JOX_MOST_SET = 64 };
+
+/* Side effects of entering a state or taking a transition. What is told and what memory is set to is
+   evaluated on what was before any of it. */
 typedef struct JoxActions {
     struct JoxAssign {
         int32_t slot; /* memory slot */
@@ -171,6 +174,7 @@ typedef struct JoxState {
     JoxValue kick_speed;   /* speed after the kick, m/s; UNSET: kick_impulse holds */
     JoxValue kick_lift;    /* angle above the horizontal, degrees; UNSET: 0 */
     int16_t take;          /* target: body to pick up when within reach; -1 none */
+    int16_t drop;          /* target: body to put down; -1 none */
     int16_t toss, toss_at; /* targets: body to throw, and where to; -1 none */
     JoxValue toss_speed;   /* horizontal speed of the throw, m/s */
     int16_t grasp;         /* target: agent to hold on to when within reach; -1 none */
@@ -392,6 +396,8 @@ enum { JOX_VERSION_TEXT = 64 };
 /* Writes the version as messages show it: "version 10 (reload 3)", without the parts that are
    unknown; the first text without a version is "the first version". Returns `out`. */
 const char *jox_machine_version(const JoxMachine *machine, char out[JOX_VERSION_TEXT]);
+/* Returns whether condition `when`, -1: none, asks for messages. */
+bool jox_asks_for_messages(const JoxMachine *machine, int32_t when);
 /* Frees the machine with everything it owns (made by jox_alloc / jox_strdup). */
 void jox_machine_free(JoxMachine *machine);
 

@@ -162,8 +162,6 @@ void jox_messages_deliver(JoxMachineRun *run);
 /* Marks the messages as used on which condition `when` of an agent rests; returns whether any is.
  */
 bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, int32_t when, uint32_t agent);
-/* Returns whether a condition asks for messages. */
-bool jox_asks_for_messages(const JoxMachine *machine, int32_t when);
 
 /* best_of.c: returns the candidate with the greatest score among those that the agent sees and that
    match the target; of equal ones agents before bodies, by ascending id. */

@@ -55,7 +55,7 @@ typedef struct JoxSignal {
 
 /* JOX_MOST_WAITING: messages that wait for one agent. JOX_MOST_SENT: messages that functions send
    in a step. */
-enum { JOX_MOST_WAITING = 8, JOX_MOST_SENT = 1000000 };
+enum { JOX_MOST_WAITING = 16, JOX_MOST_SENT = 1000000 };
 
 /* A message from one agent to another. */
 typedef struct JoxMessage {

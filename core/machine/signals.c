@@ -109,14 +109,20 @@ void jox_machines_repeat_signals(JoxMachineRun *run) {
 void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
                     uint32_t i) {
     JoxAgents *a = run->agents;
+    double values[JOX_MOST_SET];
+    JOX_ASSERT(actions->set_count <= JOX_MOST_SET);
+    if (actions->tell)
+        jox_tell(run, machine, actions->tell, i);
+    for (uint32_t n = 0; n < actions->set_count; n++)
+        values[n] = actions->set[n].target >= 0
+                        ? jox_target_who(run, i, actions->set[n].target)
+                        : jox_value(run, machine, &actions->set[n].value, i);
     for (uint32_t n = 0; n < actions->set_count; n++) {
         const struct JoxAssign *assign = &actions->set[n];
-        const double value = assign->target >= 0 ? jox_target_who(run, i, assign->target)
-                                                 : jox_value(run, machine, &assign->value, i);
-        if (isfinite(value))
-            a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = value;
+        if (isfinite(values[n]))
+            a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = values[n];
         else
-            jox_odd_note(run, i, JOX_ACTION_MEMORY + assign->slot, &assign->value, value);
+            jox_odd_note(run, i, JOX_ACTION_MEMORY + assign->slot, &assign->value, values[n]);
     }
     jox_sightings_note_agent(run, i);
     if (run->watched_count)
@@ -127,6 +133,4 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
         a->tags[i] = actions->tags;
     if (actions->signal >= 0)
         jox_machines_call(run, i, machine->names[actions->signal].number);
-    if (actions->tell)
-        jox_tell(run, machine, actions->tell, i);
 }

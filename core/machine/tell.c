@@ -210,10 +210,3 @@ bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, int32_t whe
             run->state->waiting[(uint32_t)(first - run->state->waiting) + m].used = 1;
     return rests[0] != 0;
 }
-
-bool jox_asks_for_messages(const JoxMachine *machine, int32_t when) {
-    for (uint32_t k = 0; when >= 0 && k < machine->expressions[when].count; k++)
-        if (machine->expressions[when].code[k].op == JOX_OP_TOLD)
-            return true;
-    return false;
-}

@@ -271,13 +271,14 @@ function Target:ahead(degrees) end
 ---@field approach? jostle.AnyTarget body or agent that the agent does not avoid in advance; it only does not overlap it. Agents are then kept apart by contacts alone, where forces are on
 ---@field kick? jostle.Kick kicks a body that it touches, with no wall between. The body passes the agent's own body until it is clear of it
 ---@field take? jostle.AnyTarget body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body
+---@field drop? jostle.AnyTarget body that the agent carries and lets fall, as `drop = holding`
 ---@field grasp? jostle.AnyTarget agent to take hold of, if it is within 0.5 m. An agent that has fallen gets up the sooner, the more hold on to it. Both pull each other until the holder comes into a state without `grasp`, or 1 m is between them. The held agent is dragged, or carried while its own `damping` is 0; see `has` and `holders`
 ---@field grip? jostle.Value greatest force with which the agent holds on; default 300, N
 ---@field throw? jostle.Throw throws the body that it carries, from its own side of walls
 ---@field colour? string colour of agents in this state where people are coloured by state; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes. Default: one is chosen
 ---@field signal? string|jostle.Signal signal that the agent gives on entering, and again after each interval with { name, every = seconds }
----@field tell? jostle.Tell message that the agent tells on entering, after `set`: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. It waits for the receiver from the next step on (see `told`)
----@field set? jostle.Set values to set on entering: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
+---@field tell? jostle.Tell message that the agent tells on entering: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)
+---@field set? jostle.Set values to set on entering, all of them computed from what was before: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
 ---@field counts? table<string, jostle.Counter> memory that counts while the agent is in this state; see `circuits`
 ---@field on_enter? fun(me: jostle.Me) called when an agent enters the state
 ---@field on_exit? fun(me: jostle.Me) called when an agent leaves the state
@@ -540,7 +541,7 @@ function sees(target) end
 ---@return jostle.Condition
 function heard(name, metres) end
 
---- `told(name)`: a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; told(name).VALUE a value that it carries, a number, or a target where one is wanted. It waits until an item is taken whose `when` rests on it; of several the oldest is meant. At most 8 messages wait for an agent
+--- `told(name)`: a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; told(name).VALUE a value that it carries, a number, or a target where one is wanted. It waits until an item is taken whose `when` rests on it; of several the oldest is meant. At most 16 messages wait for an agent; then the oldest goes, and the run says so
 ---@param name string
 ---@return jostle.Message
 function told(name) end

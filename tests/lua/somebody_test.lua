@@ -132,21 +132,21 @@ test("best is the greatest score, of equal ones the lowest id, and bodies after 
   equal(a.both, "body 'ball'")
 end)
 
--- One who never listens while nine messages come.
+-- One who listens late, when eighteen messages have come.
 local DEAF = [[return machine { name = "deaf", start = "Wait", states = {
   Wait = { steer = hold, { to = "Hear", when = after(2) } },
   Hear = { steer = hold, { when = told "call", set = { n = mine.n + 1, last = told("call").number } } } } }]]
-test("messages wait in order, and of more than 8 the oldest goes", function()
+test("messages wait in order, and of more than 16 the oldest goes", function()
   local s = scene { groups = {
     deaf = { behaviour = "local mine = memory { n = 0, last = 0 }\n" .. DEAF, at = { { 0, 0 } }, tags = { "deaf" } },
     caller = { at = { { 3, 0 } }, behaviour = [[local mine = memory { k = 0 }
       return machine { name = "caller", start = "Call", defaults = { perception = 9 }, states = { Call = { steer = hold,
-        { every = 0.1, when = mine.k:below(10), set = { k = mine.k + 1 },
-          tell = { nearest "deaf", "call", number = mine.k } } } } }]] } } }
+        { every = 0.1, when = mine.k:below(18), set = { k = mine.k + 1 },
+          tell = { nearest "deaf", "call", number = mine.k + 1 } } } } }]] } } }
   s:run(2.1)
   equal(s:agents("deaf")[1].last, 3) -- 1 and 2 went
   s:run(1)
   local deaf = s:agents("deaf")[1]
-  equal(deaf.n, 8)
-  equal(deaf.last, 10)
+  equal(deaf.n, 16)
+  equal(deaf.last, 18)
 end)

@@ -118,6 +118,8 @@ compare evacuation --for 15
 compare catch --for 20
 compare tackle --for 8
 compare rescue --for 12
+compare pickpocket --for 40
+compare drill --for 60
 compare station --for 12
 compare gates --for 25
 compare train-doors --for 18

@@ -68,7 +68,7 @@ const JoxWord jox_words[] = {
     {"told", "s", CONDITION, JOX_OP_TOLD, 0, "told(name)", "",
      "a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; "
      "told(name).VALUE a value that it carries, a number, or a target where one is wanted. It waits until an item "
-     "is taken whose `when` rests on it; of several the oldest is meant. At most 8 messages wait for an agent", "told \"shot\""},
+     "is taken whose `when` rests on it; of several the oldest is meant. At most 16 messages wait for an agent; then the oldest goes, and the run says so", "told \"shot\""},
     {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
      "a gate at the place, or within 0.5 m of it, is closed, and the agent sees it: within "
      "perception, with no other wall between. Bodies between do not matter", "shut \"mid\""},
@@ -317,6 +317,7 @@ const JoxTableKey jox_table_keys[] = {
      "approach = nearest \"ball\"", 0, 0},
     {"state", "kick", "table", "", "kicks a body that it touches, with no wall between. The body passes the agent's own body until it is clear of it", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
     {"state", "take", "target", "", "body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body", "take = nearest \"ball\"", 0, 0},
+    {"state", "drop", "target", "", "body that the agent carries and lets fall, as `drop = holding`", "drop = nearest \"ball\"", 0, 0},
     {"state", "grasp", "target", "", "agent to take hold of, if it is within 0.5 m. An agent that has fallen gets up the sooner, the more hold on to it. Both pull each other until the holder comes into a state without `grasp`, or 1 m is between them. The held agent is dragged, or carried while its own `damping` is 0; see `has` and `holders`", "grasp = nearest \"people\"", 0, 0},
     {"state", "grip", "number", "N", "greatest force with which the agent holds on; default 300", "grasp = nearest \"people\", grip = 400", 0, JOX_MOST_GRIP},
     {"state", "throw", "table", "", "throws the body that it carries, from its own side of walls", "throw = { nearest \"ball\", at = \"post\", speed = 6 }", 0, 0},
@@ -324,9 +325,9 @@ const JoxTableKey jox_table_keys[] = {
      "colour = \"vermilion\"", 0, 0},
     {"state", "signal", "name, or table", "", "signal that the agent gives on entering, and again after each interval with { name, every = seconds }",
      "signal = { \"alarm\", every = 1 }", 0, 0},
-    {"state", "tell", "table", "", "message that the agent tells on entering, after `set`: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. It waits for the receiver from the next step on (see `told`)",
+    {"state", "tell", "table", "", "message that the agent tells on entering: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)",
      "tell = { nearest \"people\", \"shot\", damage = 2 }", 0, 0},
-    {"state", "set", "table", "", "values to set on entering: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
+    {"state", "set", "table", "", "values to set on entering, all of them computed from what was before: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
      "set = { laps = mine.laps + 1, tags = \"people\" }", 0, 0},
     {"state", "counts", "table", "", "memory that counts while the agent is in this state; see `circuits`", "counts = { laps = circuits \"yard\" }", 0, 0},
     {"state", "on_enter", "function(me)", "", "called when an agent enters the state", "on_enter = function(me) me.laps = 1 end", 0, 0},
