@@ -184,8 +184,8 @@ static JoxPosition locate_value(JoxBuild *b, const char *path) {
 /* Returns whether an item does anything besides leading to a state; one that rests on messages uses
    them up. */
 static bool does_something(const JoxMachine *m, const JoxTransition *t) {
-    return jox_asks_for_messages(m, t->when) || t->does.set_count || t->does.signal >= 0 || t->does.tell || t->does.sets_team ||
-           t->does.sets_tags || t->on_take >= 0;
+    return jox_asks_for_messages(m, t->when) || t->does.set_count || t->does.signal >= 0 ||
+           t->does.tell || t->does.sets_team || t->does.sets_tags || t->on_take >= 0;
 }
 
 /* Reads the condition of an item: `when`, and `every` joined with it. */

@@ -173,22 +173,14 @@ static bool sets_key(const JoxState *state, const char *key) {
     const struct {
         const char *key;
         bool set;
-    } KEYS[] = {{"steer", state->steer_count > 0},
-                {"lasts", state->has_lasts},
-                {"removes", state->removes},
-                {"face", state->face >= 0},
-                {"approach", state->approach >= 0},
-                {"kick", state->kick >= 0},
-                {"take", state->take >= 0},
-                {"drop", state->drop >= 0},
-                {"throw", state->toss >= 0},
-                {"become", state->become != NULL},
-                {"on_enter", state->on_enter >= 0},
-                {"on_exit", state->on_exit >= 0},
-                {"push_when", state->push_when >= 0},
-                {"ignore", state->ignore != 0},
-                {"push_only", state->push_only != 0},
-                {"push_toward", state->push_toward >= 0}};
+    } KEYS[] = {{"steer", state->steer_count > 0},    {"lasts", state->has_lasts},
+                {"removes", state->removes},          {"face", state->face >= 0},
+                {"approach", state->approach >= 0},   {"kick", state->kick >= 0},
+                {"take", state->take >= 0},           {"drop", state->drop >= 0},
+                {"throw", state->toss >= 0},          {"become", state->become != NULL},
+                {"on_enter", state->on_enter >= 0},   {"on_exit", state->on_exit >= 0},
+                {"push_when", state->push_when >= 0}, {"ignore", state->ignore != 0},
+                {"push_only", state->push_only != 0}, {"push_toward", state->push_toward >= 0}};
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++)
         if (strcmp(KEYS[k].key, key) == 0)
             return KEYS[k].set;

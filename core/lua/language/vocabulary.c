@@ -154,7 +154,7 @@ const JoxWord jox_words[] = {
      "stands during the next 2 s if they keep their velocity",
      "nearest(\"ball\"):flying():incoming(0.6)"},
     {":within", "*", TARGET, 0, 0, "of:within(metres)", "",
-     "restricts a target, or `neighbours`, to what is nearer than this distance, m, between centres", "neighbours(\"people\"):within(2)"},
+     "restricts a target, or `neighbours`, to what is nearer than this distance, m, between centres", "nearest(\"people\"):within(2)"},
     {":ahead", "*", TARGET, 0, 0, "of:ahead(degrees)", "",
      "restricts them to what lies ahead: within this angle, degrees, to either side of where the agent looks",
      "nearest(\"people\"):ahead(60)"},
