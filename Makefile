@@ -23,7 +23,9 @@ PKG     := PKG_CONFIG_LIBDIR=/usr/lib/$(CROSS:-=)/pkgconfig:/usr/share/pkgconfig
 else
 PKG     := pkg-config
 endif
-WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)$(if $(CROSS),-$(CROSS:-=))
+# Mods as zip archives need libzip; without it, or with ZIP=0, they are refused.
+ZIP     ?= $(if $(shell $(PKG) --exists libzip 2>/dev/null && echo 1),1,0)
+WITHOUT := $(if $(filter-out file,$(origin ZIP)),$(if $(filter 0,$(ZIP)),-nozip))$(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)$(if $(CROSS),-$(CROSS:-=))
 B       ?= build/$(MODE)$(WITHOUT)
 # SHARED: folder of the objects that builds of a MODE have in common, whatever they leave out and wherever they
 # are installed. The few files that name a folder of the installation (PLACED) are compiled for each build. If B
@@ -51,6 +53,7 @@ else
 SRC_C   := $(filter-out core/body/no_bullet.c,$(SRC_C))
 endif
 SRC_C   := $(filter-out core/picture/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
+SRC_C   := $(filter-out core/base/zip_$(if $(filter 0,$(ZIP)),libzip,none).c,$(SRC_C))
 SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/no_server.c),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c core/cli/bench/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api load),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
@@ -58,7 +61,7 @@ TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/li
 BENCHES := $(sort $(wildcard tests/bench/*.c))
 # pkg-config's name of Lua 5.4 differs between systems.
 LUA     := $(firstword $(shell for p in lua5.4 lua-5.4 lua54 lua; do $(PKG) --exists "$$p >= 5.4" 2>/dev/null && echo $$p; done) lua5.4)
-ENGINE_PKGS := $(LUA) yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(BULLET)),,bullet)
+ENGINE_PKGS := $(LUA) yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(ZIP)),,libzip) $(if $(filter 0,$(BULLET)),,bullet)
 PKGS    := $(ENGINE_PKGS) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
 
 OPT.release := -O2 -DNDEBUG

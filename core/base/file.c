@@ -14,6 +14,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/sort.h"
+#include "base/zip.h"
 #include "jostle_tools.h"
 
 /* ---- files that are written under a temporary name ---- */
@@ -193,8 +194,9 @@ int jox_file_drop(FILE *file) {
 const char *jox_file_error_text(int number) {
     return number == EINVAL || number == EISDIR ? "it is no regular file"
            : number == ENXIO                    ? "it is a pipe that nobody reads"
-           : number == EBUSY                    ? "another run writes it"
-                                                : strerror(number);
+           : number == EBADMSG ? "the zip archive is damaged, or has what archives must not have"
+           : number == EBUSY   ? "another run writes it"
+                               : strerror(number);
 }
 
 bool jo_write(const char *path, const char *text, JoError *error) {
@@ -220,10 +222,17 @@ static bool is_listed(const char *name, bool hidden) {
     return *name != '.' || (hidden && strcmp(name, ".") != 0 && strcmp(name, "..") != 0);
 }
 
+bool jox_is_folder(const char *path) {
+    struct stat info;
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+        return true;
+    return jox_zip_is_folder(path);
+}
+
 char **jox_folder_names(const char *path, bool hidden) {
     DIR *folder = opendir(path);
     if (!folder)
-        return NULL;
+        return errno == ENOTDIR ? jox_zip_names(path, hidden) : NULL;
     jox_heap_register(folder, release_folder);
     char *text = NULL;
     size_t length = 0, capacity = 0, count = 0;

@@ -32,6 +32,8 @@ bool jox_file_send(int descriptor, const void *bytes, size_t length);
 /* Returns the meaning of the errno that the functions above set, as the end of a sentence. */
 const char *jox_file_error_text(int number);
 
+/* Whether a path is a folder, or a zip archive or a folder in one (zip.h). */
+bool jox_is_folder(const char *path);
 /* Lists the names in a folder, except "." and "..", sorted by bytes, up to a NULL. The caller frees
    the whole by one jox_free. `hidden`: includes names that begin with a dot. NULL with errno if the
    folder cannot be read. */

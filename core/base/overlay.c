@@ -1,9 +1,11 @@
 #include "base/overlay.h"
 
+#include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/mem.h"
+#include "base/zip.h"
 
 static _Thread_local const JoxOverlay *used; /* the thread's overlay in use, or NULL */
 
@@ -65,5 +67,8 @@ bool jox_overlay_opens(void) {
 
 bool jox_is_file(const char *path) {
     struct stat info;
-    return jox_overlay_file(path) || (stat(path, &info) == 0 && S_ISREG(info.st_mode));
+    if (jox_overlay_file(path))
+        return true;
+    return stat(path, &info) == 0 ? S_ISREG(info.st_mode)
+                                  : errno == ENOTDIR && jox_zip_is_file(path);
 }

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/overlay.h"
+#include "base/zip.h"
 
 void jox_text_append(JoxText *text, const char *data, size_t length) {
     JOX_RESERVE(text->data, text->capacity, text->length + length + 1);
@@ -153,6 +154,18 @@ static char *read_overlay(const JoxOverlayFile *file, size_t limit, size_t *leng
     return jox_strndup(file->text, file->length);
 }
 
+/* Reads a file that lies in an archive. */
+static char *read_from_archive(const char *path, size_t limit, size_t *length) {
+    size_t read = 0;
+    char *text = jox_zip_read(path, limit, &read);
+    if (!text)
+        return NULL;
+    jox_overlay_keep(path, text, read, true);
+    if (length)
+        *length = read;
+    return text;
+}
+
 char *jox_read_file(const char *path, size_t limit, size_t *length) {
     const JoxOverlayFile *instead = jox_overlay_file(path);
     if (instead) {
@@ -167,7 +180,7 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
     }
     FILE *file = jox_file_open(path, "rb");
     if (!file)
-        return NULL;
+        return errno == ENOTDIR ? read_from_archive(path, limit, length) : NULL;
     JoxText text = {0};
     char block[65536];
     size_t got;

@@ -66,6 +66,11 @@ static bool is_existing_folder(const char *path) {
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+static bool is_archive(const char *path) {
+    const size_t length = strlen(path);
+    return length > 4 && strcmp(path + length - 4, ".zip") == 0;
+}
+
 void cli_reach_file(CliReach *reach, const char *path) {
     static const char *const OF_SQLITE[] = {"", "-journal", "-wal", "-shm"};
     for (size_t e = 0; path && e < sizeof OF_SQLITE / sizeof *OF_SQLITE; e++) {
@@ -154,7 +159,7 @@ void cli_reach_def(CliReach *reach, const JoSceneDef *def) {
     cli_reach_folder(reach, def->input_log);
     for (size_t m = 0; m < def->mod_count; m++) {
         cli_reach_folder(reach, def->mods[m]);
-        if (is_existing_folder(def->mods[m]))
+        if (is_existing_folder(def->mods[m]) || is_archive(def->mods[m]))
             reach_mods(reach, def->mods[m]);
     }
 }

@@ -2,13 +2,13 @@
 #include "scene/mods_enabled.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "base/format/path.h"
 #include "base/hash.h"
 #include "base/mem.h"
 
@@ -52,10 +52,12 @@ static bool hash_files_below(ModFiles *c, const char *folder, size_t root, int d
         JoxText path = {0};
         struct stat info;
         jox_text_printf(&path, "%s/%s", folder, *name);
-        if (lstat(path.data, &info) == 0 && S_ISDIR(info.st_mode)) {
+        const bool in_archive = lstat(path.data, &info) != 0 && errno == ENOTDIR;
+        if (in_archive ? jox_is_folder(path.data)
+                       : lstat(path.data, &info) == 0 && S_ISDIR(info.st_mode)) {
             /* Hidden folders, as of version control, are no part of the mod. */
             good = **name == '.' || hash_files_below(c, path.data, root, depth + 1);
-        } else if (lstat(path.data, &info) == 0 && S_ISREG(info.st_mode)) {
+        } else if (in_archive || (lstat(path.data, &info) == 0 && S_ISREG(info.st_mode))) {
             good = hash_mod_file(c, path.data, root);
         } else {
             jox_text_printf(c->error, "'%s' is no plain file", path.data);
@@ -127,8 +129,7 @@ static bool equals_text(const char *text, size_t length, const char *wanted) {
 }
 
 JoxModSwitch jox_mods_look_up_enabled(const char *list, const char *name, const char *folder) {
-    char hash[HASH + 1] = "", room[PATH_MAX];
-    const char *real = realpath(folder, room);
+    char hash[HASH + 1] = "", *real = jox_path_real(folder);
     JoxModSwitch found = JOX_MOD_OFF;
     JoxText ignored = {0};
     EnabledLine line;
@@ -143,6 +144,7 @@ JoxModSwitch jox_mods_look_up_enabled(const char *list, const char *name, const 
             found = JOX_MOD_CHANGED;
     }
     jox_text_free(&ignored);
+    free(real);
     return found;
 }
 
@@ -170,8 +172,7 @@ static bool write_enabled_list(const JoxText *list, JoxText *error) {
 }
 
 bool jox_mods_set_enabled(const char *name, const char *folder, bool on, JoxText *error) {
-    char hash[HASH + 1] = "", room[PATH_MAX], *list = jox_mods_read_enabled();
-    const char *real = realpath(folder, room);
+    char hash[HASH + 1] = "", *list = jox_mods_read_enabled(), *real = jox_path_real(folder);
     JoxText out = {0};
     EnabledLine line;
     bool good = real && !strchr(real, '\n') && hash_mod_folder(folder, hash, error);
@@ -191,5 +192,6 @@ bool jox_mods_set_enabled(const char *name, const char *folder, bool on, JoxText
     good = good && write_enabled_list(&out, error);
     jox_text_free(&out);
     jox_free(list);
+    free(real);
     return good;
 }

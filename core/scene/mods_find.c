@@ -9,12 +9,14 @@
 #include "base/file.h"
 #include "base/format/path.h"
 #include "base/mem.h"
+#include "base/overlay.h"
+#include "base/zip.h"
 #include "scene/mods_enabled.h"
 #include "scene/mods_parts.h"
 
 /* Reads the mods in the folders of a folder; links are not followed. */
 static void search_folder(JoxModsFind *f, const char *folder) {
-    char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
+    char **names = jox_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
     int count = 0;
     while (names && names[count])
         count++;
@@ -23,7 +25,7 @@ static void search_folder(JoxModsFind *f, const char *folder) {
         struct stat info;
         char *sheet = jox_mods_join(f->reader.arena, path, "mod.yaml");
         bool link = lstat(path, &info) == 0 && S_ISLNK(info.st_mode);
-        if (!link && stat(sheet, &info) == 0)
+        if (!link && (jox_is_file(sheet) || jox_mods_is_archive(path)))
             jox_mods_read_folder(f, path, false);
     }
     jox_free(names);
@@ -36,7 +38,7 @@ static void search_folders(JoxModsFind *f) {
     char folder[1024];
     for (uint32_t n = 0; n < f->def->named_count;
          n++) /* first: of two mods with one name the first wins */
-        if (jox_mods_is_folder(f->def->named[n])) {
+        if (jox_is_folder(f->def->named[n])) {
             snprintf(folder, sizeof folder, "%s", f->def->named[n]);
             for (size_t k = strlen(folder); k > 1 && folder[k - 1] == '/'; k--)
                 folder[k - 1] = 0;
@@ -55,17 +57,31 @@ static void search_folders(JoxModsFind *f) {
         search_folder(f, folder);
 }
 
+/* Returns the length of the folder of the first `length` bytes of a path, with its last '/'. */
+static size_t get_folder_length(const char *path, size_t length) {
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    return length;
+}
+
 /* Reads the mod `name` beside the folder of another one; whether it is there. */
 static bool search_beside(JoxModsFind *f, const char *folder, const char *name) {
-    char path[1200];
-    struct stat info;
-    snprintf(path, sizeof path, "%.900s/../%.80s/mod.yaml", folder, name);
-    if (stat(path, &info) != 0)
-        return false;
-    path[strlen(path) - strlen("/mod.yaml")] = 0;
-    jox_path_clean(path);
-    jox_mods_read_folder(f, path, false);
-    return jox_mods_index(f->mods, name) >= 0;
+    static const char *const ENDINGS[] = {"", ".zip"};
+    const char *inside;
+    const size_t archive = jox_zip_split(folder, &inside); /* beside the archive, not within */
+    char path[1200], sheet[1300];
+    for (size_t e = 0; e < sizeof ENDINGS / sizeof *ENDINGS; e++) {
+        snprintf(path, sizeof path, "%.*s%s/%.80s%s",
+                 archive ? (int)get_folder_length(folder, archive) : (int)strlen(folder), folder,
+                 archive ? "." : "/..", name, ENDINGS[e]);
+        snprintf(sheet, sizeof sheet, "%s/mod.yaml", path);
+        if (!jox_is_file(sheet) && !jox_mods_is_archive(path))
+            continue;
+        jox_path_clean(path);
+        jox_mods_read_folder(f, path, false);
+        return jox_mods_index(f->mods, name) >= 0;
+    }
+    return false;
 }
 
 /* Searches mods that are named or depended on, but not found yet: beside the mod that the scene
@@ -73,21 +89,18 @@ static bool search_beside(JoxModsFind *f, const char *folder, const char *name) 
 static void search_missing_mods(JoxModsFind *f) {
     const JoxMods *mods = f->mods;
     char own[1024] = "";
-    struct stat info;
     if (f->def->scene) { /* a mod's scenes lie in a folder of the mod */
         char sheet[1200];
         snprintf(own, sizeof own, "%.*s..", (int)jox_path_folder(f->def->scene), f->def->scene);
         snprintf(sheet, sizeof sheet, "%s/mod.yaml", own);
-        own[stat(sheet, &info) == 0 ? strlen(own) : 0] = 0;
+        own[jox_is_file(sheet) ? strlen(own) : 0] = 0;
     }
     for (uint32_t n = 0; n < f->def->named_count; n++) {
         const char *name = f->def->named[n];
-        bool found =
-            strchr(name, '/') || jox_mods_is_folder(name) || jox_mods_index(mods, name) >= 0;
+        bool found = strchr(name, '/') || jox_is_folder(name) || jox_mods_index(mods, name) >= 0;
         found = found || (*own && search_beside(f, own, name));
         for (uint32_t k = 0; k < f->def->named_count && !found; k++)
-            found =
-                jox_mods_is_folder(f->def->named[k]) && search_beside(f, f->def->named[k], name);
+            found = jox_is_folder(f->def->named[k]) && search_beside(f, f->def->named[k], name);
     }
     for (uint32_t m = 0; m < mods->found_count; m++) /* also over mods that this loop finds */
         for (uint32_t d = 0; d < f->needs[m].depend_count; d++) {
@@ -117,8 +130,7 @@ static void choose_enabled(JoxModsFind *f) {
 static void choose_named(JoxModsFind *f) {
     JoxMods *mods = f->mods;
     for (uint32_t n = 0; n < f->def->named_count; n++) {
-        int32_t m =
-            jox_mods_is_folder(f->def->named[n]) ? -2 : jox_mods_index(mods, f->def->named[n]);
+        int32_t m = jox_is_folder(f->def->named[n]) ? -2 : jox_mods_index(mods, f->def->named[n]);
         if (m >= 0)
             f->needs[m].wanted = true;
         else if (m == -1)

@@ -1,4 +1,5 @@
 /* Reads a mod: its mod.yaml, and the files of its folders. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -6,6 +7,8 @@
 #include "base/assert.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/overlay.h"
+#include "base/zip.h"
 #include "scene/mods_enabled.h"
 #include "scene/mods_parts.h"
 #include "scene/scene_draft.h"
@@ -19,9 +22,9 @@ int32_t jox_mods_index(const JoxMods *mods, const char *name) {
     return -1;
 }
 
-bool jox_mods_is_folder(const char *path) {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+bool jox_mods_is_archive(const char *path) {
+    const char *inside;
+    return jox_zip_split(path, &inside) > 0 && !*inside;
 }
 
 char *jox_mods_join(JoxArena *arena, const char *folder, const char *name) {
@@ -86,6 +89,8 @@ static void read_target(JoxModsFind *f, JoxModPatch *patch) {
 /* Whether a path is a plain file, not too large; reports what is neither that nor a folder. */
 static bool check_mod_file(JoxModsFind *f, const char *path, JoxPosition from) {
     struct stat info;
+    if (lstat(path, &info) != 0 && errno == ENOTDIR) /* in an archive, which is checked */
+        return jox_zip_is_file(path);
     const char *wrong = lstat(path, &info) != 0       ? "it cannot be read"
                         : S_ISLNK(info.st_mode)       ? "symbolic links are not followed"
                         : S_ISDIR(info.st_mode)       ? "" /* not an error */
@@ -107,7 +112,7 @@ static void read_mod_subfolder(JoxModsFind *f, JoxMod *mod, const char *name, Jo
         check_mod_file(f, folder, from);
         return;
     }
-    char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
+    char **names = jox_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
     int count = 0;
     while (names && names[count])
         count++;
@@ -131,9 +136,35 @@ static void read_mod_subfolder(JoxModsFind *f, JoxMod *mod, const char *name, Jo
 
 /* ---- a whole mod ---- */
 
+/* Returns the folder of a mod in an archive: the archive itself or, if that has no mod.yaml, the
+   one folder that it holds. NULL with an error if the archive is refused. */
+static const char *open_mod_archive(JoxModsFind *f, const char *path) {
+    char *fault = jox_zip_fault(path);
+    if (fault) {
+        jox_diag_error(f->reader.diagnostics,
+                       ((JoxPosition){jox_arena_text(f->reader.arena, path), 0, 0, 0}), "bad-mod",
+                       NULL, "cannot use '%s': %s", path, fault);
+        jox_free(fault);
+        return NULL;
+    }
+    const char *folder = path;
+    char *sheet = jox_mods_join(f->reader.arena, path, "mod.yaml");
+    char **names = jox_is_file(sheet) ? NULL : jox_folder_names(path, false);
+    for (size_t n = 0; names && names[n]; n++) {
+        char *inner = jox_mods_join(f->reader.arena, path, names[n]);
+        if (jox_is_file(jox_mods_join(f->reader.arena, inner, "mod.yaml")))
+            folder = inner;
+    }
+    jox_free(names);
+    return folder;
+}
+
 void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
     JoxMods *mods = f->mods;
     const JoxReader *r = &f->reader;
+    folder = jox_mods_is_archive(folder) ? open_mod_archive(f, folder) : folder;
+    if (!folder)
+        return;
     for (uint32_t m = 0; m < mods->found_count; m++)
         if (jox_path_same(mods->found[m].folder, folder)) {
             f->needs[m].wanted |= wanted;

@@ -11,6 +11,7 @@
 #include "base/format/plurals.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/zip.h"
 #include "jostle_tools.h"
 #include "run/load_scene.h"
 #include "run/orca_flow_note.h"
@@ -148,7 +149,7 @@ static void check_behaviour(const char *path, const JoxScope *scope, JoxDiagnost
 
 static bool is_file(const char *path) {
     struct stat info;
-    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+    return stat(path, &info) == 0 ? S_ISREG(info.st_mode) : jox_zip_is_file(path);
 }
 
 /* Returns whether a Lua file is a claim: a line begins with "return claim". */
@@ -249,11 +250,8 @@ static void check_mod(const char *folder, JoxDiagnostics *all) {
     def.mod_count = 1;
     def.named_mods_only = def.needed_mods_too = true;
     JoxMods *mods = jox_run_find_mods(&def, 0, all);
-    struct stat asked, info;
-    const bool there = stat(folder, &asked) == 0;
     for (uint32_t m = 0; m < mods->count; m++)
-        if (there && stat(mods->items[m].folder, &info) == 0 && info.st_dev == asked.st_dev &&
-            info.st_ino == asked.st_ino)
+        if (jox_path_same(mods->items[m].folder, folder))
             check_patches(mods, &mods->items[m], all);
     jox_mods_free(mods);
 }
@@ -304,10 +302,15 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     struct stat info;
     JoxDiagnostics own = {0};
     char **names = NULL;
-    if (stat(path, &info) != 0) {
+    char *fault = jox_zip_fault(path);
+    if (fault) {
+        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "bad-mod", NULL,
+                       "cannot use the archive: %s", fault);
+        jox_free(fault);
+    } else if (stat(path, &info) != 0 && errno != ENOTDIR) {
         jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL, "%s",
                        errno == ENOENT ? "there is no such file" : strerror(errno));
-    } else if (!S_ISDIR(info.st_mode)) {
+    } else if (!jox_is_folder(path)) {
         check_file(path, named, mod, &own);
     } else {
         char sheet[1024];

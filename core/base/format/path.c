@@ -7,6 +7,7 @@
 
 #include "base/mem.h"
 #include "base/overlay.h"
+#include "base/zip.h"
 
 size_t jox_path_folder(const char *path) {
     const char *slash = strrchr(path, '/');
@@ -51,8 +52,23 @@ bool jox_path_find(const char *file, const char *name, const char *ending,
     return false;
 }
 
+char *jox_path_real(const char *path) {
+    char *real = realpath(path, NULL); /* from malloc */
+    const char *inside;
+    const size_t length = real ? 0 : jox_zip_split(path, &inside);
+    if (!length || !(jox_zip_is_file(path) || jox_zip_is_folder(path)))
+        return real;
+    char *archive = jox_strndup(path, length), *whole = NULL;
+    char *base = realpath(archive, NULL);
+    jox_free(archive);
+    if (base && asprintf(&whole, "%s/%s", base, inside) < 0)
+        whole = NULL;
+    free(base);
+    return whole;
+}
+
 char *jox_path_real_below(const char *path, const char *folder) {
-    char *real = realpath(path, NULL), *root = realpath(folder, NULL); /* from malloc */
+    char *real = jox_path_real(path), *root = jox_path_real(folder);
     const size_t n = root ? strlen(root) : 0;
     const bool below = real && root && strncmp(real, root, n) == 0 && (real[n] == '/' || n == 1);
     free(root);

@@ -29,6 +29,8 @@ bool jox_path_same(const char *a, const char *b);
 /* Removes "." and "folder/.." from a path, in place, if the result leads to the same file, so that
    a file has one path. */
 void jox_path_clean(char *path);
+/* As realpath; also of a path in a zip archive. For free(). */
+char *jox_path_real(const char *path);
 /* Whether a file, with all links followed, lies below a folder; both must exist. */
 bool jox_path_below(const char *path, const char *folder);
 /* As jox_path_below; returns the path without links and "..", for free(). NULL if the file lies

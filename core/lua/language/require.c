@@ -29,7 +29,7 @@ static bool is_module(JoxScript *script, const char *folder, const char *name, c
     snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
     jox_vm_note_path(&script->vm, path);
     return jox_overlay_file(path) ||
-           (lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || jox_path_below(path, folder)));
+           (lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) || jox_path_below(path, folder);
 }
 
 /* Finds the file of a module: "mod:name" in a mod; else beside the file that requires it, beside

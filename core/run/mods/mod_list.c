@@ -1,13 +1,14 @@
 /* Lists the mods of a scene (jo_mods_list), and turns mods on and off (jo_mods_enable). */
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/result_block.h"
+#include "base/zip.h"
 #include "run/messages.h"
 #include "run/read_scene.h"
 #include "scene/mods_enabled.h"
@@ -97,6 +98,13 @@ JoMods *jo_mods_list(const JoSceneDef *def) {
 
 /* ---- on and off ---- */
 
+/* Whether a mod lies in a folder, or in an archive, in which it may be a folder. */
+static bool is_mod_folder(const char *folder, const char *given) {
+    const char *inside;
+    return jox_path_same(folder, given) ||
+           (jox_zip_split(given, &inside) && !*inside && jox_path_below(folder, given));
+}
+
 /* Turns a mod on or off, given by its name or folder, if the scene at a path would find it; `scene`
    may be NULL. Sets *found if it does. */
 static bool switch_mod(const char *scene, const char *mod, bool on, bool *found, JoError *error) {
@@ -106,13 +114,10 @@ static bool switch_mod(const char *scene, const char *mod, bool on, bool *found,
     JoxText why = {0};
     JoxMods *mods = jox_run_find_mods(&def, 0, &problems);
     const JoxMod *one = NULL;
-    struct stat wanted, other;
-    const bool folder = stat(mod, &wanted) == 0 && S_ISDIR(wanted.st_mode);
+    const bool folder = jox_is_folder(mod);
     for (uint32_t m = 0; m < mods->found_count && !one; m++) {
         const JoxMod *candidate = &mods->found[m];
-        if (folder ? stat(candidate->folder, &other) == 0 && other.st_dev == wanted.st_dev &&
-                         other.st_ino == wanted.st_ino
-                   : strcmp(candidate->name, mod) == 0)
+        if (folder ? is_mod_folder(candidate->folder, mod) : strcmp(candidate->name, mod) == 0)
             one = candidate;
     }
     *found = one != NULL;

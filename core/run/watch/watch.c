@@ -13,16 +13,20 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/text.h"
+#include "base/zip.h"
 
 enum { LARGEST_FILE = 16 << 20 };
 static const double QUIET = 0.030; /* s without events before files are read */
 
 typedef struct WatchedFile {
-    char *path, *name; /* name: last part of the path; empty if the path is a folder, with / */
-    int folder;        /* inotify's number of its folder, or of the nearest one above that exists */
-    bool away;         /* its folder does not exist */
-    char digest[65];   /* SHA-256 of the known content; "" if the file could not be read */
-    bool moved;        /* it had an event since its content was read */
+    char *path;
+    char *watched, *name; /* the path, or that of the archive in which the file lies; its last part,
+                             empty if the path is a folder, with / */
+    bool lists;           /* the path is a folder, of which the names are watched */
+    int folder;      /* inotify's number of its folder, or of the nearest one above that exists */
+    bool away;       /* its folder does not exist */
+    char digest[65]; /* SHA-256 of the known content; "" if the file could not be read */
+    bool moved;      /* it had an event since its content was read */
 } WatchedFile;
 
 struct JoxWatch {
@@ -52,7 +56,7 @@ static void digest_names(const char *folder, char digest[65]) {
 
 static void digest_watched(const WatchedFile *file, char digest[65]) {
     size_t length;
-    if (!*file->name) {
+    if (file->lists) {
         digest_names(file->path, digest);
         return;
     }
@@ -86,7 +90,7 @@ static bool has_folder(const char *path) {
 /* Watches the folder of a file, or the nearest one above it that exists. False with errno. */
 static bool watch_folder(JoxWatch *watch, WatchedFile *file) {
     char folder[4096], missing[4096];
-    snprintf(folder, sizeof folder, "%.*s", (int)(file->name - file->path), file->path);
+    snprintf(folder, sizeof folder, "%.*s", (int)(file->name - file->watched), file->watched);
     file->away = false;
     for (;;) {
         size_t n = strlen(folder);
@@ -118,12 +122,17 @@ bool jox_watch_add(JoxWatch *watch, const char *path) {
             return true;
     JOX_RESERVE(watch->files, watch->capacity, watch->count + 1);
     WatchedFile *file = &watch->files[watch->count];
-    const char *slash = strrchr(path, '/');
-    *file = (WatchedFile){.path = jox_strdup(path)};
-    file->name = slash ? file->path + (slash - path) + 1 : file->path;
+    const char *inside;
+    const size_t archive = jox_zip_split(path, &inside), length = strlen(path);
+    *file = (WatchedFile){.path = jox_strdup(path),
+                          .watched = jox_strndup(path, archive ? archive : length),
+                          .lists = length && path[length - 1] == '/'};
+    char *slash = strrchr(file->watched, '/');
+    file->name = slash ? slash + 1 : file->watched;
     if (!watch_folder(watch, file)) {
         int why = errno;
         jox_free(file->path);
+        jox_free(file->watched);
         errno = why;
         return false;
     }
@@ -151,7 +160,7 @@ static bool follow_folder(JoxWatch *watch, WatchedFile *file, const struct inoti
     if (!appears && !goes)
         return false;
     watch_folder(watch, file);
-    return file->moved = !file->away || !*file->name; /* a removed folder has lost its names */
+    return file->moved = !file->away || file->lists; /* a removed folder has lost its names */
 }
 
 /* Stops watching a folder that was moved, unless a file is still watched in it. */
@@ -224,9 +233,11 @@ void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *chan
         file->moved = false;
         char digest[65];
         digest_watched(file, digest);
-        if (digest[0] && strcmp(digest, file->digest) != 0) {
+        /* An archive is replaced as a whole: if nothing is read from it, it is wrong. */
+        const bool broken = !digest[0] && strcmp(file->path, file->watched) != 0;
+        if ((digest[0] || broken) && strcmp(digest, file->digest) != 0) {
             strcpy(file->digest, digest);
-            changed(context, file->path, read_write_time(file->path));
+            changed(context, file->path, read_write_time(file->watched));
         }
     }
 }
@@ -236,8 +247,10 @@ void jox_watch_free(JoxWatch *watch) {
         return;
     jox_heap_unregister(watch);
     close_watch(watch);
-    for (size_t i = 0; i < watch->count; i++)
+    for (size_t i = 0; i < watch->count; i++) {
         jox_free(watch->files[i].path);
+        jox_free(watch->files[i].watched);
+    }
     jox_free(watch->files);
     jox_free(watch);
 }
