@@ -102,8 +102,6 @@ static const char *find_entry_fault(zip_t *zip, uint64_t index, const zip_stat_t
         return "it is encrypted";
     if (entry->size > RATIO_FROM && entry->size / MOST_RATIO > entry->comp_size)
         return "it unpacks to over 200 times its size";
-    if (zip_name_locate(zip, entry->name, 0) != (zip_int64_t)index)
-        return "there are two of this name";
     return *content > LARGEST_CONTENT ? "the files before and with it are over 16 MB" : NULL;
 }
 
@@ -151,7 +149,10 @@ static Archive *open_archive(const char *path, size_t name_length, char why[WHY]
     zip_source_t *source = zip_source_buffer_create(archive->data, length, 0, &error);
     archive->zip = source ? zip_open_from_source(source, ZIP_RDONLY | ZIP_CHECKCONS, &error) : NULL;
     if (!archive->zip) {
-        snprintf(why, WHY, "it is no zip archive: %.120s", zip_error_strerror(&error));
+        if (zip_error_code_zip(&error) == ZIP_ER_EXISTS)
+            snprintf(why, WHY, "it has two files of one name");
+        else
+            snprintf(why, WHY, "it is no zip archive: %.120s", zip_error_strerror(&error));
         zip_source_free(source);
         zip_error_fini(&error);
         jox_free(archive->data);

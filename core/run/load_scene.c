@@ -186,7 +186,8 @@ static bool takes_named_mods(const JoSceneDef *def, const JoScene *scene,
         for (uint32_t m = 0; m < mods->count && !taken; m++)
             if (strcmp(mods->items[m].name, name) == 0 ||
                 (strncmp(mods->items[m].folder, name, length) == 0 &&
-                 !mods->items[m].folder[length]))
+                 (!mods->items[m].folder[length] ||
+                  (mods->items[m].folder[length] == '/' && jox_mods_is_archive(name)))))
                 taken = &mods->items[m];
         if (taken)
             jox_run_check_mod_use(scene, taken, diagnostics);

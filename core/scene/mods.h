@@ -33,6 +33,8 @@ typedef struct JoxMods {
    beside mods that are found. */
 JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics);
 void jox_mods_free(JoxMods *mods);
+/* Whether a path is a zip archive. */
+bool jox_mods_is_archive(const char *path);
 /* Returns the index of a mod in `found`, or -1. */
 int32_t jox_mods_index(const JoxMods *mods, const char *name);
 

@@ -38,7 +38,7 @@ static void search_folders(JoxModsFind *f) {
     char folder[1024];
     for (uint32_t n = 0; n < f->def->named_count;
          n++) /* first: of two mods with one name the first wins */
-        if (jox_is_folder(f->def->named[n])) {
+        if (jox_mods_is_place(f->def->named[n])) {
             snprintf(folder, sizeof folder, "%s", f->def->named[n]);
             for (size_t k = strlen(folder); k > 1 && folder[k - 1] == '/'; k--)
                 folder[k - 1] = 0;
@@ -97,10 +97,11 @@ static void search_missing_mods(JoxModsFind *f) {
     }
     for (uint32_t n = 0; n < f->def->named_count; n++) {
         const char *name = f->def->named[n];
-        bool found = strchr(name, '/') || jox_is_folder(name) || jox_mods_index(mods, name) >= 0;
+        bool found =
+            strchr(name, '/') || jox_mods_is_place(name) || jox_mods_index(mods, name) >= 0;
         found = found || (*own && search_beside(f, own, name));
         for (uint32_t k = 0; k < f->def->named_count && !found; k++)
-            found = jox_is_folder(f->def->named[k]) && search_beside(f, f->def->named[k], name);
+            found = jox_mods_is_place(f->def->named[k]) && search_beside(f, f->def->named[k], name);
     }
     for (uint32_t m = 0; m < mods->found_count; m++) /* also over mods that this loop finds */
         for (uint32_t d = 0; d < f->needs[m].depend_count; d++) {
@@ -130,7 +131,8 @@ static void choose_enabled(JoxModsFind *f) {
 static void choose_named(JoxModsFind *f) {
     JoxMods *mods = f->mods;
     for (uint32_t n = 0; n < f->def->named_count; n++) {
-        int32_t m = jox_is_folder(f->def->named[n]) ? -2 : jox_mods_index(mods, f->def->named[n]);
+        int32_t m =
+            jox_mods_is_place(f->def->named[n]) ? -2 : jox_mods_index(mods, f->def->named[n]);
         if (m >= 0)
             f->needs[m].wanted = true;
         else if (m == -1)

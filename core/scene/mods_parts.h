@@ -32,8 +32,8 @@ typedef struct JoxModsFind {
 /* mods_read.c. Reads the mod in a folder and appends it to `found`, unless it is there already.
    `wanted`: it is named. */
 void jox_mods_read_folder(JoxModsFind *find, const char *folder, bool wanted);
-/* Whether a path is a zip archive. */
-bool jox_mods_is_archive(const char *path);
+/* Whether a path is a folder, or an archive, also one that is refused. */
+bool jox_mods_is_place(const char *path);
 /* Returns FOLDER/NAME, in the arena. */
 char *jox_mods_join(JoxArena *arena, const char *folder, const char *name);
 /* Reports that there is no mod `name`. `needed_by`: the mod or "the scene" that needs it; or "". */

@@ -27,6 +27,10 @@ bool jox_mods_is_archive(const char *path) {
     return jox_zip_split(path, &inside) > 0 && !*inside;
 }
 
+bool jox_mods_is_place(const char *path) {
+    return jox_is_folder(path) || jox_mods_is_archive(path);
+}
+
 char *jox_mods_join(JoxArena *arena, const char *folder, const char *name) {
     char *path = jox_arena_take(arena, strlen(folder) + strlen(name) + 2, 1);
     sprintf(path, "%s/%s", folder, name);
