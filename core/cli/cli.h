@@ -388,7 +388,8 @@ bool cli_read_isa(JoIsa *isa, const char *text, char why[160]);
         CLI_MOD_OPTIONS(type, def)
 #define CLI_MOD_OPTIONS(type, def)                                                                 \
     {"mod", "DIR",                                                                                 \
-     "use a mod: a folder, or the name of one in the scene's mods/ or in the user's data "         \
+     "use a mod: a folder or zip archive, or the name of one in the scene's mods/ or the user's "  \
+     "data "                                                                                       \
      "directory ($XDG_DATA_HOME/jostle/mods); may be given several times. Other mods are off "     \
      "unless `jostle mod enable` turned them on; mods that a mod depends on must be on or named, " \
      "too",                                                                                        \
