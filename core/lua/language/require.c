@@ -28,8 +28,8 @@ static bool is_module(JoxScript *script, const char *folder, const char *name, c
     struct stat info;
     snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
     jox_vm_note_path(&script->vm, path);
-    return jox_overlay_file(path) ||
-           (lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) || jox_path_below(path, folder);
+    return jox_overlay_file(path) || (lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) ||
+           jox_path_below(path, folder);
 }
 
 /* Finds the file of a module: "mod:name" in a mod; else beside the file that requires it, beside
