@@ -82,7 +82,9 @@ static const CliOption OPTIONS[] = {
     {"watch", NULL, "reload behaviours and the scene when their files change",
      "if the output is a terminal", CLI_TO(Run, watch)},
     {"no-watch", NULL, "do not reload changed files", CLI_TO(Run, no_watch)},
-    {"trace", "AGENT", "print each transition of the agent with this id, and why",
+    {"trace", "AGENT",
+     "print each transition of the agent with this id, and why; and between them each term of the "
+     "conditions that it waits for, when it begins or ceases to hold",
      CLI_TO(Run, trace), CLI_GIVEN(Run, has_trace), CLI_RANGE(0, UINT32_MAX)},
     {"quiet", NULL, "print no progress, and no closing paragraph", CLI_TO(Run, quiet)},
     {"view", "PORT",

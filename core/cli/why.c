@@ -70,6 +70,8 @@ static bool simulate_until(const Why *why, JoScene *scene, JoError *error) {
     if (!why->quiet && until > jo_world_tick(world))
         jo_scene_show_progress(scene, (double)until * dt);
     bool ok = true;
+    if (why->asked.has_agent)
+        jo_scene_follow(scene, why->asked.agent);
     while (ok && jo_world_tick(world) < until && !cli_signal)
         ok = jo_scene_step(scene, error);
     return ok;

@@ -63,6 +63,9 @@ typedef struct JoWhyDef {
     uint32_t cookie;
 } JoWhyDef;
 JO_API JoWhyDef jo_default_why_def(void);
+/* Watches the agent with this id from now on, in place of the one before: jo_scene_why then also
+   tells its last transition, and what was drawn for chances. */
+JO_API void jo_scene_follow(JoScene *scene, uint32_t agent);
 /* Answers between two steps: how long the agents have been in their states, and for every
    transition out of them each term of its condition, with its value and its bound, and what there
    is where it does not hold; the transition that is nearest to firing comes first. The conditions

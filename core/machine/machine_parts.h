@@ -417,6 +417,12 @@ void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
 void jox_edits_end(JoxMachineRun *run, uint32_t machine);
 /* watched_agents.c: record a transition and the values that actions wrote, of watched agents. */
 void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken);
+/* trace.c: appends the terms that changed of the conditions that the traced agent waits for, unless
+   it takes a transition in this step. */
+void jox_trace_waiting(JoxMachineRun *run);
+void jox_trace_free(JoxMachineRun *run);
+/* Records the number that was drawn for the chance of a transition of agent i. */
+void jox_watch_roll(const JoxMachineRun *run, uint32_t i, uint32_t transition, double drawn);
 void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
                        uint32_t agent);
 /* grasp.c: updates holds between agents for those given, by ascending id: starts, pulls, lets

@@ -128,6 +128,12 @@ typedef struct JoxWatched {
     uint32_t tick;
     char from[64], to[64];
     JoxText why; /* text of jox_machines_explain */
+    /* Last roll of each chance since the state was entered. */
+    struct JoxRolled {
+        bool rolled;
+        uint32_t tick;
+        double drawn; /* the chance was won if it was greater */
+    } rolls[JOX_MOST_TRANSITIONS];
 } JoxWatched;
 
 /* A parameter that a person set while the world ran. */
@@ -279,7 +285,8 @@ typedef struct JoxMachineRun {
     bool traces;         /* explain transitions of agent trace_id in `trace` */
     uint32_t trace_id;
     JoxText trace;
-    JoxWatched *watched; /* owned by the world */
+    struct JoxTraceTerms *trace_terms; /* what the traced agent waits for (trace.c) */
+    JoxWatched *watched;               /* owned by the world */
     uint32_t watched_count;
 
     /* Reports of numbers that were computed and are invalid, one line each; the reader

@@ -285,6 +285,7 @@ void jox_machines_free(JoxMachineRun *run) {
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
     jox_text_free(&run->trace);
+    jox_trace_free(run);
     jox_text_free(&run->notes);
     jox_free(run->told);
     jox_machines_scratch_free(run);

@@ -47,7 +47,11 @@ static bool roll_chance(const JoxMachineRun *run, const JoxMachine *machine, con
     if (t->chance.kind == JOX_VALUE_UNSET)
         return true;
     double chance = jox_value(run, machine, &t->chance, i);
-    return jox_random_unit(run->seed, run->agents->id[i], run->tick, JOX_DRAW_CHANCE, k) < chance;
+    const double drawn =
+        jox_random_unit(run->seed, run->agents->id[i], run->tick, JOX_DRAW_CHANCE, k);
+    if (run->watched_count)
+        jox_watch_roll(run, i, k, drawn);
+    return drawn < chance;
 }
 
 typedef struct Think {
@@ -352,6 +356,8 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
                          run->agents->count * sizeof *run->scratch->reacts);
         jox_parallel_for(pool, run->scratch->batch_count, 1, think_range, &think);
         evaluate_function_conditions(run);
+        if (run->traces)
+            jox_trace_waiting(run);
         carry_out_reactions(run);
         take_transitions(run);
         JOX_CHECK(jox_taken_check(run));

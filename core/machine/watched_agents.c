@@ -1,6 +1,7 @@
 /* Records for watched agents: the last transition, and what wrote their values. No step reads
    them. */
 #include <stdio.h>
+#include <string.h>
 
 #include "base/mem.h"
 #include "machine/machine_parts.h"
@@ -16,8 +17,15 @@ void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken) {
         snprintf(watched->from, sizeof watched->from, "%s", machine->states[taken->from].name);
         snprintf(watched->to, sizeof watched->to, "%s", machine->states[taken->to].name);
         watched->why.length = 0;
+        memset(watched->rolls, 0, sizeof watched->rolls);
         jox_machines_explain(run, taken, &watched->why);
     }
+}
+
+void jox_watch_roll(const JoxMachineRun *run, uint32_t i, uint32_t transition, double drawn) {
+    for (uint32_t n = 0; n < run->watched_count; n++)
+        if (run->watched[n].agent_id == run->agents->id[i])
+            run->watched[n].rolls[transition] = (struct JoxRolled){true, run->tick, drawn};
 }
 
 void jox_machines_record_writer(JoxMachineRun *run, uint32_t i, const JoxWrote *wrote) {

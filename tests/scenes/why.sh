@@ -91,3 +91,7 @@ figures = json.load(sys.stdin)
 assert figures["never_fired"] == [{"machine": "pupil", "from": "Walk", "to": "Hide", "id": "Hide"}] and "unleft" not in figures
 '
 verdict "  also in the summary" $?
+# A trace tells between transitions which terms begin and cease to hold.
+expect "a trace tells which terms changed" 0 "in Walk, for Lesson: after(6) now holds" bash -c "sed 's/when = after(6)/when = after(6) \& now.x:above(90)/' '$work/school/pupil.lua' >'$work/school/slow.lua';
+    '$JOSTLE' run '$school' --set groups.pupils.behaviour=slow.lua --trace 0 --for 8 --quiet"
+[ "$(grep -c '^t=' "$work/out")" = 1 ]; verdict "  once each" $?

@@ -133,14 +133,23 @@ static void chance_and_functions_are_explained(void **state) {
                       "{ to = \"Break\", when = function(me) return me.met end },\n"));
     step_scene(scene, 40);
     char *text = ask_agent(scene, 0);
-    CHECK_ORDER(text, "-> Hide", "yes  after(0.1)", "no   chance 0: rolled", "lost", "-> Break",
+    CHECK_ORDER(text, "-> Hide", "yes  after(0.1)", "no   chance 0: drawn", "lost", "-> Break",
                 "no   a function: it returned false when it was last asked", "160 calls in all");
+    jo_free(text);
+    jo_scene_free(scene);
+    scene = load_scene_text(SCHOOL,
+                            CLASS("{ to = \"Hide\", when = after(0.1), chance = 0 },\n"
+                                  "{ to = \"Break\", when = function(me) return me.met end },\n"));
+    jo_scene_follow(scene, 0);
+    step_scene(scene, 40);
+    text = ask_agent(scene, 0);
+    CHECK_ORDER(text, "no   chance 0: 0.", "was drawn at 0.10 s, when the condition became true");
     jo_free(text);
     text = ask_why(scene, (JoWhyDef){.group = "pupils"});
     CHECK_ORDER(
         text, "3 people of group pupils", "3 people are in Lesson (machine m), all since 0.00 s",
         "-> Hide", "fires for nobody", "3 of 3  after(0.1)",
-        "3 of 3 for whom the condition holds rolled and lost", "-> Break", "0 of 3  a function");
+        "3 of 3 for whom the condition holds drew and lost", "-> Break", "0 of 3  a function");
     jo_free(text);
     jo_scene_free(scene);
 }

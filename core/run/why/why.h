@@ -14,7 +14,8 @@ typedef struct JoxWhyAgent {
     uint32_t agent; /* index */
     const JoxMachine *machine;
     const JoxState *state;
-    double since, now; /* s of simulated time: entry of the state; the present */
+    double since, now;         /* s of simulated time: entry of the state; the present */
+    const JoxWatched *watched; /* record of its past; NULL: it is not watched */
     JoxWhyTransition transitions[JOX_MOST_TRANSITIONS]; /* in the order of the state */
     uint32_t order[JOX_MOST_TRANSITIONS];               /* nearest to firing first */
 } JoxWhyAgent;
@@ -66,8 +67,7 @@ void jox_why_add_function(const JoScene *scene, const JoxMachine *machine, int32
                           bool returned, JoxText *out);
 bool jox_why_add_memory(const JoScene *scene, uint32_t agent, uint32_t slot, JoxText *out);
 bool jox_why_add_own(const JoScene *scene, uint32_t agent, uint32_t slot, JoxText *out);
-/* Appends what keeps back a transition with a chance whose condition holds. `watched`: the record
-   of the agent, or NULL. */
+/* Appends what keeps back a transition with a chance whose condition holds. */
 void jox_why_add_chance(const JoScene *scene, const JoxWhyAgent *why, uint32_t transition,
                         JoxText *out);
 /* Appends the value of a measured term, and its bound unless it holds: "7.3 m, needs < 3 m". */

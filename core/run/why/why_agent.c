@@ -42,6 +42,9 @@ void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWh
                          .state = &machine->states[a->state[agent]],
                          .since = a->entered[agent] * dt,
                          .now = (double)world->state.tick * dt};
+    for (uint32_t n = 0; n < world->machines.watched_count; n++)
+        if (world->machines.watched[n].agent_id == a->id[agent])
+            out->watched = &world->machines.watched[n];
     jox_world_look_at(scene->world, look, agent);
     for (uint32_t k = 0; k < out->state->transition_count; k++) {
         jox_why_transition(&world->machines, agent, k, &out->transitions[k]);

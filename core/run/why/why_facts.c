@@ -64,15 +64,20 @@ bool jox_why_add_own(const JoScene *scene, uint32_t agent, uint32_t slot, JoxTex
 void jox_why_add_chance(const JoScene *scene, const JoxWhyAgent *why, uint32_t transition,
                         JoxText *out) {
     const JoxWhyTransition *t = &why->transitions[transition];
-    (void)scene;
+    const struct JoxRolled *roll = why->watched ? &why->watched->rolls[transition] : NULL;
     jox_text_printf(out, "chance %.4g: ", t->chance_value);
-    if (t->chance == JOX_WHY_LOST)
-        jox_text_add(out, "rolled when the condition became true, and lost; rolled again only "
+    if (roll && roll->rolled)
+        jox_text_printf(out, "%.4g was drawn at %.2f s, when the condition became true; ",
+                        roll->drawn, roll->tick * scene->world->model.def.dt);
+    if (t->chance == JOX_WHY_LOST && roll && roll->rolled)
+        jox_text_add(out, "drawn again only after the condition has been false");
+    else if (t->chance == JOX_WHY_LOST)
+        jox_text_add(out, "drawn when the condition became true, and lost; drawn again only "
                           "after the condition has been false");
     else if (t->holds)
-        jox_text_add(out, "the condition has just become true: rolled in the next step");
+        jox_text_add(out, "the condition has just become true: drawn in the next step");
     else
-        jox_text_add(out, "rolled each time the condition becomes true");
+        jox_text_add(out, "drawn each time the condition becomes true");
 }
 
 /* Appends a number with its unit. */

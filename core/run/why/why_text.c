@@ -201,9 +201,23 @@ static void print_agent_head(const JoScene *scene, const JoxWhyAgent *why, JoxTe
                     (double)jox_length((JoxV2){a->vx[i], a->vy[i]}));
 }
 
+/* Appends where the agent came from, and why, if it was watched then. */
+static void print_last_transition(const JoScene *scene, const JoxWhyAgent *why, JoxText *out) {
+    const JoxWatched *watched = why->watched;
+    if (!watched || !watched->took)
+        return;
+    jox_text_printf(out, "  it came from %s at %.2f s", watched->from,
+                    watched->tick * scene->world->model.def.dt);
+    const char *when = watched->why.data ? strstr(watched->why.data, "    when ") : NULL;
+    if (when)
+        jox_text_printf(out, ", %.*s", (int)strcspn(when + 4, "\n"), when + 4);
+    jox_text_add(out, "\n");
+}
+
 void jox_why_agent_text(const JoScene *scene, const JoxWhyAgent *why, JoxText *out) {
     const uint32_t count = why->state->transition_count;
     print_agent_head(scene, why, out);
+    print_last_transition(scene, why, out);
     print_values(scene, why, false, out);
     print_values(scene, why, true, out);
     print_messages(scene, why, out);
@@ -247,12 +261,12 @@ static void print_crowd_transition(const JoScene *scene, const JoxWhyCrowd *crow
     print_condition(
         &(Printing){.t = &t->shown, .holders = t->holders, .people = crowd->people, .out = out});
     if (t->shown.chance != JOX_WHY_CERTAIN && t->held == 0)
-        jox_text_printf(out, "     chance %.4g: rolled each time the condition becomes true\n",
+        jox_text_printf(out, "     chance %.4g: drawn each time the condition becomes true\n",
                         t->shown.chance_value);
     else if (t->shown.chance != JOX_WHY_CERTAIN)
         jox_text_printf(out,
-                        "     chance %.4g: %u of %u for whom the condition holds rolled and lost; "
-                        "they roll again only after it has been false\n",
+                        "     chance %.4g: %u of %u for whom the condition holds drew and lost; "
+                        "they draw again only after it has been false\n",
                         t->shown.chance_value, t->lost, t->held);
 }
 
