@@ -9,7 +9,7 @@
 typedef struct Run {
     JoSceneDef def;
     JoViewDef live; /* settings of the live page */
-    CliList sets, mods;
+    CliList sets, mods, breaks;
     const char *record, *report, *data, *summary, *log;
     const char *folder; /* folder of checkpoints */
     double seconds, every, record_every;
@@ -86,6 +86,12 @@ static const CliOption OPTIONS[] = {
      "print each transition of the agent with this id, and why; and between them each term of the "
      "conditions that it waits for, when it begins or ceases to hold",
      CLI_TO(Run, trace), CLI_GIVEN(Run, has_trace), CLI_RANGE(0, UINT32_MAX)},
+    {"break", "WHEN",
+     "end the run, or with --view pause it, in the step in which WHEN happens: 'agent 17 enters "
+     "Hide', 'anybody leaves Lesson', 'GROUP calls SIGNAL'; may be given several times. With "
+     "--checkpoint-dir a checkpoint is written there, to look at with `jostle why --from DIR` or "
+     "go on from with `jostle resume`",
+     CLI_TO(Run, breaks)},
     {"quiet", NULL, "print no progress, and no closing paragraph", CLI_TO(Run, quiet)},
     {"view", "PORT",
      "show the run on a live page, in real time, and print the page's address: port 8730, or the "
@@ -126,6 +132,8 @@ static bool fits_into_note(const char *path) {
     return !path || (!strpbrk(path, "\n\r") && strlen(path) <= LONGEST_NOTED);
 }
 
+static const double NEVER = 1e9; /* s: of checkpoints that are written at breakpoints alone */
+
 /* Starts writing checkpoints. Their note holds what `jostle resume` needs besides the scene. */
 static bool start_checkpoints(const Run *run, JoScene *scene, uint64_t steps, JoError *error) {
     const struct {
@@ -136,13 +144,14 @@ static bool start_checkpoints(const Run *run, JoScene *scene, uint64_t steps, Jo
                  {"report", run->report},
                  {"data", run->data}};
     char note[6 * LONGEST_NOTED];
+    const double every = run->every > 0.0 ? run->every : NEVER;
     int used = snprintf(note, sizeof note, "steps %llu\nevery %.17g\n%s", (unsigned long long)steps,
-                        run->every, run->no_half ? "no-half \n" : "");
+                        every, run->no_half ? "no-half \n" : "");
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
         if (texts[t].value)
             used += snprintf(note + used, sizeof note - (size_t)used, "%s %s\n", texts[t].key,
                              texts[t].value);
-    return jo_scene_checkpoint(scene, run->folder, run->every, note, error);
+    return jo_scene_checkpoint(scene, run->folder, every, note, error);
 }
 
 /* Returns the number of steps of the run. */
@@ -195,6 +204,40 @@ static int write_page_and_summary(Run *run, JoScene *scene, uint64_t steps, int 
     return status;
 }
 
+/* Sets the breakpoints of the run; false with `error`. */
+static bool set_breaks(const Run *run, JoScene *scene, JoError *error) {
+    bool good = true;
+    for (size_t b = 0; good && b < run->breaks.count; b++)
+        good = jo_scene_break(scene, run->breaks.items[b], error);
+    return good;
+}
+
+/* Writes a checkpoint of a run that has come to a breakpoint, after as many more steps as it takes
+   until the state can be saved. */
+static bool save_break(const Run *run, JoScene *scene, JoError *error) {
+    bool written = false, good = jo_scene_checkpoint_now(scene, &written, error);
+    while (good && !written && !cli_signal)
+        good = jo_scene_step(scene, error) && jo_scene_checkpoint_now(scene, &written, error);
+    if (written)
+        fprintf(stderr, "the state at %.2f s is in %s\n", jo_world_time(jo_scene_world(scene)),
+                run->folder);
+    return good;
+}
+
+/* Makes the steps of the run, up to a breakpoint. */
+static bool make_steps(const Run *run, JoScene *scene, uint64_t steps, JoError *error) {
+    bool ok = true, broke = false;
+    for (uint64_t i = 0; ok && !broke && i < steps && !cli_signal; i++) {
+        ok = jo_scene_step(scene, error);
+        broke = ok && run->breaks.count && jo_scene_broke(scene);
+    }
+    if (broke)
+        fputs(jo_scene_broke(scene), stderr);
+    else if (ok && run->breaks.count && !cli_signal)
+        fprintf(stderr, "no breakpoint was met in %g s\n", jo_world_time(jo_scene_world(scene)));
+    return ok && (!broke || !run->folder || save_break(run, scene, error));
+}
+
 /* Loads the scene and simulates it once; returns an exit status. */
 static int run_once(Run *run) {
     JoError error = {0};
@@ -205,6 +248,10 @@ static int run_once(Run *run) {
     cli_catch_signals(true);
     const uint64_t steps = count_run_steps(run, scene);
     jo_scene_vet(scene, cli_keeper_vetter(run->keeper));
+    if (!set_breaks(run, scene, &error)) {
+        jo_scene_free(scene);
+        return print_run_error(&error, false);
+    }
     bool ok = open_run_files(run, scene, steps, &files, &error);
     const bool begun = ok;
     if (ok && !check_summary_path(run)) { /* checked only now: a report may have made its folder */
@@ -215,8 +262,7 @@ static int run_once(Run *run) {
         jo_scene_trace(scene, (uint32_t)run->trace);
     if (!run->quiet && ok)
         jo_scene_show_progress(scene, (double)steps * jo_scene_stats(scene).dt);
-    for (uint64_t i = 0; ok && i < steps && !cli_signal; i++)
-        ok = jo_scene_step(scene, &error);
+    ok = ok && make_steps(run, scene, steps, &error);
     int status = cli_finish_run(&cli_run, scene, ok, &error, &files);
     if (begun)
         status = write_page_and_summary(run, scene, steps, status, &files);
@@ -249,6 +295,8 @@ static int run_on_page(Run *run, char **summary) {
     live->opened = cli_print_address;
     live->begun = begin_page_run;
     live->begun_context = run;
+    live->breaks = run->breaks.items;
+    live->break_count = run->breaks.count;
     live->summary = run->summary ? summary : NULL;
     live->seconds = run->has_seconds ? run->seconds : 0.0;
     const JoxOverlay *before = jox_overlay_use(&run->files);
@@ -305,9 +353,12 @@ static const char *find_run_misuse(const Run *run) {
            : run->seeds && (run->record || run->watch || run->log || run->has_trace || run->profile)
                ? "--seeds cannot be combined with --record, --log-input, --watch, --trace or "
                  "--profile-lua"
+           : run->seeds && run->breaks.count ? "--seeds cannot be combined with --break"
            : run->seeds && run->has_steps && run->steps == 0 ? "--seeds goes with a step at least"
-           : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
-           : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"
+           : run->every > 0.0 && !run->folder ? "--checkpoint goes with --checkpoint-dir"
+           : run->folder && !(run->every > 0.0) && (run->breaks.count == 0 || run->view)
+               ? "--checkpoint-dir goes with --checkpoint, or with --break and without --view"
+           : run->record_every > 0.0 && !run->record ? "--record-every goes with --record"
            : run->folder && run->seeds ? "--checkpoint cannot be combined with --seeds"
            : run->folder && !(fits_into_note(run->record) && fits_into_note(run->log) &&
                               fits_into_note(run->folder) && fits_into_note(run->report) &&

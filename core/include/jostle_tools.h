@@ -63,6 +63,18 @@ typedef struct JoWhyDef {
     uint32_t cookie;
 } JoWhyDef;
 JO_API JoWhyDef jo_default_why_def(void);
+/* Sets a breakpoint, besides those that were set before: "agent 17 enters Hide", "anybody leaves
+   Lesson", "GROUP calls SIGNAL". Agents that come in enter their first state. False with `error`
+   (JO_USAGE) if it is not understood, or the scene has no such group, state or signal. */
+JO_API bool jo_scene_break(JoScene *scene, const char *text, JoError *error);
+/* Returns a line for each breakpoint that was met in the last step, which says when, by whom and,
+   of an agent that it names, why; NULL if none was. Valid until the next step. */
+JO_API const char *jo_scene_broke(const JoScene *scene);
+/* Writes a checkpoint of a scene for which jo_scene_checkpoint was called, beyond those that are
+   due. *written: whether the present state could be saved exactly; if not, it is written after the
+   first step from now on after which it can be. False with `error` if writing failed. */
+JO_API bool jo_scene_checkpoint_now(JoScene *scene, bool *written, JoError *error);
+
 /* Watches the agent with this id from now on, in place of the one before: jo_scene_why then also
    tells its last transition, and what was drawn for chances. */
 JO_API void jo_scene_follow(JoScene *scene, uint32_t agent);
@@ -162,8 +174,10 @@ typedef struct JoViewDef {
     const JoVetter *vetter;
     double seconds;     /* simulated time, s, after which the run pauses; 0: the scene's duration */
     const char *record; /* file for trajectories, or NULL; a restart overwrites it */
-    double record_every;      /* s between recorded frames, as for jo_scene_record */
-    const char *log_input;    /* file for the input log, or NULL; a restart overwrites it */
+    double record_every;       /* s between recorded frames, as for jo_scene_record */
+    const char *log_input;     /* file for the input log, or NULL; a restart overwrites it */
+    const char *const *breaks; /* breakpoints, as of jo_scene_break, at which the page pauses */
+    size_t break_count;
     const volatile int *stop; /* the call returns once this int is not 0; NULL: only on errors */
     JoMessage *opened;        /* receives the page's address once it can be opened; may be NULL */
     void *opened_context;

@@ -82,9 +82,20 @@ static uint32_t find_called_slot(const JoScene *scene, const char *name) {
     return best == JOX_NO_INDEX ? UINT32_MAX : a->slot[best];
 }
 
+/* Makes a browser inspect the agent in a slot; `found`: it does not know the slot yet. */
+static void show_slot(JoxScenePage *s, uint32_t client, uint32_t slot, bool found) {
+    const JoxAgents *a = &s->scene->world->state.agents;
+    const uint32_t i = slot < a->slot_count ? a->slot_index[slot] : JOX_NO_INDEX;
+    JoxLiveInspector *inspector = find_inspector(s, client);
+    if (!inspector)
+        inspector = find_inspector(s, 0);
+    JOX_ASSERT(client != JOX_VIEW_ALL && inspector); /* as many rows as clients */
+    *inspector = (JoxLiveInspector){client, slot, i == JOX_NO_INDEX ? UINT32_MAX : a->id[i]};
+    send_inspected_agent(s, inspector, found);
+}
+
 void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
     JoxScenePage *s = self;
-    const JoxAgents *a = &s->scene->world->state.agents;
     const char *find = jox_command_text(request->command, "find", NULL);
     const double wanted = jox_command_number(request->command, "slot", -1.0);
     const uint32_t slot = find ? find_called_slot(s->scene, find)
@@ -94,14 +105,15 @@ void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
         jox_live_refuse(request, "nobody here has this id, is in a state or of a group so called");
         return;
     }
-    const uint32_t i = slot < a->slot_count ? a->slot_index[slot] : JOX_NO_INDEX;
-    JoxLiveInspector *inspector = find_inspector(s, request->client);
-    if (!inspector)
-        inspector = find_inspector(s, 0);
-    JOX_ASSERT(request->client != JOX_VIEW_ALL && inspector); /* as many rows as clients */
-    *inspector =
-        (JoxLiveInspector){request->client, slot, i == JOX_NO_INDEX ? UINT32_MAX : a->id[i]};
-    send_inspected_agent(s, inspector, find != NULL);
+    show_slot(s, request->client, slot, find != NULL);
+}
+
+void jox_scene_page_show_agent(JoxScenePage *s, uint32_t id) {
+    const JoxAgents *a = &s->scene->world->state.agents;
+    const uint32_t i = jox_agents_find(a, id);
+    for (uint32_t n = 0; i != JOX_NO_INDEX && n < JOX_VIEW_CLIENTS; n++)
+        if (s->page.watchers[n].client)
+            show_slot(s, s->page.watchers[n].client, a->slot[i], true);
 }
 
 void jox_scene_page_end_inspection(void *self, uint32_t client) {

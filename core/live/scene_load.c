@@ -28,12 +28,19 @@ bool jox_scene_page_end(JoxScenePage *s, JoError *error) {
     return good;
 }
 
+static bool set_breakpoints(JoxScenePage *s, JoError *error) {
+    bool good = true;
+    for (size_t b = 0; good && b < s->def->break_count; b++)
+        good = jo_scene_break(s->scene, s->def->breaks[b], error);
+    return good;
+}
+
 /* Starts what `def` asks for: recording, input log, watch of files; then calls `begun`. */
 static bool begin_outputs(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
     return (!def->record || jo_scene_record(s->scene, def->record, def->record_every, error)) &&
            (!def->log_input || jo_scene_log_input(s->scene, def->log_input, error)) &&
-           (!def->watch || jo_scene_watch(s->scene, error)) &&
+           (!def->watch || jo_scene_watch(s->scene, error)) && set_breakpoints(s, error) &&
            (!def->begun || def->begun(def->begun_context, s->scene, error));
 }
 

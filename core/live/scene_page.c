@@ -10,6 +10,7 @@
 #include "run/messages.h"
 #include "run/reload.h"
 #include "run/results/result_structs.h"
+#include "run/why/breakpoints.h"
 
 enum { VIEW_COOKIE = 0x4a4f5644 };
 static const double LATE = 0.1; /* s of delay that later steps make up for; more is dropped */
@@ -31,10 +32,23 @@ static void pause_at_end(JoxScenePage *s) {
     s->page.last_status = 0.0;
 }
 
+/* Pauses the run where a breakpoint was met, and shows all browsers the agent that met it. */
+static void pause_at_breakpoint(JoxScenePage *s) {
+    uint32_t agent;
+    if (!jox_run_broke(s->scene, &agent))
+        return;
+    jox_run_say(s->scene, "%s", jo_scene_broke(s->scene));
+    jox_scene_page_show_agent(s, agent);
+    s->page.session.paused = true;
+    s->steps = 0;
+    s->page.last_status = 0.0;
+}
+
 /* Makes a step. If it fails, the run is paused for good and browsers are told. */
 static void step_page_scene(JoxScenePage *s) {
     JoError error = {0};
     if (jo_scene_step(s->scene, &error)) {
+        pause_at_breakpoint(s);
         pause_at_end(s);
     } else {
         s->failed = s->page.session.paused = true;

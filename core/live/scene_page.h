@@ -69,6 +69,8 @@ void jox_scene_page_restart(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_input(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_lua(void *scene, const JoxLiveRequest *request);
 /* scene_inspectors.c: each browser can inspect one agent, and gets a message with each status. */
+/* Makes all browsers inspect the agent with this id. */
+void jox_scene_page_show_agent(JoxScenePage *s, uint32_t id);
 void jox_scene_page_inspect(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_send_inspected(void *scene);
 void jox_scene_page_end_inspection(void *scene, uint32_t client);

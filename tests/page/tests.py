@@ -196,6 +196,17 @@ def pulls(browser):
     browser.picture("push")
 
 
+@served("run", "scenes/office.yaml", "--view", "--break", "agent 9 enters Wait", "--break", "anybody enters Press")
+def breaks(browser):
+    """a breakpoint pauses the page and shows the person, with the reason"""
+    browser.wait("return page.bar.paused && page.person", "the page does not pause at a breakpoint", patience=60)
+    browser.wait("return /breakpoint/.test(document.body.textContent)", "the page does not say which one")
+    at = browser.run("return [page.person.id, page.person.state, document.getElementById('page-agent').checkVisibility()]")
+    expect(at[1] in ("Wait", "Press") and at[2], f"agent {at[0]} in {at[1]} is shown, in a panel that is {'' if at[2] else 'not '}open")
+    browser.run("page.bar.toggle()")
+    browser.wait("return !page.bar.paused", "the run does not go on after a breakpoint")
+
+
 @served("run", "scenes/tawaf-few.yaml", "--view")
 def inspects(browser):
     """a click on a person shows state, parameters, velocities and why it changed"""
@@ -577,7 +588,7 @@ events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, torsos, fallen, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, torsos, fallen, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

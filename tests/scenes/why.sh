@@ -95,3 +95,20 @@ verdict "  also in the summary" $?
 expect "a trace tells which terms changed" 0 "in Walk, for Lesson: after(6) now holds" bash -c "sed 's/when = after(6)/when = after(6) \& now.x:above(90)/' '$work/school/pupil.lua' >'$work/school/slow.lua';
     '$JOSTLE' run '$school' --set groups.pupils.behaviour=slow.lua --trace 0 --for 8 --quiet"
 [ "$(grep -c '^t=' "$work/out")" = 1 ]; verdict "  once each" $?
+# Breakpoints end a run, and write a checkpoint that \`why\` and \`resume\` go on from.
+sed 's/after(6)/after(6) | now.x:above(0.5)/' "$work/school/pupil.lua" >"$work/school/apart.lua"
+apart() { (cd "$work/school" && "$OLDPWD/$JOSTLE" run school.yaml --set groups.pupils.behaviour=apart.lua --quiet "$@" 2>&1); }
+[ "$(apart --break 'agent 0 enters Lesson')" = "t = 6.05 s: breakpoint 'agent 0 enters Lesson': agent 0 went from Walk to Lesson, when after(6) is true or now.x 0 > 0.5" ]
+verdict "a breakpoint ends the run when an agent enters a state, and says why" $?
+[ "$(apart --break 'pupils enters Lesson' | grep -c 'went from Walk')" = 3 ]; verdict "  of a group, all who do so in the step" $?
+[ "$(apart --break 'pupils enters Walk' | grep -c 'came in, into Walk')" = 6 ]; verdict "  also those who come in" $?
+[ "$(apart --break 'anybody enters Hide')" = "no breakpoint was met in 30 s" ]; verdict "  and says when it was not met" $?
+(cd "$work" && "$OLDPWD/$JOSTLE" run school/school.yaml --break 'agent 0 leaves Walk' --checkpoint-dir broken --quiet 2>&1) | grep -q "the state at 6.05 s is in broken"
+verdict "  and leaves a checkpoint" $?
+expect "    to look at" 0 "6.05 s: agent 0 of group pupils (machine pupil) has been in state Lesson" "$JOSTLE" why --from "$work/broken" --agent 0
+same_hash "    to go on from" "$(hash_of "$JOSTLE" "$school")" "$(cd "$work" && "$OLDPWD/$JOSTLE" resume broken --quiet --summary - 2>/dev/null | figure hash)"
+expect "  with bodies too, a little later" 0 "the state at" bash -c "cd '$work' && '$PWD/$JOSTLE' run dodgeball --break 'agent 1 enters Attack' --checkpoint-dir thrown --quiet"
+expect "a breakpoint that is none is refused" 2 "breakpoint 'stop' is none: it says who does what, as 'agent 17 enters Hide'" "$JOSTLE" run "$school" --break stop
+expect "  a state that is not there, with the nearest one" 2 "there is no state 'Hid'. Did you mean 'Hide'?" "$JOSTLE" run "$school" --break 'agent 1 enters Hid'
+expect "  a group" 2 "there is no group or agent 'pupil'. Did you mean 'pupils'?" "$JOSTLE" run "$school" --break 'pupil enters Hide'
+expect "  a folder for checkpoints without them" 2 "--checkpoint-dir goes with --checkpoint, or with --break" "$JOSTLE" run "$school" --checkpoint-dir "$work/x"

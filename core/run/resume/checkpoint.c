@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "run/read_scene.h"
 #include "run/resume/checkpoint.h"
 #include "run/tags_and_teams.h"
@@ -210,4 +211,16 @@ bool jo_scene_checkpoint(JoScene *scene, const char *directory, double every, co
         return false;
     return jox_run_attach_listener(scene, &CHECKPOINTS, &(JoxCheckpointDef){directory, note, every},
                                    error) != NULL;
+}
+
+bool jo_scene_checkpoint_now(JoScene *scene, bool *written, JoError *error) {
+    JOX_REQUIRE(scene && !scene->world->busy && written, false);
+    Checkpoint *c = jox_run_find_listener(scene, &CHECKPOINTS);
+    JOX_REQUIRE(c, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    c->due = scene->world->state.tick;
+    const bool good = write_checkpoint_if_due(c, scene, error);
+    *written = good && c->due > scene->world->state.tick;
+    return good;
 }
