@@ -60,7 +60,7 @@ static bool is_called(const JoScene *scene, uint32_t i, const char *name) {
         strcmp(scene->spec->groups[a->group[i]].name, name) == 0)
         return true;
     return a->machine[i] != JOX_NO_MACHINE &&
-           strcmp(set->items[a->machine[i]]->states[a->state[i]].name, name) == 0;
+           jox_state_is_in(&set->items[a->machine[i]]->states[a->state[i]], name);
 }
 
 /* Returns the slot of the agent with an id; or of a state or group, of the one that has been

@@ -205,7 +205,8 @@ void jox_why_transition(const JoxMachineRun *run, uint32_t agent, uint32_t index
     const JoxMachine *machine = jox_machine_of(run, agent);
     JOX_ASSERT(index < machine->states[a->state[agent]].transition_count);
     const JoxTransition *t = &machine->states[a->state[agent]].transitions[index];
-    *out = (JoxWhyTransition){.index = index, .root = JOX_WHY_NONE};
+    *out = (JoxWhyTransition){
+        .index = index, .to = jox_destination(run, t, agent), .root = JOX_WHY_NONE};
     out->held_before = a->was_true[agent] >> index & 1;
     out->is_function = t->when_hook >= 0;
     if (out->is_function)

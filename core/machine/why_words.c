@@ -320,6 +320,21 @@ static void say_message(const JoxMachineRun *run, uint32_t i, uint32_t name, Jox
                             others++ ? ", " : "; others do: ", run->set->names[first[m].name]);
 }
 
+/* Says when something that is done every so many seconds is next due. */
+static void say_next(double time, double every, JoxText *out) {
+    if (every > 0.0)
+        jox_text_printf(out, "%.4g s in the state, next at %.4g s", time,
+                        (floor(time / every + 1e-9) + 1.0) * every);
+}
+
+/* Says where the machine is that the outer state on a level runs. */
+static void say_end(const JoxMachine *machine, const JoxState *state, uint32_t level,
+                    JoxText *out) {
+    if (level < state->depth)
+        jox_text_printf(out, "what %s runs is in %s", machine->outer[state->around[level]].name,
+                        state->name);
+}
+
 static void say_queue(const JoxMachineRun *run, uint32_t i, JoxText *out) {
     const uint32_t rank = run->scratch->rank[i];
     if (rank == UINT32_MAX)
@@ -397,10 +412,13 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
         say_message(run, i, machine->names[in->name].number, &term->note);
         break;
     case JOX_OP_EVERY:
-        if (a > 0.0)
-            jox_text_printf(&term->note, "%.4g s in the state, next at %.4g s",
-                            jox_time_in_state(run, i),
-                            (floor(jox_time_in_state(run, i) / a + 1e-9) + 1.0) * a);
+        say_next(jox_time_in_state(run, i), a, &term->note);
+        break;
+    case JOX_OP_OUTER_EVERY:
+        say_next(jox_time_since(run, i, (uint32_t)in->arg), a, &term->note);
+        break;
+    case JOX_OP_DONE:
+        say_end(machine, &machine->states[agents->state[i]], (uint32_t)in->arg, &term->note);
         break;
     case JOX_OP_HAS:
         say_holding(run, i, &term->note);

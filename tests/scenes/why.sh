@@ -112,3 +112,15 @@ expect "a breakpoint that is none is refused" 2 "breakpoint 'stop' is none: it s
 expect "  a state that is not there, with the nearest one" 2 "there is no state 'Hid'. Did you mean 'Hide'?" "$JOSTLE" run "$school" --break 'agent 1 enters Hid'
 expect "  a group" 2 "there is no group or agent 'pupil'. Did you mean 'pupils'?" "$JOSTLE" run "$school" --break 'pupil enters Hide'
 expect "  a folder for checkpoints without them" 2 "--checkpoint-dir goes with --checkpoint, or with --break" "$JOSTLE" run "$school" --checkpoint-dir "$work/x"
+# Machines in states: an outer state is entered and left as one, and its transitions are named once.
+cat >"$work/school/guard.lua" <<'END'
+local walk = machine { start = "Go", states = { Go = { steer = hold, { to = "Look", when = after(1) } }, Look = { steer = hold, { to = "Go", when = after(1) } } } }
+return machine { name = "guard", start = "Wait", states = { Wait = { steer = hold, { to = "Guard", when = after(2) } },
+  Guard = { runs = walk, { to = "Wait", when = after(9) }, { to = "Rest", when = now.x:above(99) } }, Rest = { steer = hold } } }
+END
+guard() { "$JOSTLE" run "$school" --set groups.pupils.behaviour=guard.lua "$@" 2>&1 | tr '\n' ' '; }
+guard --break 'agent 0 enters Guard' --quiet | grep -q "t = 2.05 s: breakpoint 'agent 0 enters Guard': agent 0 went from Wait to Guard.Go"
+verdict "a breakpoint on an outer state is met when that is entered" $?
+guard --break 'agent 0 leaves Guard' --quiet | grep -q "agent 0 went from Guard.* to Wait, when after(9)"; verdict "  and left" $?
+guard --break 'agent 0 enters Guard.Look' --quiet | grep -q "t = 3.0.* went from Guard.Go to Guard.Look"; verdict "  and on a state within it" $?
+guard | grep -qF "Never fired, though people were in the state and left it: Guard -> Rest."; verdict "a transition of an outer state that never fired is named once" $?

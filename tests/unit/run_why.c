@@ -205,6 +205,40 @@ static void messages_and_reactions_are_explained(void **state) {
     jo_scene_free(scene);
 }
 
+/* Of machines in states: the clock of the outer state, what it waits for, and the way back. */
+static void nested_machines_are_explained(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(
+        SCHOOL,
+        "local walk = machine { start = \"Go\", states = {\n"
+        "  Go = { steer = hold, { to = \"Look\", when = after(1) } },\n"
+        "  Look = { steer = hold, { to = \"Go\", when = now.x:above(90) } } } }\n" MACHINE_START
+        "\"Guard\", states = {\n"
+        "  Guard = { runs = walk,\n"
+        "    { to = \"Rest\", when = after(3.5) & now.x:above(90) },\n"
+        "    { to = \"Tea\", when = done }, { to = \"Nap\", when = now.x:above(4) & after(2) } },\n"
+        "  Rest = { steer = hold }, Tea = { steer = hold },\n"
+        "  Nap = { steer = hold, { to = back, when = now.x:above(99) } } } }\n");
+    step_scene(scene, 60);
+    char *text = ask_agent(scene, 0);
+    CHECK_ORDER(text, "in state Guard.Look for 2.00 s, since 1.00 s", "-> Tea", "no   done",
+                "what Guard runs is in Guard.Look", "-> Nap", "now.x > 4", "yes  after(2)", "3 s",
+                "-> Guard.Go", "now.x > 90", "-> Rest", "2 terms are missing", "after(3.5)",
+                "3 s, needs >= 3.5 s");
+    jo_free(text);
+    text = ask_agent(scene, 2);
+    CHECK_ORDER(text, "in state Nap", "-> back, to Guard.Look", "now.x > 99");
+    jo_free(text);
+    text = ask_why(scene, (JoWhyDef){.state = "Guard", .to = "Tea"});
+    CHECK_ORDER(text, "who could go to Tea:", "2 people are in Guard.Look", "-> Tea",
+                "0 of 2  done");
+    jo_free(text);
+    text = ask_why(scene, (JoWhyDef){.to = "Guard"});
+    CHECK_ORDER(text, "who could go to Guard:", "people are in Guard.Look", "-> Guard.Go");
+    jo_free(text);
+    jo_scene_free(scene);
+}
+
 static void unknown_names_are_refused(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(SCHOOL, CLASS("{ to = \"Hide\", when = after(5) },\n"));
@@ -287,6 +321,7 @@ int main(void) {
         cmocka_unit_test(chance_and_functions_are_explained),
         cmocka_unit_test(crowds_are_counted_by_term),
         cmocka_unit_test(messages_and_reactions_are_explained),
+        cmocka_unit_test(nested_machines_are_explained),
         cmocka_unit_test(unknown_names_are_refused),
         cmocka_unit_test(asking_does_not_change_the_run),
         cmocka_unit_test(told_transitions_fire_in_the_next_step),

@@ -108,21 +108,43 @@ static Stay *list_unleft(const JoScene *scene, uint32_t *count) {
     return list;
 }
 
-/* Returns whether a transition never fired, in any version, though people were in its state for
-   long. */
-static bool never_fired(const JoScene *scene, uint32_t machine, const JoxState *from,
-                        uint32_t transition) {
+/* Returns whether a transition of a state is another one as well: of an outer state, which each
+   state within it has. */
+static bool is_same_item(const JoxState *a, const JoxTransition *of_a, const JoxState *b,
+                         const JoxTransition *of_b) {
+    return of_a->level == of_b->level && of_a->item == of_b->item &&
+           (a == b || (of_a->level < a->depth && of_a->level < b->depth &&
+                       a->around[of_a->level] == b->around[of_a->level]));
+}
+
+/* What became of a transition: of one of an outer state, in all states within it. */
+typedef struct Fate {
+    bool first;      /* no state before has it, too */
+    double spent;    /* s: in all, by all agents, in states that have it */
+    uint64_t taken;  /* how often it was taken */
+    uint64_t leaves; /* how often agents left these states */
+} Fate;
+
+static Fate find_fate(const JoScene *scene, uint32_t machine, const JoxState *from,
+                      const JoxTransition *t) {
     const JoxMachine *m = scene->world->machines.set->items[machine];
     const JoxMachineCounts *counts = &scene->world->machines.state->counts[machine];
-    const double spent = (double)counts->states[state_number(m, from)].spent;
-    if (counts->taken[from->first_transition + transition] > 0 ||
-        spent * scene->world->model.def.dt < SHORTEST_TOTAL)
-        return false;
+    Fate fate = {.first = true};
+    for (const JoxState *s = m->states; s < m->states + m->state_count; s++)
+        for (uint32_t k = 0; k < s->transition_count; k++) {
+            if (!is_same_item(from, t, s, &s->transitions[k]))
+                continue;
+            fate.first = fate.first && s >= from;
+            fate.spent +=
+                (double)counts->states[state_number(m, s)].spent * scene->world->model.def.dt;
+            fate.taken += counts->taken[s->first_transition + k];
+            fate.leaves += count_departures(counts, s);
+        }
     for (uint32_t b = 0; b < counts->before_count; b++)
         if (!strcmp(counts->before[b].from, from->name) &&
-            !strcmp(counts->before[b].to, m->states[from->transitions[transition].to].name))
-            return false;
-    return true;
+            !strcmp(counts->before[b].to, m->states[t->to].name))
+            fate.taken += counts->before[b].taken;
+    return fate;
 }
 
 /* Visits each transition that never fired, out of states that somebody left; returns how many. */
@@ -136,10 +158,14 @@ static uint32_t visit_never_fired(const JoScene *scene, NeverVisit *visit, void 
             continue;
         for (uint32_t s = 0; s < set->items[m]->state_count; s++) {
             const JoxState *from = &set->items[m]->states[s];
-            const bool left = count_departures(&scene->world->machines.state->counts[m], from) > 0;
-            for (uint32_t k = 0; left && k < from->transition_count; k++)
-                if (never_fired(scene, m, from, k))
-                    visit(context, set->items[m], from, &from->transitions[k], number++);
+            for (uint32_t k = 0; k < from->transition_count; k++) {
+                const Fate fate = find_fate(scene, m, from, &from->transitions[k]);
+                if (fate.first && fate.taken == 0 && fate.leaves > 0 &&
+                    fate.spent >= SHORTEST_TOTAL)
+                    visit(context, set->items[m],
+                          jox_state_on_level(set->items[m], from, from->transitions[k].level),
+                          &from->transitions[k], number++);
+            }
         }
     }
     return number;
@@ -150,7 +176,9 @@ static void say_never_fired(void *context, const JoxMachine *machine, const JoxS
     if (number < MOST_TRANSITIONS)
         jox_text_printf(context, t->stays ? "%s%.60s, reaction %.60s" : "%s%.60s -> %.60s",
                         number ? ", " : "", from->name,
-                        t->stays ? t->id : machine->states[t->to].name);
+                        t->stays  ? t->id
+                        : t->back ? "back"
+                                  : machine->states[t->to].name);
 }
 
 void jox_run_say_unleft(const JoScene *scene, JoxText *out) {
@@ -188,7 +216,7 @@ static void add_never_fired(void *context, const JoxMachine *machine, const JoxS
     jox_json_object(json, NULL);
     jox_json_string(json, "machine", machine->name);
     jox_json_string(json, "from", from->name);
-    jox_json_string(json, "to", t->stays ? NULL : machine->states[t->to].name);
+    jox_json_string(json, "to", t->stays || t->back ? NULL : machine->states[t->to].name);
     jox_json_string(json, "id", t->id);
     jox_json_end(json);
 }

@@ -52,17 +52,28 @@ static void add_reason(const JoxMachineRun *machines, uint32_t id, JoxText *out)
     }
 }
 
-/* Notes that an agent did something, if a breakpoint waits for it. `from`, `to`: states, or NULL.
- */
-static void note_deed(Breakpoints *b, const JoScene *scene, uint32_t id, BreakVerb verb,
-                      const char *name, const char *from, const char *to) {
+/* Returns whether an agent that goes from a state to another (NULL: none) does what a breakpoint
+   says of states: enters or leaves the named one, or an outer state of that name. */
+static bool does_with_state(const Breakpoint *one, const JoxState *from, const JoxState *to) {
+    const JoxState *is = one->verb == BREAK_ENTERS ? to : from;
+    const JoxState *other = one->verb == BREAK_ENTERS ? from : to;
+    return one->verb != BREAK_CALLS && is &&
+           (strcmp(is->name, one->name) == 0 ||
+            (jox_state_is_in(is, one->name) && !(other && jox_state_is_in(other, one->name))));
+}
+
+/* Notes that an agent went from a state to another (NULL: none), or gave a signal, if a breakpoint
+   waits for it. */
+static void note_deed(Breakpoints *b, const JoScene *scene, uint32_t id, const JoxState *from,
+                      const JoxState *to, const char *signal) {
     const JoxMachineRun *machines = &scene->world->machines;
     const JoxAgents *a = machines->agents;
     const uint32_t i = jox_agents_find(a, id);
     for (uint32_t n = 0; n < b->count; n++) {
         const Breakpoint *one = &b->items[n];
-        if (one->verb != verb || strcmp(one->name, name) != 0 ||
-            (one->has_agent && one->agent != id) ||
+        const bool does = signal ? one->verb == BREAK_CALLS && strcmp(one->name, signal) == 0
+                                 : does_with_state(one, from, to);
+        if (!does || (one->has_agent && one->agent != id) ||
             (one->group >= 0 && (i == JOX_NO_INDEX || a->group[i] != one->group)))
             continue;
         if (!b->met)
@@ -73,30 +84,29 @@ static void note_deed(Breakpoints *b, const JoScene *scene, uint32_t id, BreakVe
         jox_text_printf(&b->said, "t = %.2f s: breakpoint '%.120s': agent %u",
                         jo_world_time(scene->world), one->text, id);
         if (from && to)
-            jox_text_printf(&b->said, " went from %.60s to %.60s", from, to);
+            jox_text_printf(&b->said, " went from %.60s to %.60s", from->name, to->name);
         else if (to)
-            jox_text_printf(&b->said, " came in, into %.60s", to);
+            jox_text_printf(&b->said, " came in, into %.60s", to->name);
         if (from)
             add_reason(machines, id, &b->said);
         jox_text_add(&b->said, "\n");
     }
 }
 
-static const char *present_state(const JoxMachineRun *machines, uint32_t i) {
+static const JoxState *present_state(const JoxMachineRun *machines, uint32_t i) {
     const JoxAgents *a = machines->agents;
     return a->machine[i] == JOX_NO_MACHINE
-               ? ""
-               : machines->set->items[a->machine[i]]->states[a->state[i]].name;
+               ? NULL
+               : &machines->set->items[a->machine[i]]->states[a->state[i]];
 }
 
-/* Returns the state in which an agent came in that took a transition in its first step; else its
-   present state, or NULL if it is gone. */
-static const char *find_first_state(const JoxMachineRun *machines, uint32_t id) {
+/* Returns the state in which an agent came in: the one that it left, if it took a transition in its
+   first step; else its present state, or NULL if it is gone. */
+static const JoxState *find_first_state(const JoxMachineRun *machines, uint32_t id) {
     for (uint32_t k = 0; k < machines->taken_count; k++)
         if (machines->taken[k].agent_id == id)
-            return machines->set->items[machines->taken[k].machine]
-                ->states[machines->taken[k].from]
-                .name;
+            return &machines->set->items[machines->taken[k].machine]
+                        ->states[machines->taken[k].from];
     const uint32_t i = jox_agents_find(machines->agents, id);
     return i == JOX_NO_INDEX ? NULL : present_state(machines, i);
 }
@@ -104,10 +114,9 @@ static const char *find_first_state(const JoxMachineRun *machines, uint32_t id) 
 static void note_newcomers(Breakpoints *b, const JoScene *scene) {
     const JoxAgents *a = &scene->world->state.agents;
     for (; b->known < a->next_id; b->known++) {
-        const char *state = find_first_state(&scene->world->machines, b->known);
-        if (!state)
-            continue;
-        note_deed(b, scene, b->known, BREAK_ENTERS, state, NULL, state);
+        const JoxState *state = find_first_state(&scene->world->machines, b->known);
+        if (state)
+            note_deed(b, scene, b->known, NULL, state, NULL);
     }
 }
 
@@ -116,14 +125,12 @@ static void note_transitions(Breakpoints *b, const JoScene *scene) {
     for (uint32_t k = 0; k < machines->taken_count; k++) {
         const JoxTaken *taken = &machines->taken[k];
         const JoxMachine *machine = machines->set->items[taken->machine];
-        const char *from = machine->states[taken->from].name, *to = machine->states[taken->to].name;
+        const JoxState *from = &machine->states[taken->from], *to = &machine->states[taken->to];
         const uint32_t i = jox_agents_find(machines->agents, taken->agent_id);
-        note_deed(b, scene, taken->agent_id, BREAK_LEAVES, from, from, to);
-        note_deed(b, scene, taken->agent_id, BREAK_ENTERS, to, from, to);
-        if (i != JOX_NO_INDEX &&
-            strcmp(present_state(machines, i), to) != 0) /* it became another */
-            note_deed(b, scene, taken->agent_id, BREAK_ENTERS, present_state(machines, i), from,
-                      present_state(machines, i));
+        const JoxState *now = i == JOX_NO_INDEX ? NULL : present_state(machines, i);
+        note_deed(b, scene, taken->agent_id, from, to, NULL);
+        if (now && now != to) /* it became another: the state in which that begins */
+            note_deed(b, scene, taken->agent_id, to, now, NULL);
     }
 }
 
@@ -138,8 +145,8 @@ static bool look_at_step(void *self, JoScene *scene, JoError *error) {
     note_newcomers(b, scene);
     note_transitions(b, scene);
     for (uint32_t k = 0; k < state->called_count; k++)
-        note_deed(b, scene, state->called[k].agent_id, BREAK_CALLS,
-                  scene->world->machines.set->names[state->called[k].name], NULL, NULL);
+        note_deed(b, scene, state->called[k].agent_id, NULL, NULL,
+                  scene->world->machines.set->names[state->called[k].name]);
     if (b->lines > MOST_LINES)
         jox_text_printf(&b->said, "and %u more\n", b->lines - MOST_LINES);
     for (uint32_t n = 0; n < b->count; n++) { /* keeps the agent watched, for its reason */
@@ -199,7 +206,7 @@ static bool check_break_name(const JoScene *scene, const Breakpoint *one, JoErro
     size_t count = 0;
     for (uint32_t m = 0; m < set->count; m++) {
         const JoxMachine *machine = set->items[m];
-        if (one->verb != BREAK_CALLS && jox_machine_state(machine, one->name) >= 0)
+        if (one->verb != BREAK_CALLS && jox_machine_entry(machine, one->name) >= 0)
             return true;
         for (uint32_t s = 0; one->verb != BREAK_CALLS && s < machine->state_count && count < 512;
              s++)

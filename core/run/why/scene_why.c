@@ -63,10 +63,12 @@ static bool check_state(const Asked *asked, const char *state, JoError *error) {
     if (!state)
         return true;
     for (uint32_t m = 0; m < set->count; m++) {
-        if (jox_machine_state(set->items[m], state) >= 0)
+        if (jox_machine_entry(set->items[m], state) >= 0)
             return true;
         for (uint32_t s = 0; s < set->items[m]->state_count && count < 512; s++)
             names[count++] = set->items[m]->states[s].name;
+        for (uint32_t o = 0; o < set->items[m]->outer_count && count < 512; o++)
+            names[count++] = set->items[m]->outer[o].name;
     }
     return refuse_name("state", state, names, count, error);
 }
@@ -96,8 +98,7 @@ static bool leads_to(const Asked *asked, uint32_t i, const char *to) {
     const JoxMachine *machine = asked->scene->world->machines.set->items[a->machine[i]];
     const JoxState *state = &machine->states[a->state[i]];
     for (uint32_t k = 0; k < state->transition_count; k++)
-        if (!state->transitions[k].stays &&
-            !strcmp(machine->states[state->transitions[k].to].name, to))
+        if (jox_why_leads_to(machine, &state->transitions[k], to))
             return true;
     return false;
 }
@@ -113,7 +114,7 @@ static void list_agents(Asked *asked, const char *in, const char *to) {
         if (!state || (asked->group >= 0 && a->group[i] != asked->group))
             continue;
         asked->of++;
-        if ((!in || !strcmp(state->name, in)) && (!to || leads_to(asked, i, to)))
+        if ((!in || jox_state_is_in(state, in)) && (!to || leads_to(asked, i, to)))
             asked->agents[asked->count++] = i;
     }
     uint32_t *spare = jox_alloc(JOX_SORT_SPARE((size_t)a->count) + 1, sizeof *spare);
@@ -167,12 +168,10 @@ static void explain_crowds(Asked *asked, const char *to) {
         JoxWhyCrowd crowd;
         count = count_alike(asked, first);
         jox_why_crowd(asked->scene, &asked->look, asked->agents + first, count, &crowd);
-        const int goal = to ? jox_machine_state(crowd.machine, to) : -1;
         if (asked->def->json)
             jox_why_crowd_json(asked->scene, &crowd, &asked->json);
         else
-            jox_why_crowd_text(asked->scene, &crowd, goal < 0 ? NULL : &crowd.machine->states[goal],
-                               &asked->text);
+            jox_why_crowd_text(asked->scene, &crowd, to, &asked->text);
         jox_why_crowd_free(&crowd);
     }
     if (asked->def->json) {

@@ -25,6 +25,8 @@ void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWh
 void jox_why_agent_free(JoxWhyAgent *why);
 /* Returns how many items of a state are transitions, and no reactions. */
 uint32_t jox_why_count_leading(const JoxState *state);
+/* Returns whether a transition leads to a state, or into an outer state, of this name. */
+bool jox_why_leads_to(const JoxMachine *machine, const JoxTransition *t, const char *to);
 
 /* The agents of a state, explained together. */
 typedef struct JoxWhyCrowd {
@@ -50,10 +52,10 @@ void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agent
                    JoxWhyCrowd *out);
 void jox_why_crowd_free(JoxWhyCrowd *crowd);
 
-/* why_text.c: append lines for people. `only_to`: the transitions to this state alone, NULL: all.
- */
+/* why_text.c: append lines for people. `only_to`: the transitions to this state, or into this outer
+   state, alone; NULL: all. */
 void jox_why_agent_text(const JoScene *scene, const JoxWhyAgent *why, JoxText *out);
-void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const JoxState *only_to,
+void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const char *only_to,
                         JoxText *out);
 /* why_json.c: add the members "transitions" (agent), or of one crowd, to an open object. */
 void jox_why_agent_json(const JoScene *scene, const JoxWhyAgent *why, JoxJson *json);

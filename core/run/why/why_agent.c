@@ -23,6 +23,10 @@ static void sort_by_gap(const JoxState *state, uint32_t *order, const JoxWhyGap 
     }
 }
 
+bool jox_why_leads_to(const JoxMachine *machine, const JoxTransition *t, const char *to) {
+    return !t->stays && !t->back && jox_state_is_in(&machine->states[t->to], to);
+}
+
 uint32_t jox_why_count_leading(const JoxState *state) {
     uint32_t count = 0;
     for (uint32_t k = 0; k < state->transition_count; k++)

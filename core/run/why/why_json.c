@@ -45,7 +45,8 @@ static void add_term_members(const JoxWhyTransition *t, uint32_t index, const ui
 static void add_transition_members(const JoxMachine *machine, const JoxTransition *written,
                                    const JoxWhyTransition *t, const uint32_t *holders,
                                    JoxJson *json) {
-    jox_json_string(json, "to", written->stays ? NULL : machine->states[written->to].name);
+    jox_json_string(json, "to", written->stays ? NULL : machine->states[t->to].name);
+    jox_json_bool(json, "back", written->back);
     jox_json_string(json, "id", written->id);
     jox_json_string(json, "file", jox_machine_file(machine, written->source));
     jox_json_integer(json, "line", written->line);

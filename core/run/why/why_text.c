@@ -104,9 +104,13 @@ static void print_condition(const Printing *p) {
         print_term(p, root, INDENT);
 }
 
-static void print_transition_head(const JoxMachine *machine, const JoxTransition *t, JoxText *out) {
+/* `to`: the state to which it leads; NULL: that differs between agents. */
+static void print_transition_head(const JoxMachine *machine, const JoxTransition *t,
+                                  const JoxState *to, JoxText *out) {
     if (t->stays)
         jox_text_printf(out, "  reaction %s  (", t->id);
+    else if (t->back)
+        jox_text_printf(out, to ? "  -> back, to %s  (" : "  -> back  (", to ? to->name : "");
     else
         jox_text_printf(out, "  -> %s  (", machine->states[t->to].name);
     jox_why_add_place(machine, t, out);
@@ -119,7 +123,7 @@ static void print_transition(const JoScene *scene, const JoxWhyAgent *why, uint3
                              bool fires_first, JoxText *out) {
     const JoxWhyTransition *t = &why->transitions[index];
     const JoxTransition *written = &why->state->transitions[index];
-    print_transition_head(why->machine, written, out);
+    print_transition_head(why->machine, written, &why->machine->states[t->to], out);
     if (t->fires && written->stays)
         jox_text_add(out, ": holds, and is done in the next step");
     else if (t->fires)
@@ -228,7 +232,7 @@ void jox_why_agent_text(const JoScene *scene, const JoxWhyAgent *why, JoxText *o
                         why->state->name);
     else if (first < count)
         jox_text_printf(out, "It goes to %s in the next step:\n",
-                        why->machine->states[why->state->transitions[first].to].name);
+                        why->machine->states[why->transitions[first].to].name);
     else
         jox_text_add(out, leading == 1 ? "It stays, as its transition does not fire:\n"
                                        : "It stays, as no transition fires; the nearest to firing "
@@ -245,7 +249,7 @@ static void print_crowd_transition(const JoScene *scene, const JoxWhyCrowd *crow
     const JoxTransition *written = &crowd->state->transitions[index];
     const JoxAgents *a = &scene->world->state.agents;
     char people[JOX_NOUN];
-    print_transition_head(crowd->machine, written, out);
+    print_transition_head(crowd->machine, written, NULL, out);
     if (t->fires)
         jox_text_printf(out, ": holds for %s", jox_noun(people, t->fires, "agent"));
     else
@@ -270,7 +274,7 @@ static void print_crowd_transition(const JoScene *scene, const JoxWhyCrowd *crow
                         t->shown.chance_value, t->lost, t->held);
 }
 
-void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const JoxState *only_to,
+void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const char *only_to,
                         JoxText *out) {
     const JoxAgents *a = &scene->world->state.agents;
     char people[JOX_NOUN];
@@ -290,7 +294,7 @@ void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const Jo
     for (uint32_t k = 0; k < crowd->state->transition_count; k++) {
         const uint32_t index = crowd->order[k];
         const JoxTransition *t = &crowd->state->transitions[index];
-        if (!only_to || (!t->stays && &crowd->machine->states[t->to] == only_to))
+        if (!only_to || jox_why_leads_to(crowd->machine, t, only_to))
             print_crowd_transition(scene, crowd, index, out);
     }
 }

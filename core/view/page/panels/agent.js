@@ -44,7 +44,7 @@ function transitionRow(t) {
     const missing = t.fires ? "fires next" : t.misses === 0 ? "" : t.misses === 1 ? "one term is missing" : `${t.misses} terms are missing`;
     const terms = !t.when ? [] : t.when.kind === "all" ? sortedTerms(t.when.terms) : [t.when];
     return el("div", { className: "transition" },
-        el("p", {}, el("strong", {}, t.to ? `→ ${t.to}` : `reaction ${t.id}`), el("span", { className: "faint" }, ` ${file}:${t.line} ${missing}`)),
+        el("p", {}, el("strong", {}, t.to ? `→ ${t.back ? "back, to " : ""}${t.to}` : `reaction ${t.id}`), el("span", { className: "faint" }, ` ${file}:${t.line} ${missing}`)),
         el("ul", { className: "terms" }, terms.map(termRow),
             t.function ? el("li", {}, "a function: ", el("span", { className: "faint" }, t.function)) : null,
             t.chance_note ? el("li", {}, el("span", { className: "faint" }, t.chance_note)) : null));
