@@ -97,8 +97,8 @@ typedef struct JoxTell {
 
 enum { JOX_MOST_SET = 64 };
 
-/* Side effects of entering a state or taking a transition. What is told and what memory is set to is
-   evaluated on what was before any of it. */
+/* Side effects of entering a state or taking a transition. What is told and what memory is set to
+   is evaluated on what was before any of it. */
 typedef struct JoxActions {
     struct JoxAssign {
         int32_t slot; /* memory slot */

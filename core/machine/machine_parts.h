@@ -141,6 +141,9 @@ void jox_sightings_note_agent(const JoxMachineRun *run, uint32_t agent);
 double jox_target_who(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* Returns the spot of somebody, seen or not. */
 JoxSpot jox_who_spot(const JoxMachineRun *run, uint32_t agent, double who);
+/* m: a body that is nearer and faster than 1 m/s hits the agent. */
+#define JOX_HIT_GAP 0.1f
+
 /* somebody.c: return the spot of an agent as agent i sees it, across a joined edge if that is
    nearer; of a body, by its row; of a place, its nearest point, for -1 JOX_NO_SPOT. */
 JoxSpot jox_spot_agent(const JoxMachineRun *run, uint32_t i, uint32_t other);

@@ -386,8 +386,8 @@ int32_t jox_who_row(const JoxMachineRun *run, double who);
 int32_t jox_who_place(const JoxMachineRun *run, double who);
 /* Returns the body that the agent carries, else the agent that it holds on to. */
 double jox_who_is_held(const JoxMachineRun *run, uint32_t agent);
-/* Returns the agent that threw or kicked the body which struck this one in the last step, else that
-   body. */
+/* Returns the agent, another one, that threw or kicked the body which hits this one (hit_by), else
+   that body. */
 double jox_who_struck(const JoxMachineRun *run, uint32_t agent);
 /* Returns whether agent i has agent j, or body `row`, within perception and in sight. */
 bool jox_sees_agent(const JoxMachineRun *run, uint32_t i, uint32_t j);

@@ -1,5 +1,6 @@
 /* Somebody as a number (JOX_WHO_BODY in target_kinds.h): which agent, body or place it means, whom
    an agent holds, who struck it, and where somebody is. Targets are resolved in target.c. */
+#include "agents/torso.h"
 #include "base/mem.h"
 #include "machine/machine_parts.h"
 
@@ -61,33 +62,6 @@ double jox_who_is_held(const JoxMachineRun *run, uint32_t i) {
     return row >= 0 ? JOX_WHO_BODY + run->objects->rows[row].id : run->agents->grasped[i];
 }
 
-/* ---- who struck an agent ---- */
-
-void jox_throwers_note(JoxMachineRun *run, uint32_t body, uint32_t agent) {
-    JoxMachineState *state = run->state;
-    uint32_t kept = 0;
-    for (uint32_t n = 0; n < state->thrown_count; n++) /* forgets bodies that are gone */
-        if (state->thrown[n].body != body &&
-            jox_who_row(run, JOX_WHO_BODY + state->thrown[n].body) >= 0)
-            state->thrown[kept++] = state->thrown[n];
-    JOX_RESERVE(state->thrown, state->thrown_capacity, kept + 1);
-    state->thrown[kept] = (JoxThrown){body, agent};
-    state->thrown_count = kept + 1;
-}
-
-double jox_who_struck(const JoxMachineRun *run, uint32_t i) {
-    const int32_t row = jox_referred(run->agents->struck[i]);
-    if (row < 0 || !run->objects || (uint32_t)row >= run->objects->count)
-        return JOX_NOBODY;
-    const uint32_t body = run->objects->rows[row].id;
-    for (uint32_t n = 0; n < run->state->thrown_count; n++) {
-        const JoxThrown *thrown = &run->state->thrown[n];
-        if (thrown->body == body && jox_who_agent(run, 1.0 + thrown->agent) != JOX_NO_INDEX)
-            return 1.0 + thrown->agent;
-    }
-    return JOX_WHO_BODY + body;
-}
-
 /* ---- spots ---- */
 
 JoxSpot jox_spot_agent(const JoxMachineRun *run, uint32_t i, uint32_t other) {
@@ -143,4 +117,70 @@ void jox_target_consider(const JoxSpot *candidate) {
 
 const JoxSpot *jox_target_considered(void) {
     return considered;
+}
+
+float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
+    if (!spot->found)
+        return INFINITY;
+    const JoxAgents *a = run->agents;
+    const JoxV2 at = {spot->x, spot->y};
+    const float discs = jox_length(jox_sub(at, (JoxV2){a->x[i], a->y[i]})) - spot->radius -
+                        jox_param(a, JOX_PARAM_radius, i);
+    const float torsos = spot->agent != JOX_NO_INDEX ? jox_torso_gap(a, i, spot->agent)
+                                                     : jox_torso_distance(a, i, at) - spot->radius;
+    return jox_minf(discs, torsos); /* hands and feet reach to the edge of the disc */
+}
+
+/* ---- who struck an agent ---- */
+
+void jox_throwers_note(JoxMachineRun *run, uint32_t body, uint32_t agent) {
+    JoxMachineState *state = run->state;
+    uint32_t kept = 0;
+    for (uint32_t n = 0; n < state->thrown_count; n++) /* forgets bodies that are gone */
+        if (state->thrown[n].body != body &&
+            jox_who_row(run, JOX_WHO_BODY + state->thrown[n].body) >= 0)
+            state->thrown[kept++] = state->thrown[n];
+    JOX_RESERVE(state->thrown, state->thrown_capacity, kept + 1);
+    state->thrown[kept] = (JoxThrown){body, agent};
+    state->thrown_count = kept + 1;
+}
+
+/* Returns the row of the body that hits an agent, as the word hit_by sees it: the one that struck
+   it in the last step, else the nearest that is faster than 1 m/s and touches it; -1: none. */
+static int32_t find_striking_row(const JoxMachineRun *run, uint32_t i) {
+    const JoxV2 own = {run->agents->x[i], run->agents->y[i]};
+    int32_t row = jox_referred(run->agents->struck[i]);
+    if (!run->objects)
+        return -1;
+    if (row >= 0 && (uint32_t)row < run->objects->count && run->objects->rows[row].live)
+        return row;
+    float least = JOX_HIT_GAP;
+    row = -1;
+    for (uint32_t o = 0; o < run->objects->count; o++) {
+        const JoxObject *body = &run->objects->rows[o];
+        const JoxV2 velocity = {body->velocity.x, body->velocity.y};
+        if (!body->live || body->held || !(jox_length2(velocity) > 1.0f))
+            continue;
+        const JoxSpot spot = jox_spot_body(body, (int32_t)o);
+        const float gap = jox_spot_gap(run, i, &spot);
+        if (gap < least && !jox_is_hidden(run, own, (JoxV2){spot.x, spot.y}, true)) {
+            least = gap;
+            row = (int32_t)o;
+        }
+    }
+    return row;
+}
+
+double jox_who_struck(const JoxMachineRun *run, uint32_t i) {
+    const int32_t row = find_striking_row(run, i);
+    if (row < 0)
+        return JOX_NOBODY;
+    const uint32_t body = run->objects->rows[row].id;
+    for (uint32_t n = 0; n < run->state->thrown_count; n++) {
+        const JoxThrown *thrown = &run->state->thrown[n];
+        if (thrown->body == body && thrown->agent != run->agents->id[i] &&
+            jox_who_agent(run, 1.0 + thrown->agent) != JOX_NO_INDEX)
+            return 1.0 + thrown->agent;
+    }
+    return JOX_WHO_BODY + body;
 }

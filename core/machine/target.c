@@ -272,18 +272,6 @@ float jox_target_distance(const JoxMachineRun *run, uint32_t i, int32_t index) {
     return spot.found ? jox_length((JoxV2){spot.x - p.x, spot.y - p.y}) : INFINITY;
 }
 
-float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
-    if (!spot->found)
-        return INFINITY;
-    const JoxAgents *a = run->agents;
-    const JoxV2 at = {spot->x, spot->y};
-    const float discs = jox_length(jox_sub(at, (JoxV2){a->x[i], a->y[i]})) - spot->radius -
-                        jox_param(a, JOX_PARAM_radius, i);
-    const float torsos = spot->agent != JOX_NO_INDEX ? jox_torso_gap(a, i, spot->agent)
-                                                     : jox_torso_distance(a, i, at) - spot->radius;
-    return jox_minf(discs, torsos); /* hands and feet reach to the edge of the disc */
-}
-
 /* Returns one measured quantity of an agent. */
 static double measure_agent(const JoxMachineRun *run, uint32_t i, JoxNow what) {
     const JoxAgents *a = run->agents;

@@ -355,7 +355,7 @@ function Target:ahead(degrees) end
 ---@field tell fun(whom: jostle.View, name: string, values?: table<string, number|jostle.View>) tells somebody a message, as `tell` does: me.tell(me.prey, "shot", { damage = 2 })
 ---@field told fun(name: string): jostle.Told|nil the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up
 ---@field holding jostle.View|nil the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them
----@field striker jostle.View|nil who kicked or threw the body that hit it in the last step, else that body; nil: none
+---@field striker jostle.View|nil who kicked or threw the body that hits it, else that body; nil: none
 ---@field speed number wanted speed, m/s; 0 to 20, default 1.3
 ---@field max_speed number hard cap on speed; only a contact impulse exceeds it, m/s; 0 to 30, default 1.8
 ---@field perception number radius within which neighbours and bodies are seen, m; 0 to 100, default 3
@@ -683,7 +683,7 @@ nobody = nil
 ---@type jostle.Target
 holding = nil
 
---- `striker`: the agent that kicked or threw the body which hit this one in the last step; that body, if nobody did
+--- `striker`: the agent that kicked or threw the body which hits this one, as `hit_by` sees it; that body, if nobody else did
 ---@type jostle.Target
 striker = nil
 

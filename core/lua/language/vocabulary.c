@@ -130,7 +130,7 @@ const JoxWord jox_words[] = {
     {"holding", NULL, TARGET, JOX_TARGET_HOLDING, 0, "holding", "",
      "the body that the agent carries (see `take`), else the agent that it holds on to (see `grasp`)", "holding"},
     {"striker", NULL, TARGET, JOX_TARGET_STRIKER, 0, "striker", "",
-     "the agent that kicked or threw the body which hit this one in the last step; that body, if nobody did", "striker"},
+     "the agent that kicked or threw the body which hits this one, as `hit_by` sees it; that body, if nobody else did", "striker"},
     {":in_state", "*", TARGET, 0, 0, "of:in_state(name)", "",
      "restricts `nearest` and `neighbours` to agents in a state of this name",
      "nearest(\"people\"):in_state(\"Start\")"},
@@ -374,7 +374,7 @@ const JoxMeKey jox_me_keys[] = {
     {"tell", "function(whom, name, values)", "", "tells somebody a message, as `tell` does: me.tell(me.prey, \"shot\", { damage = 2 })"},
     {"told", "function(name)", "", "the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up"},
     {"holding", "view", "", "the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them"},
-    {"striker", "view", "", "who kicked or threw the body that hit it in the last step, else that body; nil: none"},
+    {"striker", "view", "", "who kicked or threw the body that hits it, else that body; nil: none"},
     {"in_sight", "true or false", "", "of a view: the agent sees it now. Of one whom it remembers and does not see, only `id` is known"},
 };
 const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
