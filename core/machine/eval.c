@@ -162,7 +162,8 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
         if (jox_target_means(run, i, in->target, jox_referred(run->agents->struck[i])))
             return true;
         spot = jox_target_find(run, i, in->target);
-        return is_touching(run, i, &spot, JOX_HIT_GAP) && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
+        return is_touching(run, i, &spot, JOX_HIT_GAP) &&
+               spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
     case JOX_OP_INCOMING:
         spot = jox_target_find(run, i, in->target);
         return is_incoming(run, i, &spot, a);
