@@ -86,11 +86,10 @@ static const char *print_overloads(JoxText *out, const char *signature, const ch
 
 /* Returns the class of what a word makes. */
 static const char *get_word_class(const JoxWord *word) {
-    static const char *const OWN[][2] = {{"neighbours", "jostle.Counted"},
-                                         {"told", "jostle.Message"},
-                                         {"circuits", "jostle.Counter"},
-                                         {"nobody", "jostle.Nobody"},
-                                         {"none", "jostle.None"}};
+    static const char *const OWN[][2] = {
+        {"neighbours", "jostle.Counted"}, {"told", "jostle.Message"},
+        {"circuits", "jostle.Counter"},   {"nobody", "jostle.Nobody"},
+        {"back", "jostle.Back"},          {"none", "jostle.None"}};
     for (size_t o = 0; o < sizeof OWN / sizeof *OWN; o++)
         if (strcmp(OWN[o][0], word->name) == 0)
             return OWN[o][1];
@@ -205,6 +204,7 @@ static const char *get_key_type(const JoxTableKey *key) {
         {"true or false", "boolean"},
         {"name", "string"},
         {"name of a state", "string"},
+        {"name of a state, or back", "string|jostle.Back"},
         {"name of a behaviour", "string"},
         {"name, or table", "string|jostle.Signal"},
         {"table of parameters", "jostle.Parameters"},
@@ -440,7 +440,7 @@ static void print_values(JoxText *out) {
     print_measured_fields(out);
     jox_text_add(
         out, "\n--- A value that is drawn once for each agent.\n---@class jostle.Drawn\n"
-             "\n---@class jostle.Counter\n\n---@class jostle.None\n"
+             "\n---@class jostle.Counter\n\n---@class jostle.None\n\n---@class jostle.Back\n"
              "\n--- A behaviour: what its file returns.\n---@class jostle.MachineValue\n"
              "\n--- A direction in which to go: weighted sums, `0.8 * seek(goal) + 0.2 * spread`.\n"
              "---@class jostle.Steering\n---@operator add(jostle.Steering): jostle.Steering\n"

@@ -85,13 +85,22 @@ static bool add_written(Graph *g, const char *prefix, const char *path, size_t w
     return true;
 }
 
-/* Adds the key of a transition, if a file writes it out. */
+/* Adds the key of a transition of a state's own list, if a file writes it out. */
 static bool add_transition_key(Graph *g, const JoxState *from, const JoxTransition *t,
                                const char *prefix, const char *key) {
-    char path[3 * LONGEST_NAME];
-    snprintf(path, sizeof path, "states.%.*s.@%.*s.%s", LONGEST_NAME, from->name, LONGEST_NAME,
-             t->id, key);
-    return add_written(g, prefix, path, t->stays ? STATE_WIDTH : ARROW_WIDTH);
+    const size_t width = t->stays ? STATE_WIDTH : ARROW_WIDTH;
+    char state[256], path[2 * sizeof state];
+    jox_state_path(from, state);
+    snprintf(path, sizeof path, "%s.@%.*s.%s", state, LONGEST_NAME, t->id, key);
+    if (add_written(g, prefix, path, width))
+        return true;
+    snprintf(path, sizeof path, "%s.%u.%s", state, t->item + 1u, key);
+    return add_written(g, prefix, path, width);
+}
+
+/* Returns whether a state lists an item itself, and not an outer state around it. */
+static bool is_own_item(const JoxState *state, const JoxTransition *t) {
+    return t->level == state->depth;
 }
 
 /* Adds condition, chance and actions of item `k` of a state: of a transition with its number among
@@ -101,8 +110,9 @@ static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
     char prefix[16] = "if ", text[96];
     uint32_t number = 0, count = 0;
     for (uint32_t o = 0; o < from->transition_count; o++) {
-        number += o <= k && !from->transitions[o].stays;
-        count += !from->transitions[o].stays;
+        const bool counts = is_own_item(from, &from->transitions[o]) && !from->transitions[o].stays;
+        number += o <= k && counts;
+        count += counts;
     }
     if (!t->stays)
         snprintf(prefix, sizeof prefix, count > 1 ? "%u. " : "", number);
@@ -154,9 +164,10 @@ static void add_state_lines(Graph *g, const JoxState *state) {
                                           {"take: ", "take"},      {"throw: ", "throw"},
                                           {"grasp: ", "grasp"},    {"on_enter: ", "on_enter"},
                                           {"on_exit: ", "on_exit"}};
-    char path[2 * LONGEST_NAME];
+    char of[256], path[2 * sizeof of];
+    jox_state_path(state, of);
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) {
-        snprintf(path, sizeof path, "states.%.*s.%s", LONGEST_NAME, state->name, KEYS[k][1]);
+        snprintf(path, sizeof path, "%s.%s", of, KEYS[k][1]);
         add_written(g, KEYS[k][0], path, STATE_WIDTH);
     }
     if (state->become) {
@@ -165,70 +176,85 @@ static void add_state_lines(Graph *g, const JoxState *state) {
     }
     if (state->removes)
         add_lines(g, "leaves the world", STATE_WIDTH);
+    if (state->ends)
+        add_lines(g, "the machine ends", STATE_WIDTH);
     for (uint32_t k = 0; k < state->transition_count; k++)
-        if (state->transitions[k].stays)
+        if (state->transitions[k].stays && is_own_item(state, &state->transitions[k]))
             add_item_lines(g, state, k);
 }
 
-/* Adds the box of a state, titled by its name from `title` on. */
-static void add_state(Graph *g, uint32_t s, const char *title) {
-    const JoxState *state = &g->machine->states[s];
+/* Adds name and lines of a state, as the label of its box or frame. */
+static void add_label(Graph *g, const JoxState *state) {
+    const JoxMachine *m = g->machine;
     JoxText *out = &g->out;
-    jox_text_printf(out, "  s%u [id=\"state%u\"%s, color=", s, s,
-                    state->removes || state->become ? ", peripheries=2" : "");
-    print_tint(out, g->inks[s], 0.0);
-    jox_text_add(out, ", fillcolor=");
-    print_tint(out, g->inks[s], 0.82);
-    jox_text_add(out, ", label=<<b>");
-    jox_quote_xml(out, title);
+    const size_t around =
+        state->depth > 0 ? strlen(m->outer[state->around[state->depth - 1]].name) + 1 : 0;
+    jox_text_add(out, "label=<<b>");
+    jox_quote_xml(out, state->name + around);
     jox_text_add(out, "</b><br/><font point-size=\"9\">");
     const size_t before = out->length;
     add_state_lines(g, state);
     if (out->length == before)
         jox_text_add(out, " ");
-    jox_text_add(out, "</font>>];\n");
+    jox_text_add(out, "</font>>");
 }
 
-/* Adds the states whose names begin with `prefix`: those of a machine within a state, as
-   "Guard.Walk", in a frame of their own. */
-static void add_states(Graph *g, const char *prefix) {
+/* Adds the box of a state. */
+static void add_state(Graph *g, uint32_t s) {
+    const JoxState *state = &g->machine->states[s];
+    jox_text_printf(&g->out, "  s%u [id=\"state%u\"%s, color=", s, s,
+                    state->removes || state->become || state->ends ? ", peripheries=2" : "");
+    print_tint(&g->out, g->inks[s], 0.0);
+    jox_text_add(&g->out, ", fillcolor=");
+    print_tint(&g->out, g->inks[s], 0.82);
+    jox_text_add(&g->out, ", ");
+    add_label(g, state);
+    jox_text_add(&g->out, "];\n");
+}
+
+/* Adds the states of a machine: the behaviour's own (`outer` -1), or that which an outer state
+   runs, which stands in a frame. */
+static void add_states(Graph *g, int32_t outer) {
     const JoxMachine *m = g->machine;
-    const size_t length = strlen(prefix);
-    for (uint32_t s = 0; s < m->state_count; s++) {
-        const char *name = m->states[s].name, *dot;
-        if (strncmp(name, prefix, length) != 0)
+    const uint8_t depth = outer < 0 ? 0 : (uint8_t)(m->outer[outer].depth + 1);
+    for (uint32_t s = 0; s < m->state_count; s++)
+        if (m->states[s].depth == depth && (outer < 0 || m->states[s].around[depth - 1] == outer))
+            add_state(g, s);
+    for (uint32_t o = 0; o < m->outer_count; o++) {
+        if (m->outer[o].depth != depth || (outer >= 0 && m->outer[o].around[depth - 1] != outer))
             continue;
-        if (!(dot = strchr(name + length, '.')) || !dot[1]) {
-            add_state(g, s, name + length);
-            continue;
-        }
-        const size_t inner = (size_t)(dot - name) + 1;
-        bool done = false;
-        for (uint32_t before = 0; before < s; before++)
-            done |= strncmp(m->states[before].name, name, inner) == 0;
-        if (done)
-            continue;
-        JoxText within = {0}, title = {0};
-        jox_text_append(&within, name, inner);
-        jox_text_append(&title, name + length, inner - length - 1);
-        jox_text_printf(&g->out, "  subgraph cluster_%u_%zu {\n  label=<<b>", s, inner);
-        jox_quote_xml(&g->out, title.data);
-        jox_text_add(&g->out, "</b>>;\n  style=rounded; color=\"#888888\"; fontsize=11;\n");
-        add_states(g, within.data);
+        jox_text_printf(
+            &g->out,
+            "  subgraph cluster_%u {\n  style=rounded; color=\"#666666\"; fontsize=11;\n  ", o);
+        add_label(g, &m->outer[o]);
+        jox_text_add(&g->out, ";\n");
+        add_states(g, (int32_t)o);
         jox_text_add(&g->out, "  }\n");
-        jox_text_free(&within);
-        jox_text_free(&title);
     }
 }
 
-static void add_transitions(Graph *g, uint32_t s) {
-    const JoxState *from = &g->machine->states[s];
+/* Adds the transitions that a state lists itself. Those of an outer state begin at the frame of its
+   machine: at the state where that begins, as far as the frame hides the arrow. */
+static void add_transitions(Graph *g, const JoxState *from, uint32_t node, int32_t frame) {
     for (uint32_t k = 0; k < from->transition_count; k++) {
         const JoxTransition *t = &from->transitions[k];
-        if (t->stays)
+        if (t->stays || !is_own_item(from, t))
             continue;
-        jox_text_printf(&g->out, "  s%u -> s%u [id=\"transition%u_%u\", color=", s, t->to, s, k);
-        print_tint(&g->out, g->inks[s], 0.0);
+        char to[32];
+        snprintf(to, sizeof to, "s%u", t->to);
+        if (t->back) {
+            snprintf(to, sizeof to, "back%u_%d_%u", node, frame + 1, k);
+            jox_text_printf(&g->out, "  %s [shape=plaintext, style=\"\", label=\"back\"];\n", to);
+        }
+        jox_text_printf(&g->out, "  s%u -> %s [id=\"transition%u_%u\", ", node, to, node, k);
+        if (t->back)
+            jox_text_add(&g->out, "style=dashed, ");
+        if (frame >= 0)
+            jox_text_printf(&g->out, "ltail=cluster_%d, penwidth=1.8, color=\"#666666\"", frame);
+        else
+            jox_text_add(&g->out, "color=");
+        if (frame < 0)
+            print_tint(&g->out, g->inks[node], 0.0);
         jox_text_add(&g->out, ", label=<");
         add_item_lines(g, from, k);
         jox_text_add(&g->out, ">];\n");
@@ -300,10 +326,12 @@ static void add_locals(Graph *g) {
 static char *write_graph(const JoxLua *lua, const JoxScope *scope, const JoxMachine *machine,
                          const JoxInk *inks) {
     Graph g = {.lua = lua, .scope = scope, .machine = machine, .inks = inks, .margin = ""};
-    jox_text_add(&g.out, "// The graph of a behaviour, by `jostle graph`; dot -Tsvg draws it.\n"
-                         "digraph behaviour {\n"
-                         "  graph [rankdir=TB, nodesep=0.4, ranksep=0.45, fontname=\"Helvetica\", "
-                         "labelloc=t, fontsize=14, bgcolor=white, label=<<b>");
+    jox_text_add(
+        &g.out,
+        "// The graph of a behaviour, by `jostle graph`; dot -Tsvg draws it.\n"
+        "digraph behaviour {\n"
+        "  graph [compound=true, rankdir=TB, nodesep=0.4, ranksep=0.45, fontname=\"Helvetica\", "
+        "labelloc=t, fontsize=14, bgcolor=white, label=<<b>");
     jox_quote_xml(&g.out, machine->name);
     jox_text_add(&g.out, "</b>>];\n"
                          "  node [shape=box, style=\"rounded,filled\", fontname=\"Helvetica\", "
@@ -312,10 +340,12 @@ static char *write_graph(const JoxLua *lua, const JoxScope *scope, const JoxMach
                          "arrowsize=0.7];\n"
                          "  start [shape=circle, style=filled, fillcolor=black, width=0.14, "
                          "fixedsize=true, label=\"\"];\n");
-    add_states(&g, "");
+    add_states(&g, -1);
     jox_text_printf(&g.out, "  start -> s%u;\n", machine->start);
+    for (uint32_t o = 0; o < machine->outer_count; o++)
+        add_transitions(&g, &machine->outer[o], machine->outer[o].start, (int32_t)o);
     for (uint32_t s = 0; s < machine->state_count; s++)
-        add_transitions(&g, s);
+        add_transitions(&g, &machine->states[s], s, -1);
     add_locals(&g);
     jox_text_add(&g.out, "}\n");
     jox_text_free(&g.seen);

@@ -201,6 +201,8 @@ function Target:ahead(degrees) end
 
 ---@class jostle.None
 
+---@class jostle.Back
+
 --- A behaviour: what its file returns.
 ---@class jostle.MachineValue
 
@@ -284,7 +286,7 @@ function Target:ahead(degrees) end
 ---@field on_exit? fun(me: jostle.Me) called when an agent leaves the state
 
 ---@class jostle.Transition
----@field to? any state to which it leads; see `back`. An item without it is a reaction: what it says is done, and the agent stays in its state. All reactions that hold are carried out, then the first transition that holds is taken
+---@field to? string|jostle.Back state to which it leads; see `back`. An item without it is a reaction: what it says is done, and the agent stays in its state. All reactions that hold are carried out, then the first transition that holds is taken
 ---@field when? jostle.Condition|fun(me: jostle.Me): boolean the transition is taken when this holds; of several that hold, the first. Without it: at once
 ---@field every? number only when the time in the state reaches a multiple of this, s
 ---@field chance? jostle.Value probability that it is taken, drawn each time that `when` becomes true
@@ -878,7 +880,7 @@ function memory(declared) end
 function machine(sheet) end
 
 --- `back`: for `to`: the state that the agent left when it entered the present one, other than by `back`; if there is none, the state in which the machine begins
----@type any
+---@type jostle.Back
 back = nil
 
 --- `patch "behaviour" { ... }`: in a mod: changes a behaviour's table, key by key; returned by the file

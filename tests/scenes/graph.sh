@@ -22,6 +22,7 @@ cat >"$work/odd.lua" <<'END'
 local far = distance "<post> ]]> \"& \\l"
 local unused, kept = after(7), 5
 local function build() return { { to = "Guard.Rest", when = after(kept) } } end
+local deep = machine { start = "Deep", states = { Deep = { steer = hold, { to = "End", when = after(3) } }, End = { ends = true } } }
 return machine { name = "odd", start = "Guard.Walk", states = {
   ["Guard.Walk"] = { steer = function(me) return 0, 0 end,
     { to = "Guard.Rest", when = function(me) return false end, chance = 0.5, set = { tags = "a" }, on_take = function(me) end },
@@ -30,13 +31,17 @@ return machine { name = "odd", start = "Guard.Walk", states = {
     { to = "Out" } },
   ["Guard.Rest"] = { steer = hold, { when = heard "call", every = 2, set = { tags = "a" } }, { to = "Late" } },
   Late = build(),
-  ["Guard.Inner.Deep"] = { steer = hold, { to = "Out" } },
+  Outer = { on_exit = function(me) end, runs = machine { start = "Inner", states = {
+      Inner = { runs = deep, { to = "Flat", when = done } }, Flat = { steer = spread, { to = "Inner", when = after(4) } } } },
+    { to = back, when = after(9) } },
   ["Out"] = { become = "stander" } } }
 END
 expect "texts that are markup are quoted" 0 'far = distance &quot;&lt;post&gt; ]]&gt;' "$JOSTLE" graph "$work/odd.lua" --dot
 dot_has "a change to another behaviour is told" '<b>Out</b>' 'becomes stander'
-dot_has "states of a machine within a state stand in a frame" 'subgraph cluster_' 'label=<<b>Guard</b>>' '<b>Walk</b>' 'label=<<b>Inner</b>>' '<b>Deep</b>'
-dot_has "functions in conditions and steering are named" '>function, odd.lua:5' '1. function, odd.lua:6' 'chance 0.5' 'set: tags = &quot;a&quot;' 'on_take: function, odd.lua:6' '3. at once'
+dot_has "states of a machine within a state stand in a frame" 'subgraph cluster_0' '  label=<<b>Outer</b>' 'on_exit: function, odd.lua:' '  label=<<b>Inner</b>' '<b>Deep</b><br/><font point-size="9">hold' '<b>Flat</b><br/><font point-size="9">spread' 'the machine ends'
+[ "$(grep -c 'ltail=cluster_' "$work/out")" = 2 ]; verdict "  transitions of the outer state begin at its frame, once" $?
+dot_has "  with their conditions" 'label=<done<br' 'label=<after(3)<br' 'label=<after(4)<br' 'label=<after(9)<br' 'label="back"'
+dot_has "functions in conditions and steering are named" '>function, odd.lua:6' '1. function, odd.lua:7' 'chance 0.5' 'set: tags = &quot;a&quot;' 'on_take: function, odd.lua:7' '3. at once'
 dot_has "reactions stand in the box of their state, and count as no transition" '>if heard &quot;call&quot;<br align="left"/>&#160;&#160;&#160;every 2<br align="left"/>&#160;&#160;&#160;set: tags' 'label=<at once<'
 dot_has "a long condition is cut" ' ...<br'
 dot_has "conditions are found that a function builds" 'label=<after(kept)<'
