@@ -83,6 +83,8 @@ std = {
     "circuits",
     "memory",
     "machine",
+    "sequence",
+    "wait",
     "back",
     "patch",
     "replace",

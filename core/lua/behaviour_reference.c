@@ -245,6 +245,9 @@ static void print_word_example(const JoxWord *word, JoxText *out, bool *of_mod) 
         *of_mod = true;
     } else if (!strcmp(e, "back")) {
         print_example(out, "", "{ to = back, when = after(0.5) },", ", when = after(1)");
+    } else if (!strncmp(e, "sequence", 8)) {
+        snprintf(part, sizeof part, "runs = %s,", e);
+        print_example(out, "", part, ", when = done | after(1)");
     } else if (!strncmp(e, "machine", 7)) {
         jox_text_printf(out, "return %s\n", e);
     } else if (!strncmp(e, "memory", 6)) {

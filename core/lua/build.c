@@ -145,7 +145,7 @@ static void build_machine(JoxBuild *build) {
     lua_pop(L, 1);
     read_version(build, table);
     jox_read_parameter_values(build);
-    jox_nest_collect(build, node->hook);
+    jox_nest_collect(build, node);
     jox_nest_read(build);
     check_renamed_names(build);
     m->belongings = script->belongings;

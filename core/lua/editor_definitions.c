@@ -116,6 +116,10 @@ static const char *get_whole_definition(const char *name) {
         {"print", ""},
         {"machine", "---@param sheet jostle.Machine\n---@return jostle.MachineValue\n"
                     "function machine(sheet) end\n"},
+        {"sequence", "---@param steps table\n---@return jostle.MachineValue\n"
+                     "function sequence(steps) end\n"},
+        {"wait", "---@param seconds jostle.Value|jostle.Drawn\n---@return any\n"
+                 "function wait(seconds) end\n"},
         {"memory", "---@generic T: table<string, any>\n---@param declared T\n"
                    "---@return T|jostle.Remembered\nfunction memory(declared) end\n"},
         {"patch", "---@param behaviour string\n---@return fun(changes: table): any\n"

@@ -31,6 +31,31 @@ static void mark_reachable(const JoxMachine *m, uint32_t from, bool *reached) {
     }
 }
 
+/* Returns whether no state within an outer state is reached. */
+static bool is_outer_unreached(const JoxMachine *m, const bool *reached, uint32_t outer) {
+    const uint32_t level = m->outer[outer].depth;
+    for (uint32_t s = 0; s < m->state_count; s++)
+        if (m->states[s].depth > level && m->states[s].around[level] == outer && reached[s])
+            return false;
+    return true;
+}
+
+/* Returns the outermost state around an unreached one of which nothing is reached, or itself. */
+static const JoxState *find_unreached(const JoxMachine *m, const bool *reached, uint32_t state) {
+    const JoxState *is = &m->states[state];
+    for (uint32_t l = 0; l < is->depth; l++)
+        if (is_outer_unreached(m, reached, is->around[l]))
+            return &m->outer[is->around[l]];
+    return is;
+}
+
+/* Returns whether an unreached state is told of with an earlier one, by the same outer state. */
+static bool is_told_with_outer(const JoxMachine *m, const bool *reached, uint32_t state) {
+    const JoxState *told = find_unreached(m, reached, state);
+    return told != &m->states[state] &&
+           jox_first_state_within(m, (uint32_t)(told - m->outer)) != &m->states[state];
+}
+
 /* Warns of states that cannot be reached. In a patch that is an error if the name looks misspelt.
  */
 static void check_reachable(JoxBuild *b) {
@@ -38,21 +63,22 @@ static void check_reachable(JoxBuild *b) {
     bool reached[1000] = {false};
     mark_reachable(m, m->start, reached);
     for (uint32_t s = 0; s < m->state_count; s++) {
-        if (reached[s])
+        if (reached[s] || is_told_with_outer(m, reached, s))
             continue;
         char path[256], hint[JOX_HINT];
         const char *names[64], *near = NULL;
         size_t count = 0;
-        jox_state_path(&m->states[s], path);
+        const JoxState *state = find_unreached(m, reached, s);
+        jox_state_path(state, path);
         const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
         bool added = origin && origin->mod >= 0 && strcmp(origin->path, path) == 0;
         for (uint32_t o = 0; added && o < m->state_count && count < 64; o++)
             if (o != s)
                 names[count++] = m->states[o].name;
-        near = jox_did_you_mean(m->states[s].name, names, count, hint);
+        near = jox_did_you_mean(state->name, names, count, hint);
         jox_diag_add(b->script->diagnostics, near ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
                      jox_read_at(b, path), "unreachable-state", near, NULL, NULL,
-                     "nothing leads to state '%s'", m->states[s].name);
+                     "nothing leads to state '%s'", state->name);
     }
 }
 

@@ -159,13 +159,14 @@ static void collect_states(JoxBuild *b, uint32_t nested);
 static void collect_nested(JoxBuild *b, const JoxNode *node, int32_t outer, uint32_t parent) {
     JOX_RESERVE(b->nested, b->nested_capacity, b->nested_count + 1);
     JoxNested *nested = &b->nested[b->nested_count];
-    *nested = (JoxNested){.table = node->hook, .outer = outer, .parent = parent, .source = -1};
+    *nested = (JoxNested){
+        .table = node->hook, .outer = outer, .parent = parent, .source = -1, .steps = node->steps};
     if (outer >= 0) {
         char path[256];
         jox_state_path(&b->machine->outer[outer], path);
         jox_read_join(nested->path, path, "runs");
     }
-    if (outer >= 0)
+    if (outer >= 0 || node->steps)
         locate_machine(b, node, nested);
     collect_states(b, b->nested_count++);
 }
@@ -215,7 +216,6 @@ static void collect_states(JoxBuild *b, uint32_t number) {
     lua_settop(L, top);
 }
 
-void jox_nest_collect(JoxBuild *b, int table) {
-    const JoxNode own = {.hook = table};
-    collect_nested(b, &own, -1, 0);
+void jox_nest_collect(JoxBuild *b, const JoxNode *machine) {
+    collect_nested(b, machine, -1, 0);
 }

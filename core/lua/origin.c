@@ -30,24 +30,54 @@ void jox_origin_keep(JoxScript *script, const char *path, const char *number,
 
 /* ---- of a machine under construction ---- */
 
+/* Writes the path of a step's part in the outline of a sequence: steps are items there. */
+static void write_step_path(const JoxBuild *b, const JoxNested *nested, const char *inner,
+                            char there[512]) {
+    lua_State *L = b->script->vm.L;
+    const char *dot = *nested->root ? "." : "";
+    const size_t n = strncmp(inner, "states.", 7) == 0 ? strcspn(inner + 7, ".") : 0;
+    const char *rest = inner + 7 + n;
+    luaL_checkstack(L, 3, "steps");
+    lua_rawgeti(L, LUA_REGISTRYINDEX, nested->steps);
+    lua_pushlstring(L, n ? inner + 7 : "", n);
+    lua_rawget(L, -2);
+    const int item = (int)lua_tointeger(L, -1);
+    lua_pop(L, 2);
+    if (item == 0) {
+        snprintf(there, 512, "%s%s%.250s", nested->root, *inner ? dot : "", inner);
+        return;
+    }
+    snprintf(there, 512, "%s%s%d%.200s", nested->root, dot, item, rest);
+    const size_t digits = *rest == '.' ? strspn(rest + 1, "0123456789") : 0;
+    if (digits && strcmp(rest + 1 + digits, ".when") == 0 &&
+        !jox_outline_find(b->script->vm.sources[nested->source], there)) /* leads to the next */
+        snprintf(there, 512, "%s%s%d.when", nested->root, dot, item);
+}
+
 /* Returns the source that a path of the machine was written in, with its path there. */
 static const JoxSource *locate_path(const JoxBuild *b, const char *path, char there[512]) {
     const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
-    const char *inner;
-    const JoxNested *nested = jox_nest_enclosing(b, path, &inner);
-    if (nested && nested->outer >= 0 && nested->source >= 0 &&
-        (!origin || strlen(origin->path) <= strlen(nested->path))) {
-        snprintf(there, 512, "%s%s%.250s", nested->root, *nested->root && *inner ? "." : "", inner);
+    const char *inner, *rest = "";
+    char own[512];
+    if (origin)
+        jox_patch_leads(origin, path, &rest);
+    if (origin)
+        snprintf(own, sizeof own, "%.250s%s%.250s", origin->from, *rest && *origin->from ? "." : "",
+                 rest);
+    const bool written = origin && origin->mod < 0; /* it is the behaviour's own, by another name */
+    const JoxNested *nested = jox_nest_enclosing(b, written ? own : path, &inner);
+    if (nested && nested->source >= 0 &&
+        (!origin || written ||
+         (nested->outer >= 0 && strlen(origin->path) <= strlen(nested->path)))) {
+        if (nested->steps)
+            write_step_path(b, nested, inner, there);
+        else
+            snprintf(there, 512, "%s%s%.250s", nested->root, *nested->root && *inner ? "." : "",
+                     inner);
         return b->script->vm.sources[nested->source];
     }
-    if (!origin) {
-        snprintf(there, 512, "%s", path);
-        return b->source;
-    }
-    size_t n = strlen(origin->path);
-    const char *rest = path + n + (n && path[n] == '.');
-    snprintf(there, 512, "%.250s%s%.250s", origin->from, *rest && *origin->from ? "." : "", rest);
-    return b->script->vm.sources[origin->source];
+    snprintf(there, 512, "%s", origin ? own : path);
+    return origin ? b->script->vm.sources[origin->source] : b->source;
 }
 
 /* Finds a part that the file's table constructor does not write out, or the nearest enclosing part:

@@ -15,6 +15,7 @@ typedef struct JoxNested {
     char path[256];  /* of its table: "states.Guard.runs" */
     int32_t source;  /* number of the source that writes it; -1 unknown */
     char root[24];   /* its path in the outline of that source */
+    int steps;       /* of a sequence: registry reference, see JoxNode; else 0 */
     /* Its defaults, of those that no machine around it sets; UNSET: it has none. */
     bool is_set[JOX_PARAM_COUNT]; /* by it or a machine around it */
     JoxValue defaults[JOX_PARAM_COUNT];
@@ -85,9 +86,9 @@ void jox_read_actions(JoxBuild *build, int index, const char *path, JoxActions *
                       double *every);
 /* Reads kick, take, throw, grasp and become of a state. */
 void jox_read_body_actions(JoxBuild *build, int index, const char *path, JoxState *state);
-/* nest_states.c: finds all states of a machine and of those that its states run, by registry
-   reference `table`; adds them without content. */
-void jox_nest_collect(JoxBuild *build, int table);
+/* nest_states.c: finds all states of a machine and of those that its states run; adds them without
+   content. */
+void jox_nest_collect(JoxBuild *build, const JoxNode *machine);
 /* nest.c: reads the content of all states, and what nested machines say for all of theirs. */
 void jox_nest_read(JoxBuild *build);
 /* nest_names.c. */

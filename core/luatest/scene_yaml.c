@@ -16,7 +16,8 @@ static void write_yaml_string(lua_State *L, JoxTestRun *run, int index, const ch
                               const char *name, JoxJson *json) {
     size_t length;
     const char *text = lua_tolstring(L, index, &length);
-    if (!strcmp(name, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine"))) {
+    if (!strcmp(name, "behaviour") &&
+        (strchr(text, '\n') || strstr(text, "return machine") || strstr(text, "return sequence"))) {
         text = run->driver->keep(run->driver->context, text, length);
         if (!text)
             luaL_error(L, "behaviours in a test are at most 200, of at most 256 KB each");

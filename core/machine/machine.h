@@ -377,6 +377,10 @@ static inline const JoxState *jox_state_on_level(const JoxMachine *machine, cons
 bool jox_state_is_in(const JoxState *state, const char *name);
 /* Returns whether `:in_state` means a state by this name: its whole name, or parts of it. */
 bool jox_state_answers(const JoxState *state, const char *name);
+/* Returns the name of the state to which a transition leads; "back" if the agent's past decides. */
+const char *jox_transition_leads_to(const JoxMachine *machine, const JoxTransition *t);
+/* Returns the first state within an outer state, by its index. */
+const JoxState *jox_first_state_within(const JoxMachine *machine, uint32_t outer);
 /* Writes the path of a state's table: "states.Guard.runs.states.Walk". */
 void jox_state_path(const JoxState *state, char path[256]);
 /* Returns whether a counter counts in a state. */

@@ -348,12 +348,13 @@ static void carry_counts(const JoxReplacement *r, const JoxMachine *old, JoxMach
             uint64_t taken = was->taken[from->first_transition + o];
             uint32_t k = 0;
             while (to && k < to->transition_count &&
-                   (r->truth[s][k] != (int8_t)o || to->transitions[k].to != r->state[t->to]))
+                   (r->truth[s][k] != (int8_t)o || to->transitions[k].to != r->state[t->to] ||
+                    to->transitions[k].back != t->back))
                 k++;
             if (to && k < to->transition_count)
                 is->taken[to->first_transition + k] += taken;
             else if (taken)
-                jox_counts_add_before(was, from->name, old->states[t->to].name, taken);
+                jox_counts_add_before(was, from->name, jox_transition_leads_to(old, t), taken);
         }
     }
     is->before = was->before;

@@ -41,6 +41,18 @@ bool jox_state_answers(const JoxState *state, const char *name) {
     return answers;
 }
 
+const char *jox_transition_leads_to(const JoxMachine *machine, const JoxTransition *t) {
+    return t->back ? "back" : machine->states[t->to].name;
+}
+
+const JoxState *jox_first_state_within(const JoxMachine *machine, uint32_t outer) {
+    const uint32_t level = machine->outer[outer].depth;
+    uint32_t s = 0;
+    while (machine->states[s].depth <= level || machine->states[s].around[level] != outer)
+        s++;
+    return &machine->states[s];
+}
+
 void jox_state_path(const JoxState *state, char path[256]) {
     int n = snprintf(path, 256, "states.");
     for (const char *c = state->name; *c && n < 255; c++)

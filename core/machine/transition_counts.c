@@ -83,7 +83,7 @@ static uint64_t find_old_count(const JoxMachineCounts *counts, const char *from,
 static bool has_transition(const JoxMachine *machine, const char *from, const char *to) {
     int state = jox_machine_state(machine, from);
     for (uint32_t k = 0; state >= 0 && k < machine->states[state].transition_count; k++)
-        if (!strcmp(machine->states[machine->states[state].transitions[k].to].name, to))
+        if (!strcmp(jox_transition_leads_to(machine, &machine->states[state].transitions[k]), to))
             return true;
     return false;
 }
@@ -95,11 +95,12 @@ void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit 
     for (uint32_t s = 0; s < machine->state_count; s++) {
         const JoxState *from = &machine->states[s];
         for (uint32_t k = 0; k < from->transition_count; k++) {
-            const char *to = machine->states[from->transitions[k].to].name;
+            const char *to = jox_transition_leads_to(machine, &from->transitions[k]);
             uint64_t sum = find_old_count(counts, from->name, to);
             bool first = true;
             for (uint32_t o = 0; o < from->transition_count; o++)
-                if (from->transitions[o].to == from->transitions[k].to) {
+                if (from->transitions[o].to == from->transitions[k].to &&
+                    from->transitions[o].back == from->transitions[k].back) {
                     first &= o >= k;
                     sum += counts->taken[from->first_transition + o];
                 }

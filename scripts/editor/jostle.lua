@@ -879,6 +879,16 @@ function memory(declared) end
 ---@return jostle.MachineValue
 function machine(sheet) end
 
+--- `sequence { step, ... }`: a machine of steps, one after the other, which ends after the last; a state runs it (see `runs`). A step is a steering: seek, field and queue are over when the agent is there; wait(seconds); a machine, over when it has ended; a function(me), called once; or a state's table, with `lasts` or `when`, the condition that it is over. A text names the step after it, as does `name` in a table; other steps are called "1 seek post", "2 wait". Keys of a machine may stand in it, too
+---@param steps table
+---@return jostle.MachineValue
+function sequence(steps) end
+
+--- `wait(seconds)`: a step of a sequence: the agent stands for this time, s: a number, distribution or expression
+---@param seconds jostle.Value|jostle.Drawn
+---@return any
+function wait(seconds) end
+
 --- `back`: for `to`: the state that the agent left when it entered the present one, other than by `back`; if there is none, the state in which the machine begins
 ---@type jostle.Back
 back = nil

@@ -138,3 +138,30 @@ test("neighbours are in an outer state, and in states by their own names", funct
   truthy(seen "Guard.Walk")
   truthy(not seen "Guard.Sit")
 end)
+
+test("the steps of a sequence follow one another, and it ends", function()
+  local s = one [[
+    local mine = memory { turns = 0 }
+    return machine { name = "m", start = "Do", defaults = { speed = 2 }, states = {
+      Do = { { to = "Over", when = done }, runs = sequence {
+        wait(0.5), "Go", seek "post",
+        function(me) me.turns = me.turns + 1 end,
+        { name = "Turn", steer = hold, face = "post", when = after(0.3), { to = "Go", when = mine.turns:at_least(9) } },
+        sequence { wait(uniform(0.2, 0.3)) },
+        { set = { turns = 5 } } } },
+      Over = { steer = hold } } }]]
+  equal(s:agent(0).state, "Do.1 wait")
+  s:run(0.6)
+  equal(s:agent(0).state, "Do.Go")
+  s:reaches("Do.Turn", { within = 10 })
+  near(s:agent(0).x, 15, 1.1)
+  equal(s:agent(0).turns, 1)
+  s:reaches("Over", { within = 1 })
+  equal(s:agent(0).turns, 5)
+end)
+
+test("a behaviour may be a sequence itself", function()
+  local s = one [[return sequence { name = "m", wait(0.2), { removes = true } }]]
+  s:run(0.5)
+  equal(s:count(), 0)
+end)

@@ -165,6 +165,44 @@ static const Mistake MISTAKES[] = {
     {"local w = after(1, 2)\n" HEAD "A = {} } }", ERROR, 1, 11, 16, "bad-argument", "1 argument"},
     {"local w = orbit(\"k\", { inwards = 2 })\n" HEAD "A = {} } }", ERROR, 1, 24, 31,
      "bad-argument", "'inwards'"},
+    {"local inner = machine { start = \"I\", states = {\n I = { { to = \"J\" } } } }\n" HEAD
+     "A = { runs = inner } } }",
+     ERROR, 2, 10, 12, "unknown-state", "state I > transition 1"},
+    {HEAD "A = { runs = machine { start = \"I\", states = { I = {\n push = -1 } } } } } }", ERROR,
+     3, 2, 6, "out-of-range", "machine m > state A > state I"},
+    {HEAD "A = { runs = machine { start = \"I\", states = { I = { { to = \"A\" } } } } } } }",
+     ERROR, 2, 56, 58, "unknown-state", "ask `done`"},
+    {HEAD "A = { runs = 3 } } }", ERROR, 2, 7, 11, "bad-value", "needs a machine, not number"},
+    {HEAD "A = { runs = { states = {} } } } }", ERROR, 2, 7, 11, "bad-value", "machine { ... }"},
+    {"local t = {}\nlocal m = machine { name = \"m\", start = \"A\", states = { A = t } }\n"
+     "t.runs = m\nreturn m",
+     ERROR, 3, 3, 7, "runs-itself", "runs the machine that it is in"},
+    {"local function within(m) return machine { start = \"I\", states = { I = { runs = m } } } "
+     "end\n"
+     "local m = machine { start = \"Z\", states = { Z = {} } }\n" HEAD
+     "A = { runs = within(within(within(m))) } } }",
+     ERROR, 1, 73, 77, "too-deep", "depth of 4"},
+    {HEAD "[\"A.b\"] = { runs = machine { start = \"I\", states = { I = {} } } }, A = {} } }",
+     ERROR, 2, 2, 7, "bad-name", "no dot"},
+    {HEAD "A = { removes = true, runs = machine { start = \"I\", states = { I = {} } } } } }",
+     ERROR, 2, 7, 14, "bad-value", "runs a machine"},
+    {HEAD "A = { { to = \"A\", when = done } } } }", ERROR, 2, 19, 23, "no-machine",
+     "runs = machine"},
+    {HEAD "A = { runs = machine { start = \"I\", states = { I = {}, J = {} } } } } }", WARNING, 2,
+     56, 57, "unreachable-state", "'A.J'"},
+    {HEAD "A = { steer = hold },\n"
+          "B = { runs = machine { start = \"I\", states = { I = {}, J = {} } } } } }",
+     WARNING, 3, 1, 2, "unreachable-state", "state 'B'"},
+    {HEAD "A = { runs = sequence { wait(1),\n wander() } } } }", ERROR, 3, 2, 8, "bad-step",
+     "does not end by itself"},
+    {HEAD "A = { runs = sequence { \"x\", \"y\", wait(1) } } } }", ERROR, 2, 30, 33, "bad-step",
+     "second name"},
+    {HEAD "A = { runs = sequence { wait(1), \"x\" } } } }", ERROR, 2, 34, 37, "bad-step",
+     "belongs after a name"},
+    {HEAD "A = { runs = sequence { wait(1), { steer = hold, lasts = -1 } } } } }", ERROR, 2, 50, 55,
+     "out-of-range", "step 2"},
+    {"local w = wait(\"x\")\n" HEAD "A = {} } }", ERROR, 1, 11, 15, "bad-argument", "seconds"},
+    {"local w = sequence {}\n" HEAD "A = {} } }", ERROR, 1, 11, 19, "bad-argument", "steps"},
 };
 
 static void each_kind_of_mistake_has_its_place(void **state) {

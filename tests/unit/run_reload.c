@@ -32,7 +32,7 @@ static bool is_made(const JoScene *scene, uint32_t index) {
            NULL;
 }
 
-/* ---- the scenes that are shipped, each with few people ---- */
+/* ---- the scenes that are shipped, each with few people, and one with nested machines ---- */
 
 static JoScene *load_small(const char *path) {
     enum { MOST = 64 };
@@ -66,6 +66,7 @@ static void visit_shipped_scenes(void (*visit)(const char *path)) {
     for (size_t s = 0; s < scenes.gl_pathc; s++)
         visit(scenes.gl_pathv[s]);
     globfree(&scenes);
+    visit("tests/data/nested.yaml");
 }
 
 /* Returns the hash of a scene after `steps` steps without reloads; each scene is run once for it.

@@ -44,12 +44,16 @@ static void describe_parts(const JoxSource *source, const char *root, const char
                            JoxText *out) {
     char full[256], to[64];
     unsigned number;
+    if (sscanf(rest, "%u", &number) == 1) /* of a sequence */
+        jox_text_printf(out, " > step %u", number);
     while (strncmp(rest, "states.", 7) == 0) {
         const size_t n = strcspn(rest + 7, ".");
         jox_text_printf(out, " > state %.*s", (int)(n < 60 ? n : 60), rest + 7);
         rest += 7 + n;
         if (strncmp(rest, ".runs.", 6) == 0) {
             rest += 6;
+            if (sscanf(rest, "%u", &number) == 1)
+                jox_text_printf(out, " > step %u", number);
         } else if (sscanf(rest, ".%u", &number) == 1) {
             const size_t length = (size_t)(rest - root);
             snprintf(full, sizeof full, "%.*s.%u.to", (int)(length < 200 ? length : 200), root,

@@ -92,7 +92,8 @@ const char *jox_node_kind(lua_State *L, int index) {
         [JOX_NODE_CIRCUITS] = "circuits", [JOX_NODE_MACHINE] = "a machine",
         [JOX_NODE_PATCH] = "a patch",     [JOX_NODE_REPLACE] = "a replacement",
         [JOX_NODE_NONE] = "`none`",       [JOX_NODE_LAYER] = "an extended function",
-        [JOX_NODE_BACK] = "`back`",       [JOX_NODE_ERROR] = "an error"};
+        [JOX_NODE_WAIT] = "`wait`",       [JOX_NODE_BACK] = "`back`",
+        [JOX_NODE_ERROR] = "an error"};
     static_assert(sizeof NAMES / sizeof *NAMES == JOX_NODE_ERROR + 1, "every kind has a name");
     JoxNode *node = jox_node_get(L, index);
     return node ? NAMES[node->kind] : luaL_typename(L, index);

@@ -27,9 +27,11 @@ static void add_path(JoxOutline *outline, const char *path, size_t key, size_t f
         (JoxPath){jox_strdup(path), (uint32_t)key, (uint32_t)first, (uint32_t)last};
 }
 
-/* Returns whether machine { begins at token `i`. */
+/* Returns whether machine { or sequence { begins at token `i`. */
 static bool begins_machine(const JoxSource *source, size_t i) {
-    return i + 2 < source->token_count && jox_token_is(&source->tokens[i], "machine") &&
+    return i + 2 < source->token_count &&
+           (jox_token_is(&source->tokens[i], "machine") ||
+            jox_token_is(&source->tokens[i], "sequence")) &&
            jox_token_is(&source->tokens[i + 1], "{");
 }
 

@@ -72,6 +72,7 @@ typedef enum {
     JOX_NODE_MACHINE,
     JOX_NODE_PATCH,   /* in a mod: a table that changes another file's machine */
     JOX_NODE_REPLACE, /* in a mod: a table that replaces another file's machine */
+    JOX_NODE_WAIT,    /* a step of a sequence; `hook` refers to its seconds */
     JOX_NODE_BACK,    /* in a transition's `to`: the state that was left */
     JOX_NODE_NONE,    /* in a patch: removes a key */
     JOX_NODE_LAYER,   /* in a patch: a function that extends the one before it; `op` is its JoxLayer
@@ -120,6 +121,7 @@ struct JoxNode {
     int32_t compiled; /* 1 + index of the expression that it was compiled to; 0: not yet */
     uint32_t
         compiled_in; /* scope of that (JoxBuild.scope), as clocks and own values depend on it */
+    int steps;       /* of a sequence: registry reference of its steps\' items by name; else 0 */
     int hook;        /* registry reference of the function or table it holds, or LUA_NOREF */
     JoxPosition position;
     JoxNamePlace written; /* where the name of an own value, state or memory, or the word `machine`,
@@ -360,6 +362,8 @@ void jox_values_add(lua_State *L);
 void jox_layers_add(lua_State *L);
 /* Returns the word that makes a layer: "before". */
 const char *jox_layer_word(JoxLayer layer);
+/* Adds the words of sequence.c. */
+void jox_sequence_add(lua_State *L);
 /* Makes the environment of scripts. */
 void jox_environment_open(lua_State *L);
 /* The function `require` of scripts. */

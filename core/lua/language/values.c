@@ -275,6 +275,7 @@ void jox_values_add(lua_State *L) {
     static const luaL_Reg MAKERS[] = {
         {"orbit", make_orbit}, {"machine", make_machine}, {"memory", make_memory}, {NULL, NULL}};
     luaL_setfuncs(L, MAKERS, 0);
+    jox_sequence_add(L);
     for (size_t i = 0; i < jox_word_count; i++)
         if (jox_words[i].makes == JOX_NODE_DIST) {
             lua_pushlightuserdata(L, (void *)&jox_words[i]);

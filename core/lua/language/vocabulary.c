@@ -228,6 +228,16 @@ const JoxWord jox_words[] = {
      "reloads. The result is a table of their values as expressions and targets", "memory { laps = 0, touched = false, prey = nobody }"},
     {"machine", "*", 0, 0, 0, "machine { ... }", "", "the table that a behaviour returns, or that a state runs (see `runs`)",
      "machine { name = \"m\", start = \"A\", states = { A = {} } }"},
+    {"sequence", "*", 0, 0, 0, "sequence { step, ... }", "",
+     "a machine of steps, one after the other, which ends after the last; a state runs it (see `runs`). A step is a "
+     "steering: seek, field and queue are over when the agent is there; wait(seconds); a machine, over when it has "
+     "ended; a function(me), called once; or a state's table, with `lasts` or `when`, the condition that it is over. "
+     "A text names the step after it, as does `name` in a table; other steps are called \"1 seek post\", \"2 wait\". "
+     "Keys of a machine may stand in it, too",
+     "sequence { seek \"post\", wait(2) }"},
+    {"wait", "*", 0, 0, 0, "wait(seconds)", "",
+     "a step of a sequence: the agent stands for this time, s: a number, distribution or expression",
+     "sequence { wait(uniform(1, 2)), seek \"post\" }"},
     {"back", NULL, 0, 0, 0, "back", "",
      "for `to`: the state that the agent left when it entered the present one, other than by `back`; if there is "
      "none, the state in which the machine begins", "back"},

@@ -178,7 +178,7 @@ static void say_never_fired(void *context, const JoxMachine *machine, const JoxS
                         number ? ", " : "", from->name,
                         t->stays  ? t->id
                         : t->back ? "back"
-                                  : machine->states[t->to].name);
+                                  : jox_transition_leads_to(machine, t));
 }
 
 void jox_run_say_unleft(const JoScene *scene, JoxText *out) {
@@ -216,7 +216,7 @@ static void add_never_fired(void *context, const JoxMachine *machine, const JoxS
     jox_json_object(json, NULL);
     jox_json_string(json, "machine", machine->name);
     jox_json_string(json, "from", from->name);
-    jox_json_string(json, "to", t->stays || t->back ? NULL : machine->states[t->to].name);
+    jox_json_string(json, "to", t->stays || t->back ? NULL : jox_transition_leads_to(machine, t));
     jox_json_string(json, "id", t->id);
     jox_json_end(json);
 }
