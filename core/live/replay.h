@@ -27,6 +27,8 @@ bool jox_replay_show(JoxReplay *replay, uint32_t frame, JoxText *why);
 /* Empties the shown frame: people of the next one get new slots, so that the page does not draw
    their movement from where they were. */
 void jox_replay_forget(JoxReplay *replay);
+/* Returns the id of the person in a slot; -1: nobody is. */
+int64_t jox_replay_id(const JoxReplay *replay, uint32_t slot);
 void jox_replay_scene(const JoxReplay *replay, JoxText *out);
 /* Returns a number that changes when the scene message must be sent again: bodies or walls have
    changed. */

@@ -174,6 +174,24 @@ static void handle_restart(void *self, const JoxLiveRequest *request) {
     seek_time(p, p->from);
 }
 
+/* Answers {"type": "who", ...}: the id of the person in a slot, by which `jostle why` explains in a
+   new run of the scene what a recording does not hold. */
+static void handle_inspect(void *self, const JoxLiveRequest *request) {
+    JoxReplayPage *p = self;
+    const double wanted = jox_command_number(request->command, "slot", -1.0);
+    const uint32_t slot = wanted >= 0.0 && wanted < 4294967295.0 ? (uint32_t)wanted : UINT32_MAX;
+    JoxText text = {0};
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "type", "who");
+    jox_json_whole(&json, "slot", slot);
+    jox_json_integer(&json, "id", jox_replay_id(p->replay, slot));
+    jox_json_string(&json, "scene", p->def->scene);
+    jox_json_end(&json);
+    jox_view_send(p->page.server, request->client, text.data);
+    jox_text_free(&text);
+}
+
 const JoxLiveSource jox_replay_page_source = {
     .colour = choose_recording_colour,
     .field = choose_recording_field,
@@ -188,7 +206,8 @@ const JoxLiveSource jox_replay_page_source = {
     .verbs = {[JOX_LIVE_VERB_pause] = handle_pause,
               [JOX_LIVE_VERB_step] = handle_step,
               [JOX_LIVE_VERB_seek] = handle_seek,
-              [JOX_LIVE_VERB_restart] = handle_restart},
+              [JOX_LIVE_VERB_restart] = handle_restart,
+              [JOX_LIVE_VERB_inspect] = handle_inspect},
 };
 
 /* ---- opening and running ---- */

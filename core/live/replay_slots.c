@@ -82,3 +82,10 @@ void jox_replay_give_slots(JoxReplay *r, const JoxTrajectoryReaderFrame *f, doub
     }
     r->count = f->count;
 }
+
+int64_t jox_replay_id(const JoxReplay *r, uint32_t slot) {
+    for (uint32_t i = 0; i < r->count; i++)
+        if (r->slot[i] == slot)
+            return r->id[i];
+    return -1;
+}

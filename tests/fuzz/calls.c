@@ -293,7 +293,7 @@ static void act_on_scene(Caller *c) {
     JoError error = {0};
     double one[3], two[3], three[3];
     JoScene *s = pick_scene(c);
-    const uint8_t what = take_byte(c) % 12;
+    const uint8_t what = take_byte(c) % 13;
     if (what < 4)
         jo_scene_step(s, &error);
     if (what == 4)
@@ -309,6 +309,19 @@ static void act_on_scene(Caller *c) {
         jo_scene_trace(s, take_byte(c));
     if (what == 9)
         jo_free(jo_scene_inspect(s, take_byte(c)));
+    if (what == 12) {
+        JoWhyDef def = jo_default_why_def();
+        def.has_agent = take_byte(c) % 2;
+        def.agent = take_byte(c);
+        def.group = take_byte(c) % 4 ? NULL : pick_name(c);
+        def.state = take_byte(c) % 4 ? NULL : pick_name(c);
+        def.to = take_byte(c) % 4 ? NULL : pick_name(c);
+        def.json = take_byte(c) % 2;
+        jo_scene_follow(s, take_byte(c));
+        jo_scene_break(s, pick_name(c), &error);
+        jo_free(jo_scene_why(s, &def, &error));
+        jo_scene_broke(s);
+    }
     if (what == 10) {
         jo_free(jo_scene_summary(s));
         jo_free(jo_scene_troubles(s));

@@ -492,6 +492,7 @@ def replays(browser):
         expect(browser.run("return page.crowd.next.slots") >= 240, "people are missing")
         browser.run("page.inspect([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)))")
         browser.wait("return /state/.test(document.getElementById('page-agent').textContent)", "nothing is said of a person")
+        browser.wait("return /jostle why SCENE --agent [0-9]+ --at/.test(document.getElementById('page-agent').textContent)", "the panel does not say how to ask why")
         browser.picture("replay")
         someone_else(browser)
         bar.send_keys(Keys.PAGE_DOWN, Keys.ARROW_RIGHT)

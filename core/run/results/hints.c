@@ -162,10 +162,11 @@ static void examine_transition(Examined *j, const JoxState *from, const JoxTrans
                         "nobody was ever in state '%s': in %.0f s the transition to it was never "
                         "taken, though somebody was always in '%s'",
                         to, j->seconds, from->name);
-    add_hint(j, entered ? JO_HINT_TRANSITION : JO_HINT_STATE, from, t,
-             "The live page (--view) shows what its condition is made of; take it out if it is not "
-             "needed",
-             &text);
+    add_hint(
+        j, entered ? JO_HINT_TRANSITION : JO_HINT_STATE, from, t,
+        "`jostle why`, or the live page (--view), says what it waits for; take it out if it is not "
+        "needed",
+        &text);
 }
 
 /* Returns whether sinks removed people, maybe before a transition saw them arrive. */

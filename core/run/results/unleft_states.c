@@ -173,12 +173,14 @@ static uint32_t visit_never_fired(const JoScene *scene, NeverVisit *visit, void 
 
 static void say_never_fired(void *context, const JoxMachine *machine, const JoxState *from,
                             const JoxTransition *t, uint32_t number) {
-    if (number < MOST_TRANSITIONS)
-        jox_text_printf(context, t->stays ? "%s%.60s, reaction %.60s" : "%s%.60s -> %.60s",
-                        number ? ", " : "", from->name,
-                        t->stays  ? t->id
-                        : t->back ? "back"
-                                  : jox_transition_leads_to(machine, t));
+    if (number >= MOST_TRANSITIONS)
+        return;
+    jox_text_printf(context, "%s%.60s", number ? ", " : "", from->name);
+    if (t->stays)
+        jox_text_printf(context, " (reaction of line %d)", t->line);
+    else
+        jox_text_printf(context, " -> %.60s",
+                        t->back ? "back" : jox_transition_leads_to(machine, t));
 }
 
 void jox_run_say_unleft(const JoScene *scene, JoxText *out) {

@@ -28,13 +28,24 @@ typedef struct Asked {
     JoxJson json;
 } Asked;
 
-/* Reports a name that the scene does not have, with the most similar that it has. */
+enum { MOST_LISTED = 12 };
+
+/* Reports a name that the scene does not have, with the most similar that it has, or with those
+   that it has. */
 static bool refuse_name(const char *what, const char *given, const char *const *names, size_t count,
                         JoError *error) {
     char hint[JOX_HINT];
     const char *near = jox_did_you_mean(given, names, count, hint);
+    JoxText list = {0};
+    for (size_t n = 0; !near && n < count && n < MOST_LISTED; n++)
+        jox_text_printf(&list, "%s%.40s", n ? ", " : ", only ", names[n]);
+    if (!near && count > MOST_LISTED)
+        jox_text_add(&list, ", ...");
     jox_error(error, JO_USAGE, "the scene has no %s '%.60s'%s%s", what, given, near ? ". " : "",
-              near ? near : "");
+              near        ? near
+              : list.data ? list.data
+                          : "");
+    jox_text_free(&list);
     return false;
 }
 

@@ -108,7 +108,7 @@ static void print_condition(const Printing *p) {
 static void print_transition_head(const JoxMachine *machine, const JoxTransition *t,
                                   const JoxState *to, JoxText *out) {
     if (t->stays)
-        jox_text_printf(out, "  reaction %s  (", t->id);
+        jox_text_add(out, "  reaction  (");
     else if (t->back)
         jox_text_printf(out, to ? "  -> back, to %s  (" : "  -> back  (", to ? to->name : "");
     else

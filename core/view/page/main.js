@@ -79,7 +79,7 @@ class Page {
         this.help = new Help({ meter: this.meter, view: this.view, connection: this.connection });
         this.panel = new Panel(() => this.charts?.draw());
         const pages = this.panel.pages;
-        this.agentPage = new AgentPage(pages.agent, { letGo: () => this.inspect(null), find: (text) => this.connection.send({ do: "inspect", find: text }) });
+        this.agentPage = new AgentPage(pages.agent, { letGo: () => this.inspect(null), recorded: () => this.recorded(), find: (text) => this.connection.send({ do: "inspect", find: text }) });
         this.parameters = new ParametersPage(pages.parameters, { connection: this.connection });
         this.machine = new MachinePage(pages.machine, (machine, state) => {
             this.parameters.show(machine, state);
@@ -172,7 +172,7 @@ class Page {
             scene: () => this.takeScene(message), status: () => this.takeStatus(message),
             errors: () => this.messages.showErrors(message.errors ?? []),
             say: () => this.messages.say(message.text, message.level),
-            inspect: () => this.takePerson(message), lua: () => this.parameters.takeLua(message.text),
+            inspect: () => this.takePerson(message), who: () => this.agentPage.takeWho(message), lua: () => this.parameters.takeLua(message.text),
             refused: () => this.messages.say(message.text, "warning"), time: () => this.replay.take(message),
         }[message.type];
         if (taken) taken();
@@ -286,7 +286,7 @@ class Page {
         this.slot = this.overlay.chosen = slot;
         this.person = this.overlay.forces = null;
         if (this.recorded()) this.seePerson();
-        else this.connection.send({ do: "inspect", slot });
+        if (!this.recorded() || slot !== null) this.connection.send({ do: "inspect", slot });
         this.enablePerson(slot !== null);
         if (slot === null) this.agentPage.none();
         else if (this.view.tool === "select") this.panel.show("agent");
@@ -305,7 +305,7 @@ class Page {
         if (!at) return void this.takePerson({ agent: null });
         const from = crowd.position(slot, 0) ?? at, passed = crowd.next.time - crowd.previous.time;
         this.agentPage.takeSeen({
-            slot, x: at[0], y: at[1], radius: crowd.radius(slot), torso: crowd.torso(slot),
+            slot, time: crowd.next.time, x: at[0], y: at[1], radius: crowd.radius(slot), torso: crowd.torso(slot),
             speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
             state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.group(slot)]?.name,
         });

@@ -44,7 +44,7 @@ function transitionRow(t) {
     const missing = t.fires ? "fires next" : t.misses === 0 ? "" : t.misses === 1 ? "one term is missing" : `${t.misses} terms are missing`;
     const terms = !t.when ? [] : t.when.kind === "all" ? sortedTerms(t.when.terms) : [t.when];
     return el("div", { className: "transition" },
-        el("p", {}, el("strong", {}, t.to ? `→ ${t.back ? "back, to " : ""}${t.to}` : `reaction ${t.id}`), el("span", { className: "faint" }, ` ${file}:${t.line} ${missing}`)),
+        el("p", {}, el("strong", {}, t.to ? `→ ${t.back ? "back, to " : ""}${t.to}` : "reaction"), el("span", { className: "faint" }, ` ${file}:${t.line} ${missing}`)),
         el("ul", { className: "terms" }, terms.map(termRow),
             t.function ? el("li", {}, "a function: ", el("span", { className: "faint" }, t.function)) : null,
             t.chance_note ? el("li", {}, el("span", { className: "faint" }, t.chance_note)) : null));
@@ -66,7 +66,7 @@ function showValues(part, list, values = {}) {
 }
 
 export class AgentPage {
-    /** `page`: {letGo(), find(text)} */
+    /** `page`: {letGo(), find(text), recorded()} */
     constructor(node, page) {
         this.node = node;
         this.page = page;
@@ -76,7 +76,7 @@ export class AgentPage {
 
     none(text = "Click a person in the picture, or give the picture the focus and press Enter.") {
         this.id = null;
-        fill(this.node, el("p", { className: "faint" }, text), this.finder());
+        fill(this.node, el("p", { className: "faint" }, text), this.page.recorded() ? null : this.finder());
     }
 
     /** A field that chooses a person by id, or the one who has been longest in a state or of a group. */
@@ -132,12 +132,20 @@ export class AgentPage {
         showValues(this.ownPart, this.own, message.own);
     }
 
-    /** Takes a person of a recording: {slot, state, group, x, y, speed, radius, torso}. */
+    /** Takes a `who` message: which person of the recorded run is in a slot. */
+    takeWho(message) {
+        this.who = message;
+    }
+
+    /** Takes a person of a recording: {slot, time, state, group, x, y, speed, radius, torso}. */
     takeSeen(seen) {
         this.id = `slot ${seen.slot}`;
+        const who = this.who?.slot === seen.slot && this.who.id >= 0 ? this.who : null;
         fill(this.node, el("div", { className: "row" }, el("h2", {}, "Person"), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
             pairs([["state", seen.state ?? "–"], ["group", seen.group ?? "–"], ["place", `${figure(seen.x)}, ${figure(seen.y)} m`],
-                ["speed", `${figure(seen.speed)} m/s`], ["radius", `${figure(seen.radius)} m`], ...torsoRows(seen.torso)]));
+                ["speed", `${figure(seen.speed)} m/s`], ["radius", `${figure(seen.radius)} m`], ...torsoRows(seen.torso), ...(who ? [["agent", String(who.id)]] : [])]),
+            who ? el("p", { className: "faint" }, "Why it stays, a new run of the scene tells: ",
+                el("code", {}, `jostle why ${who.scene ?? "SCENE"} --agent ${who.id} --at ${Number(seen.time.toFixed(2))}`)) : null);
     }
 
     build(agent) {
