@@ -280,6 +280,45 @@ static void add_charts(JoxJson *json, const JoxSceneSpec *spec) {
     jox_json_end(json);
 }
 
+/* Adds the mods that have settings, with the values of the behaviours that run. */
+static void add_scene_mods(JoxJson *json, const JoxMods *mods) {
+    static const char *const KINDS[] = {[JOX_SETTING_NUMBER] = "number",
+                                        [JOX_SETTING_BOOL] = "bool",
+                                        [JOX_SETTING_CHOICE] = "choice"};
+    jox_json_array(json, "mods");
+    for (uint32_t m = 0; m < mods->count; m++) {
+        const JoxMod *mod = &mods->items[m];
+        if (!mod->setting_count)
+            continue;
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", mod->name);
+        jox_json_string(json, "title", mod->title);
+        jox_json_array(json, "settings");
+        for (uint32_t s = 0; s < mod->setting_count; s++) {
+            const JoxModSetting *setting = &mod->settings[s];
+            jox_json_object(json, NULL);
+            jox_json_string(json, "name", setting->name);
+            jox_json_string(json, "kind", KINDS[setting->kind]);
+            if (setting->kind == JOX_SETTING_NUMBER)
+                jox_json_number(json, "value", setting->shown);
+            else if (setting->kind == JOX_SETTING_BOOL)
+                jox_json_bool(json, "value", setting->shown != 0.0);
+            else
+                jox_json_string(json, "value", jox_setting_text(setting, setting->shown));
+            jox_json_number(json, "least", setting->least);
+            jox_json_number(json, "most", setting->greatest);
+            jox_json_string(json, "unit", setting->unit);
+            jox_json_string(json, "meaning", setting->meaning);
+            add_name_list(json, "choices", (const char *const *)setting->choices,
+                          setting->choice_count);
+            jox_json_end(json);
+        }
+        jox_json_end(json);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
 JoxLiveColour jox_live_first_colour(const JoScene *scene) {
     const JoxMachineSet *machines = scene->world->machines.set;
     uint32_t states = 0;
@@ -316,6 +355,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_live_add_colours(&json);
     jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field, &json);
     add_charts(&json, spec);
+    add_scene_mods(&json, scene->mods);
     jox_json_end(&json);
 }
 
@@ -324,6 +364,7 @@ uint64_t jox_live_version(const JoScene *scene) {
     const JoxWalls *walls = &world->model.all_walls;
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, &scene->spec->view, sizeof scene->spec->view);
+    jox_hash_add(&hash, &scene->settings_changed, sizeof scene->settings_changed);
     for (uint32_t g = 0; g < scene->spec->group_count; g++)
         jox_hash_add(&hash, &scene->spec->groups[g].colour, sizeof(JoxColour));
     jox_hash_add(&hash, scene->spec->camera.position, sizeof scene->spec->camera.position);

@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "run/input_actions.h"
 #include "run/input_log.h"
+#include "run/mod_setting.h"
 #include "run/reload.h"
 #include "run/run.h"
 #include "run/set_parameter.h"
@@ -44,6 +45,9 @@ static bool perform_verb(JoScene *scene, const JoxInputEntry *entry, JoError *er
                                      entry->numbers[0], error);
     if (entry->verb == JOX_INPUT_FILES)
         return reload_files(scene, entry, error);
+    if (entry->verb == JOX_INPUT_SETTING)
+        return jox_run_set_mod_setting(scene, entry->names[0], entry->names[1], entry->names[2],
+                                       error);
     return true; /* the other verbs were checked when the scene was loaded */
 }
 
@@ -63,7 +67,8 @@ static bool perform_and_log(JoScene *scene, JoxInputEntry *entry, JoError *error
     if (scene->acting)
         return true;
     scene->acted_on |= entry->line == 0;
-    if (jox_input_verbs[entry->verb].tool) /* a reload is logged when it goes live */
+    /* a reload, also by a setting, is logged when it goes live */
+    if (jox_input_verbs[entry->verb].tool && entry->verb != JOX_INPUT_SETTING)
         jox_run_log_entry(scene, entry);
     return true;
 }

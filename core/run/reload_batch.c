@@ -10,6 +10,7 @@
 #include "jostle_tools.h"
 #include "run/group_links.h"
 #include "run/machine_names.h"
+#include "run/mod_setting.h"
 #include "run/read_scene.h"
 #include "run/reload_batch.h"
 #include "run/scene_machines.h"
@@ -40,6 +41,8 @@ bool jox_reload_watch_file(JoxReload *r, uint32_t part, const char *path) {
 static void account_batch(JoxReload *r, const JoxBatch *batch, bool live) {
     if (live)
         jox_changes_mark_live(&r->changes, batch->parts);
+    else if (batch->sets)
+        jox_setting_revert(r, &batch->setting);
     for (uint32_t c = 0; c < batch->count; c++) {
         const JoxChange *change = &batch->changes[c];
         for (uint32_t f = 0; f < change->files.count && (live || !change->added); f++)

@@ -11,6 +11,12 @@
 #include "run/watch/changes.h"
 #include "run/watch/watch.h"
 
+/* A change of a setting of a mod, by indices in the scene's mods. */
+typedef struct JoxSettingChange {
+    uint32_t mod, setting;
+    double value, before;
+} JoxSettingChange;
+
 /* One machine of a batch. */
 typedef struct JoxChange {
     uint32_t index; /* of the machine in the scene; for a new one, set when it is added */
@@ -35,6 +41,8 @@ typedef struct JoxBatch {
     bool parts[JOX_PARTS]; /* which machines, and the scene, it holds */
     double written;        /* seconds since 1970 */
     bool failed;
+    bool sets; /* it changes a setting */
+    JoxSettingChange setting;
 } JoxBatch;
 
 struct JoxReload {
@@ -46,6 +54,7 @@ struct JoxReload {
     int stop;                 /* eventfd */
     atomic_uintptr_t ready;   /* JoxBatch * for the stepping thread; 0: none */
     atomic_uintptr_t retired; /* list of JoxRetired for the loading thread, which frees them */
+    atomic_uintptr_t wanted;  /* JoxSettingChange * for the loading thread; 0: none */
     atomic_uint next_id, machine_count;
     atomic_bool starved;      /* memory ran out in the thread, which has ended */
     JoxChanges changes;       /* used by the loading thread alone */
@@ -77,6 +86,9 @@ bool jox_reload_watch_file(JoxReload *reload, uint32_t part, const char *path);
 enum { JOX_RELOAD_SHEET, JOX_RELOAD_PATCHES, JOX_RELOAD_MOD_PARTS };
 /* Writes the path of a mod's mod.yaml, or of its folder of patches. */
 void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part, char path[JOX_LONGEST_PATH]);
+/* Changes a setting of a mod: posts it to the loading thread or, if files are not watched, loads
+   and swaps at once. False with `error`. (reload_thread.c) */
+bool jox_run_reload_setting(JoScene *scene, const JoxSettingChange *change, JoError *error);
 /* Takes over a batch on the stepping thread, between two steps: all of it goes live, or nothing
    and the reasons are reported. Hands it back through `retired`. True if it is live.
    (reload_swap.c) */

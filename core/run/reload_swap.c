@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "run/group_links.h"
 #include "run/input_log.h"
+#include "run/mod_setting.h"
 #include "run/reload_batch.h"
 #include "run/scene_machines.h"
 #include "run/tags_and_teams.h"
@@ -189,6 +190,8 @@ bool jox_batch_swap(JoScene *scene, JoxBatch *batch) {
         if (batch->spec)
             jox_run_reload_scene(scene, &batch->spec, batch->written);
         jox_run_log_files(scene, &reloaded);
+        if (batch->sets)
+            jox_setting_went_live(scene, &batch->setting);
     }
     atomic_store(&r->machine_count, scene->world->model.machines.count);
     retired->next = (JoxRetired *)atomic_load(&r->retired);

@@ -10,6 +10,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/input_log.h"
+#include "run/mod_setting.h"
 #include "run/reload_batch.h"
 #include "task/thread.h"
 
@@ -23,13 +24,18 @@ static void note_change(void *context, const char *path, double written) {
 static void load_until_stopped(JoxReload *r) {
     uint64_t signal;
     while (read(r->stop, &signal, sizeof signal) != (ssize_t)sizeof signal) {
-        jox_watch_wait(r->watch, r->stop, jox_changes_has_untried(&r->changes) ? 0.002 : 1.0,
+        const double patience = r->scene->mods->count ? 0.05 : 1.0; /* s: settings are posted */
+        jox_watch_wait(r->watch, r->stop, jox_changes_has_untried(&r->changes) ? 0.002 : patience,
                        note_change, r);
         /* One batch at a time: it is compared with what runs. */
         bool busy = atomic_load(&r->ready) != 0;
         jox_reload_free_retired(r);
-        if (!busy)
-            atomic_store(&r->ready, (uintptr_t)jox_batch_prepare(r));
+        if (busy)
+            continue;
+        JoxSettingChange *change = (JoxSettingChange *)atomic_exchange(&r->wanted, 0);
+        atomic_store(&r->ready,
+                     (uintptr_t)(change ? jox_setting_prepare(r, change) : jox_batch_prepare(r)));
+        jox_free(change);
     }
 }
 
@@ -130,7 +136,7 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
         return true;
     const JoxInputLog *log = &scene->world->state.input;
     for (size_t e = 0; e < log->count; e++)
-        if (log->entries[e].verb == JOX_INPUT_FILES) {
+        if (log->entries[e].verb == JOX_INPUT_FILES || log->entries[e].verb == JOX_INPUT_SETTING) {
             jox_error(error, JO_INPUT,
                       "the input log '%.200s' swaps files itself; files on the disk cannot be "
                       "watched besides",
@@ -174,6 +180,24 @@ bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *e
     return live;
 }
 
+bool jox_run_reload_setting(JoScene *scene, const JoxSettingChange *change, JoError *error) {
+    JoxReload *r = scene->reload ? scene->reload : create_reload(scene, NULL);
+    if (r->watch) {
+        JoxSettingChange *posted = jox_alloc(1, sizeof *posted);
+        *posted = *change;
+        jox_free((JoxSettingChange *)atomic_exchange(&r->wanted, (uintptr_t)posted));
+        return true;
+    }
+    atomic_store(&r->next_id, scene->world->state.agents.next_id);
+    const bool live = jox_batch_swap(scene, jox_setting_prepare(r, change));
+    jox_reload_free_retired(r);
+    if (!live)
+        jox_error(error, JO_INPUT,
+                  "with this value the behaviours do not load: they go on as they "
+                  "were");
+    return live;
+}
+
 void jox_run_end_reload(JoScene *scene) {
     JoxReload *r = scene->reload;
     if (!r)
@@ -183,6 +207,7 @@ void jox_run_end_reload(JoScene *scene) {
     JoxBatch *batch = (JoxBatch *)atomic_load(&r->ready);
     if (batch)
         jox_batch_free(batch);
+    jox_free((JoxSettingChange *)atomic_load(&r->wanted));
     jox_reload_free_retired(r);
     jox_changes_free(&r->changes);
     jox_watch_free(r->watch);

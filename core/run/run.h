@@ -38,6 +38,7 @@ struct JoScene {
     uint32_t word_count;
     JoxProgramWord *program_words; /* by number of the word */
     double words_told_until;       /* s: until then values that are not finite are only counted */
+    uint32_t settings_changed;     /* number of changes of settings of mods that went live */
     bool acting;                   /* actions of the program are done: they are not logged */
     char **spec_files;             /* paths of the scene's file and of the files that it includes */
     uint32_t spec_file_count;

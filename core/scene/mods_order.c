@@ -166,6 +166,8 @@ static void sort_mods(JoxModsFind *f) {
     for (uint32_t k = 0; k < count; k++) {
         mods->found_index[k] = list[k];
         mods->items[k] = mods->found[list[k]];
+        for (uint32_t s = 0; s < mods->items[k].setting_count; s++)
+            mods->items[k].settings[s].shown = mods->items[k].settings[s].value;
         for (uint32_t o = 0; o < k; o++)
             if (f->needs[list[k]].before >> list[o] & 1)
                 mods->items[k].after |= (uint64_t)1 << o | mods->items[o].after;

@@ -65,11 +65,10 @@ bool jox_setting_parse(const JoxModSetting *s, const char *text, double *value, 
     return false;
 }
 
-const char *jox_setting_text(const JoxModSetting *s) {
-    return s->kind == JOX_SETTING_BOOL ? (s->value != 0.0 ? "true" : "false")
-           : s->kind == JOX_SETTING_CHOICE && s->value < s->choice_count
-               ? s->choices[(uint32_t)s->value]
-               : "";
+const char *jox_setting_text(const JoxModSetting *s, double value) {
+    return s->kind == JOX_SETTING_BOOL ? (value != 0.0 ? "true" : "false")
+           : s->kind == JOX_SETTING_CHOICE && value < s->choice_count ? s->choices[(uint32_t)value]
+                                                                      : "";
 }
 
 bool jox_mod_find(const JoxMod *mods, uint32_t count, const char *name,

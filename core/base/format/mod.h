@@ -22,7 +22,8 @@ typedef struct JoxModSetting {
     char *name, *unit, *meaning;
     char *written; /* the value as mod.yaml has it */
     JoxSettingKind kind;
-    double value; /* BOOL: 0 or 1; CHOICE: index of the text */
+    double value; /* BOOL: 0 or 1; CHOICE: index of the text. Read by what loads behaviours */
+    double shown; /* the value of the behaviours that run */
     double least, greatest;
     char **choices; /* CHOICE */
     uint32_t choice_count;
@@ -66,8 +67,8 @@ void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosit
 /* Reads a value of a setting from a text: a plain number in the setting's range, "true" or "false",
    one of its choices. False with a sentence in `why`. */
 bool jox_setting_parse(const JoxModSetting *setting, const char *text, double *value, JoxText *why);
-/* Returns the value of a setting that is no number, as a text. */
-const char *jox_setting_text(const JoxModSetting *setting);
+/* Returns a value of a setting that is no number, as a text. */
+const char *jox_setting_text(const JoxModSetting *setting, double value);
 
 /* Finds the file of a behaviour that is named "mod:name"; ".lua" may be left out. False if there is
    no such mod, or no such file in its folder behaviours/. */

@@ -246,7 +246,7 @@ static int settings_index(lua_State *L) {
             else if (setting->kind == JOX_SETTING_BOOL)
                 lua_pushboolean(L, setting->value != 0.0);
             else
-                lua_pushstring(L, jox_setting_text(setting));
+                lua_pushstring(L, jox_setting_text(setting, setting->value));
             return 1;
         }
     }

@@ -41,7 +41,7 @@ static void add_settings(JoxPack *pack, const JoxMod *mod) {
                              .least = from->least,
                              .greatest = from->greatest,
                              .kind = KINDS[from->kind]};
-        jox_pack_text(pack, SETTINGS, &to->text, jox_setting_text(from));
+        jox_pack_text(pack, SETTINGS, &to->text, jox_setting_text(from, from->value));
         jox_pack_text(pack, SETTINGS, &to->choices, choices.data ? choices.data : "");
         jox_text_free(&choices);
         jox_pack_text(pack, SETTINGS, &to->name, from->name);

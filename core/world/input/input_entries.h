@@ -38,7 +38,8 @@ typedef enum JoxInputVerb {
     JOX_INPUT_VELOCITY,
     JOX_INPUT_DELETE,
     JOX_INPUT_WALL,
-    JOX_INPUT_UNWALL
+    JOX_INPUT_UNWALL,
+    JOX_INPUT_SETTING
 } JoxInputVerb;
 
 /* Greatest size of one file, bytes. */

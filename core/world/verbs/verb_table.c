@@ -114,7 +114,11 @@ const JoxVerb jox_input_verbs[] = {
      "adds a wall, thin between two points, or a solid with four corners; people who stand there "
      "are moved out", JOX_VERB_PROGRAM, jox_perform_wall},
     [JOX_INPUT_UNWALL] = {"unwall", {CALLED("NAME")}, 1, 1, "unwall barrier",
-     "removes the walls of this name that `wall` added", JOX_VERB_PROGRAM, jox_perform_unwall}};
+     "removes the walls of this name that `wall` added", JOX_VERB_PROGRAM, jox_perform_unwall},
+    [JOX_INPUT_SETTING] = {"setting", {CALLED("MOD"), CALLED("SETTING"), CALLED("VALUE")}, 3, 3,
+     "setting gentle-queue chance 0.05",
+     "changes a setting of a mod: the behaviours that it patches are loaded again, and go on from their states",
+     "parameters", NULL}};
 /* clang-format on */
 const uint32_t jox_input_verb_count = sizeof jox_input_verbs / sizeof *jox_input_verbs;
 static_assert(sizeof jox_input_verbs / sizeof *jox_input_verbs <= JOX_INPUT_MOST_VERBS,

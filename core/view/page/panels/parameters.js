@@ -1,6 +1,7 @@
 // Parameters of a state, changed while the run goes on; and the line of Lua that makes a change permanent.
 import { el, figure, fill, say } from "../dom.js";
 import { unitText } from "../draw/palette.js";
+import { settingsPart } from "./settings.js";
 
 const PERIOD = 100; // ms between commands of one slider
 
@@ -24,7 +25,8 @@ export class ParametersPage {
     set(scene) {
         this.machines = scene.machines ?? [];
         this.allowed = Boolean(scene.tools?.parameters);
-        const same = JSON.stringify([this.allowed, this.machines]);
+        this.mods = scene.mods ?? [];
+        const same = JSON.stringify([this.allowed, this.machines, this.mods]);
         if (same === this.shown) return;
         this.shown = same;
         this.changed.clear(); // values are now those of the files, or came with the scene message
@@ -60,7 +62,8 @@ export class ParametersPage {
         }
         const focus = this.focus();
         const machine = this.machines?.[this.machine];
-        if (!machine) return void fill(this.node, el("p", { className: "faint" }, "This session has no state machines."));
+        const mods = settingsPart(this.mods ?? [], this.allowed, (...words) => this.page.connection.input("setting", ...words.map(quote)));
+        if (!machine) return void fill(this.node, mods, el("p", { className: "faint" }, "This session has no state machines."));
         const states = machine.defaults ? [...machine.states, { name: "defaults", parameters: machine.defaults }] : machine.states;
         this.state = Math.min(this.state, states.length - 1);
         const choose = (list, at, change) => {
@@ -70,7 +73,7 @@ export class ParametersPage {
         };
         const state = states[this.state];
         this.paste = el("div", { className: "paste", hidden: true });
-        fill(this.node, el("div", { className: "row" },
+        fill(this.node, mods, el("div", { className: "row" },
             el("label", {}, "Machine", choose(this.machines, this.machine, (i) => this.show(i, 0))),
             el("label", {}, "State", choose(states, this.state, (i) => this.show(this.machine, i)))),
         el("p", { className: "faint" }, this.allowed
@@ -160,6 +163,11 @@ export class ParametersPage {
         fill(this.paste, el("div", { className: "row" }, "To keep it, write in the file:", copy, copied), code);
         this.paste.scrollIntoView({ block: "nearest" });
     }
+}
+
+/** A word of an input line; one with blanks stands in quotes. */
+function quote(word) {
+    return /[\s"\\]/.test(word) ? `"${word.replace(/["\\]/g, "\\$&")}"` : word;
 }
 
 async function copyText(text, code, said) {
