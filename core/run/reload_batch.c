@@ -10,7 +10,6 @@
 #include "jostle_tools.h"
 #include "run/group_links.h"
 #include "run/machine_names.h"
-#include "run/mod_setting.h"
 #include "run/read_scene.h"
 #include "run/reload_batch.h"
 #include "run/scene_machines.h"
@@ -318,5 +317,33 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)
         if (!batch->changes[c].added)
             jox_batch_compare(r, &batch->changes[c]);
+    return batch;
+}
+
+/* ---- settings of mods ---- */
+
+/* Returns whether a part is made of one of the patches of a mod. */
+static bool uses_patches(const JoxFiles *files, const JoxMod *mod) {
+    for (uint32_t p = 0; p < mod->patch_count; p++)
+        for (uint32_t f = 0; f < files->count; f++)
+            if (mod->patches[p].lua && strcmp(files->paths[f], mod->patches[p].path) == 0)
+                return true;
+    return false;
+}
+
+JoxBatch *jox_setting_prepare(JoxReload *r, const JoxSettingChange *change) {
+    const JoScene *scene = r->scene;
+    char path[JOX_LONGEST_PATH];
+    jox_setting_of(scene, change)->value = change->value;
+    jox_setting_path(scene, change->mod, path);
+    for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
+        if (uses_patches(&r->changes.made_of[m], &scene->mods->items[change->mod])) {
+            jox_changes_add_use(&r->changes, m, path);
+            jox_changes_add_changed_file(&r->changes, path, 0.0);
+        }
+    JoxBatch *batch = jox_batch_prepare(r);
+    batch = batch ? batch : jox_alloc(1, sizeof *batch);
+    batch->sets = true;
+    batch->setting = *change;
     return batch;
 }

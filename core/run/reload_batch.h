@@ -86,6 +86,17 @@ bool jox_reload_watch_file(JoxReload *reload, uint32_t part, const char *path);
 enum { JOX_RELOAD_SHEET, JOX_RELOAD_PATCHES, JOX_RELOAD_MOD_PARTS };
 /* Writes the path of a mod's mod.yaml, or of its folder of patches. */
 void jox_reload_mod_path(const JoScene *scene, uint32_t mod, int part, char path[JOX_LONGEST_PATH]);
+/* Loads the behaviours that a change of a setting concerns; a batch, possibly empty, of which the
+   change is a part. (reload_batch.c) */
+JoxBatch *jox_setting_prepare(JoxReload *reload, const JoxSettingChange *change);
+/* reload_setting.c. Returns the setting that a change names. */
+JoxModSetting *jox_setting_of(const JoScene *scene, const JoxSettingChange *change);
+/* Writes the path that stands for the settings of a mod among changed files; no file has it. */
+void jox_setting_path(const JoScene *scene, uint32_t mod, char path[JOX_LONGEST_PATH]);
+/* Notes, on the stepping thread, that a batch with a change has gone live: tells and logs it. */
+void jox_setting_went_live(JoScene *scene, const JoxSettingChange *change);
+/* Takes back the change of a batch that was refused, on the thread that loads. */
+void jox_setting_revert(JoxReload *reload, const JoxSettingChange *change);
 /* Changes a setting of a mod: posts it to the loading thread or, if files are not watched, loads
    and swaps at once. False with `error`. (reload_thread.c) */
 bool jox_run_reload_setting(JoScene *scene, const JoxSettingChange *change, JoError *error);

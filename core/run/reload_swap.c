@@ -7,7 +7,6 @@
 #include "base/mem.h"
 #include "run/group_links.h"
 #include "run/input_log.h"
-#include "run/mod_setting.h"
 #include "run/reload_batch.h"
 #include "run/scene_machines.h"
 #include "run/tags_and_teams.h"

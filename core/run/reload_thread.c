@@ -10,7 +10,6 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/input_log.h"
-#include "run/mod_setting.h"
 #include "run/reload_batch.h"
 #include "task/thread.h"
 
