@@ -293,11 +293,30 @@ groups:
 }
 
 
-def with_walkers(test):
+MANNERS = {
+    "mods/manners/mod.yaml": """name: manners
+title: Manners
+version: 1.0
+api: 1
+settings:
+  pace: {value: 1.2, unit: m/s, least: 0.1, greatest: 3, meaning: speed at which people walk}
+  shoves: {value: false, meaning: whether people push}
+  manner: {value: polite, choices: [polite, quite rude], meaning: how people meet}
+""",
+    "mods/manners/patches/walk.lua": """return patch "walk" {
+  defaults = { speed = settings.pace, absorb = settings.manner == "polite" and 0.1 or 0.3 },
+  states = { Walk = { push = settings.shoves and 60 or 5 } } }
+""",
+}
+
+
+def with_walkers(test, more=None, added=""):
     """A test with the walkers' files in a folder of its own."""
     @functools.wraps(test)
     def run(browser):
-        folder = temporary_copy(WALKERS)
+        files = {**WALKERS, **(more or {})}
+        files["scene.yaml"] += added
+        folder = temporary_copy(files)
         session = Session("run", os.path.join(folder, "scene.yaml"), "--view")
         try:
             browser.open(session)
@@ -307,6 +326,36 @@ def with_walkers(test):
             shutil.rmtree(folder)
         expect(status == 130, f"the program ended with status {status}, not that of SIGINT: {session.said[-3:]}")
     return run
+
+
+def with_manners(test):
+    """A test with the walkers and a mod that has settings."""
+    return with_walkers(test, MANNERS, "mods: {manners: {}}\n")
+
+
+@with_manners
+def settings(browser, _):
+    """a setting of a mod that is changed reloads the behaviours, and the page shows what runs"""
+    walk = "page.scene.machines[0].states.find((s) => s.name === 'Walk').parameters.find((p) => p.name === 'push').value"
+    shown = "page.scene.mods[0].settings.find((s) => s.name === '%s').value"
+    browser.find("#tab-parameters").click()
+    expect("whether people push" in browser.find("[data-mod=manners]").text, "the panel does not say what a setting means")
+    browser.find("[data-parameter='manners shoves'] input[type=checkbox]").click()
+    browser.wait(f"return {shown % 'shoves'} === true && {walk} === 60", "a box does not take effect")
+    browser.wait("return [...document.querySelectorAll('#messages, [role=log]')].some((n) => /mod manners: shoves is true/.test(n.textContent))"
+                 " || /mod manners: shoves is true/.test(document.body.textContent)", "the page does not say what changed")
+    Select(browser.find("[data-parameter='manners manner'] select")).select_by_visible_text("quite rude")
+    browser.wait(f"return {shown % 'manner'} === 'quite rude'", "a choice does not take effect")
+    number = browser.find("[data-parameter='manners pace'] input[type=number]")
+    number.clear()
+    number.send_keys("0.3", Keys.ENTER)
+    browser.wait(f"return {shown % 'pace'} === 0.3", "a number does not take effect")
+    number = browser.find("[data-parameter='manners pace'] input[type=number]")
+    number.clear()
+    number.send_keys("12", Keys.ENTER)
+    browser.wait("return /must be from 0.1 to 3, not 12/.test(document.body.textContent)", "a number out of range is not refused")
+    expect(browser.run(f"return {shown % 'pace'}") == 0.3, "a refused number is taken")
+    browser.picture("settings")
 
 
 @with_walkers
@@ -589,7 +638,7 @@ events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, torsos, fallen, edits, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, torsos, fallen, edits, settings, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))
