@@ -1,6 +1,7 @@
 /* Changes of settings of mods that go live with a batch of reloaded behaviours, or are taken back.
  */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -25,10 +26,12 @@ void jox_setting_revert(JoxReload *r, const JoxSettingChange *change) {
 
 /* Writes a value as an input log has it. */
 static void write_value(const JoxModSetting *setting, double value, JoxText *out) {
-    if (setting->kind == JOX_SETTING_NUMBER)
-        jox_text_printf(out, "%.17g", value);
-    else
-        jox_text_add(out, jox_setting_text(setting, value));
+    char number[32];
+    snprintf(number, sizeof number, "%.15g", value);
+    if (strtod(number, NULL) != value) /* read back, a run goes the same way */
+        snprintf(number, sizeof number, "%.17g", value);
+    jox_text_add(out,
+                 setting->kind == JOX_SETTING_NUMBER ? number : jox_setting_text(setting, value));
 }
 
 /* Keeps the value among the overrides of the scene, for its checkpoints. */

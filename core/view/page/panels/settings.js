@@ -1,6 +1,8 @@
 // Settings of the scene's mods, changed while the run goes on: the behaviours that a mod patches are loaded again.
-import { el, figure, say } from "../dom.js";
+import { el, figure, fill, say } from "../dom.js";
 import { unitText } from "../draw/palette.js";
+
+const PATIENCE = 3000; // ms
 
 /** Returns the part of a panel with the settings of all mods; `send(mod, setting, value)` changes one. */
 export function settingsPart(mods, allowed, send) {
@@ -19,11 +21,20 @@ function settingRow(mod, setting, allowed, send) {
         row.firstChild.append(`${setting.kind === "number" ? figure(setting.value) : String(setting.value)}${unit}`);
         return row;
     }
+    const place = el("div", { className: "row" });
+    const build = () => fill(place, control(mod, setting, change), el("span", { className: "faint" }, unit));
+    // A value that is taken comes with the next scene message, which builds the panel anew; messages say why one is not.
     const change = (value) => {
-        say(from, "is loaded…"); // the next scene message has it, or the messages say why not
+        say(from, "is loaded…");
         send(mod.name, setting.name, value);
+        setTimeout(() => {
+            if (!row.isConnected) return;
+            say(from, "not taken so far");
+            build();
+        }, PATIENCE);
     };
-    row.append(el("div", { className: "row" }, control(mod, setting, change), el("span", { className: "faint" }, unit)));
+    build();
+    row.append(place);
     return row;
 }
 
