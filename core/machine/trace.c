@@ -58,8 +58,10 @@ static void trace_term(JoxMachineRun *run, uint32_t number, bool holds, const Jo
     jox_text_printf(&run->trace, "t=%.2f agent %u %s: in %s, for %s: %s %s%s%s",
                     run->tick * run->dt, run->trace_id, machine->name,
                     machine->states[trace->state].name,
-                    t->stays ? t->id : machine->states[t->to].name, text,
-                    holds ? "now holds" : "no longer holds", *note ? ": " : "", note);
+                    t->stays  ? "its reaction"
+                    : t->back ? "back"
+                              : machine->states[t->to].name,
+                    text, holds ? "now holds" : "no longer holds", *note ? ": " : "", note);
     if (term->changes > 1)
         jox_text_printf(&run->trace, " (the last of %u changes)", term->changes);
     jox_text_add(&run->trace, "\n");
