@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lua/infer_kinds.h"
+#include "lua/language/vocabulary.h"
 
 enum { DEEPEST_PART = 24, MOST_STEPS = 20000, MOST_STEPS_IN_ALL = 4000000 };
 
@@ -88,12 +89,35 @@ static bool follow_field(PartSearch *f, JoxKind table, const char *path, int dep
     return false;
 }
 
+/* Follows what a file returns that `require` with this argument found. */
+static bool follow_required(PartSearch *f, uint32_t source, int32_t argument, const char *path,
+                            int depth) {
+    const JoxScript *script = f->kinds->script;
+    if (argument == JOX_NO_TREE)
+        return false;
+    const JoxToken *name = jox_syntax_token(get_tree(f, source), argument);
+    for (uint32_t r = 0; r < script->required_count; r++) {
+        const JoxRequired *file = &script->required[r];
+        if (file->asking != source || name->kind != JOX_TOKEN_STRING ||
+            !jox_token_says(name, file->name) || !f->kinds->trees[file->given])
+            continue;
+        const JoxSyntax *s = get_tree(f, file->given);
+        for (size_t t = s->return_count; t-- > 0;)
+            if (s->returns[t].function == 0 && s->returns[t].value != JOX_NO_TREE &&
+                follow_value(f, file->given, s->returns[t].value, path, depth))
+                return true;
+    }
+    return false;
+}
+
 /* Follows a call: the argument of a word, or what a function returns. */
 static bool follow_call(PartSearch *f, uint32_t source, const JoxTree *call, const char *path,
                         int depth) {
     const JoxKind callee = f->kinds->trees[source][call->a];
     if (callee.bits != JOX_KIND_FUNCTION)
         return false;
+    if (callee.site == JOX_SITE_WORD && strcmp(jox_words[callee.tree].name, "require") == 0)
+        return follow_required(f, source, call->items, path, depth);
     if (callee.site == JOX_SITE_WORD)
         return call->items != JOX_NO_TREE && follow_value(f, source, call->items, path, depth);
     if (callee.site != JOX_SITE_TREE)

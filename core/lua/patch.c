@@ -76,12 +76,15 @@ static void merge_mod_patch(JoxScript *script, int table, const JoxNode *node, u
     lua_State *L = script->vm.L;
     luaL_checkstack(L, 40, "patch");
     lua_newtable(L);
-    JoxLuaNodes nodes = {script, L, lua_gettop(L), 0, source, table};
+    lua_newtable(L);
+    JoxLuaNodes nodes = {script, L, lua_gettop(L) - 1, 0, source, table, lua_gettop(L)};
     JoxPatchTree tree = jox_lua_tree;
     tree.context = &nodes;
     const JoxPatch patch = {&tree,        &script->changes, script->scope->mods,
                             (int32_t)mod, source,           script->diagnostics};
     lua_rawgeti(L, LUA_REGISTRYINDEX, node->hook);
+    if (node->kind == JOX_NODE_PATCH)
+        jox_nodes_expand_states(&nodes);
     void *change = jox_nodes_pop_value(&nodes);
     if (node->kind == JOX_NODE_REPLACE) {
         jox_patch_replaces(&patch, change);

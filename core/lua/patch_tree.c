@@ -54,35 +54,6 @@ static bool report_renamed(JoxLuaNodes *n, const char *from, const char *name) {
     return now != NULL;
 }
 
-/* Pushes a copy of the table at `index`, with the same items. */
-static void push_table_copy(lua_State *L, int index) {
-    lua_newtable(L);
-    int copy = lua_gettop(L);
-    lua_pushnil(L);
-    while (lua_next(L, index)) {
-        jox_vm_charge(L, 5);
-        lua_pushvalue(L, -2);
-        lua_insert(L, -2);
-        lua_rawset(L, copy);
-    }
-}
-
-/* Returns whether the table at `index` is a list and nothing else. */
-static bool is_lua_list(lua_State *L, int index) {
-    bool list = lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0;
-    if (!list)
-        return false;
-    for (lua_pushnil(L); list && lua_next(L, index); lua_pop(L, 1)) {
-        jox_vm_charge(L, 1);
-        list = lua_isinteger(L, -2) != 0;
-        if (!list) {
-            lua_pop(L, 2);
-            break;
-        }
-    }
-    return list;
-}
-
 /* ---- operations of JoxPatchTree ---- */
 
 static JoxPatchKind get_lua_kind(void *c, void *node) {
@@ -91,7 +62,7 @@ static JoxPatchKind get_lua_kind(void *c, void *node) {
     const JoxNode *value = jox_node_get(n->L, at);
     const JoxPatchKind result = value && value->kind == JOX_NODE_NONE ? JOX_PATCH_NOTHING
                                 : lua_type(n->L, at) != LUA_TTABLE    ? JOX_PATCH_LEAF
-                                : is_lua_list(n->L, at)               ? JOX_PATCH_LIST
+                                : jox_table_is_list(n->L, at)         ? JOX_PATCH_LIST
                                                                       : JOX_PATCH_MAP;
     lua_settop(n->L, at - 1);
     return result;
@@ -100,7 +71,10 @@ static JoxPatchKind get_lua_kind(void *c, void *node) {
 static void *copy_lua_node(void *c, void *node) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
-    push_table_copy(n->L, at);
+    jox_table_push_copy(n->L, at);
+    lua_pushvalue(n->L, -1);
+    lua_pushboolean(n->L, true);
+    lua_rawset(n->L, n->copies);
     return pop_node(n, at - 1);
 }
 
@@ -111,7 +85,9 @@ static uint32_t list_lua_keys(void *c, void *map, const char *path, const char *
     JoxLuaNodes *n = c;
     lua_State *L = n->L;
     const int at = jox_nodes_push_value(n, map);
-    const bool items = path && *path && strcmp(path, "states") != 0;
+    const size_t length = path ? strlen(path) : 0;
+    const bool states = length >= 6 && strcmp(path + length - 6, "states") == 0;
+    const bool items = length > 0 && !states;
     size_t count = 0, most = 0;
     bool odd = false;
     for (lua_pushnil(L); lua_next(L, at); lua_pop(L, 1))
@@ -132,20 +108,49 @@ static uint32_t list_lua_keys(void *c, void *map, const char *path, const char *
     return (uint32_t)count;
 }
 
+/* Returns whether the table at a stack index is a copy that is merged into. */
+static bool is_copy(JoxLuaNodes *n, int index) {
+    lua_pushvalue(n->L, index);
+    const bool copy = lua_rawget(n->L, n->copies) != LUA_TNIL;
+    lua_pop(n->L, 1);
+    return copy;
+}
+
 static void *get_lua_key(void *c, void *map, const char *key) {
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, map);
     jox_read_field(n->L, at, key);
+    const JoxNode *machine = jox_node_get(n->L, -1);
+    if (machine && machine->kind == JOX_NODE_MACHINE && is_copy(n, at))
+        lua_rawgeti(n->L, LUA_REGISTRYINDEX, machine->hook);
     return pop_node(n, at - 1);
+}
+
+/* Replaces the table on top of the stack by a machine of it, written where the one is that key
+   `key` of the table at `at` has, if that is a machine. */
+static void make_machine_again(JoxLuaNodes *n, int at, const char *key) {
+    lua_State *L = n->L;
+    jox_read_field(L, at, key);
+    const JoxNode *was = jox_node_get(L, -1);
+    lua_pop(L, 1);
+    if (!was || was->kind != JOX_NODE_MACHINE)
+        return;
+    JoxNode *machine = jox_node_push(L, JOX_NODE_MACHINE);
+    machine->written = was->written;
+    machine->steps = was->steps;
+    lua_pushvalue(L, -2);
+    machine->hook = luaL_ref(L, LUA_REGISTRYINDEX);
+    lua_remove(L, -2);
 }
 
 static void set_lua_key(void *c, void *map, const char *key, const JoxPatchPlace *place,
                         void *value) {
-    (void)place;
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, map);
     lua_pushstring(n->L, key);
     jox_nodes_push_value(n, value);
+    if (!place) /* merged: what was there, changed */
+        make_machine_again(n, at, key);
     lua_rawset(n->L, at);
     lua_settop(n->L, at - 1);
 }
@@ -277,7 +282,7 @@ static void *admit_lua_item(void *c, void *node, void *value, const char *path, 
         lua_settop(L, state - 1);
         return NULL;
     }
-    push_table_copy(L, at);
+    jox_table_push_copy(L, at);
     if (keep)
         snprintf(id, JOX_PATCH_ID, "%s", keep);
     else
@@ -352,7 +357,7 @@ static void set_transition_ids(JoxLuaNodes *n, int state, const char *path) {
                 for (lua_Integer o = 1; o < i; o++)
                     taken |= strcmp(ids[o - 1], ids[i - 1]) == 0;
             }
-            push_table_copy(L, lua_gettop(L));
+            jox_table_push_copy(L, lua_gettop(L));
             lua_pushstring(L, ids[i - 1]);
             lua_setfield(L, -2, "id");
             lua_rawseti(L, state, i);
@@ -366,12 +371,21 @@ static void set_transition_ids(JoxLuaNodes *n, int state, const char *path) {
     }
 }
 
+/* Returns whether a path leads to a state, `depth` being that of the table of states: 1, and 3 more
+   for each outer state around. */
+static bool is_in_states(const char *path, int depth) {
+    int outer = 0;
+    for (const char *at = path; (at = strstr(at, ".runs.states.")); at++)
+        outer++;
+    return strncmp(path, "states.", 7) == 0 && depth == 1 + 3 * outer;
+}
+
 /* Prepares a state, the only table whose items have ids, for patches of its transitions. */
 static bool enter_lua_state(void *c, void *node, void *change, const char *path, const char *from,
                             int depth) {
     JOX_ASSERT(depth >= 0 && depth <= jox_lua_tree.deepest);
     JoxLuaNodes *n = c;
-    if (depth != 2 || strncmp(path, "states.", 7) != 0)
+    if (!is_in_states(path, depth - 1))
         return false;
     if (count_lua_items(c, change) > 0)
         report_patch_error(
@@ -390,7 +404,7 @@ static bool enter_lua_state(void *c, void *node, void *change, const char *path,
 static bool skips_lua_state(void *c, void *node, const JoxPatchPlace *at, int depth) {
     JoxLuaNodes *n = c;
     bool verbs = false;
-    if (depth != 1 || strncmp(at->from, "states.", 7) != 0 || get_lua_key(c, node, at->key))
+    if (!is_in_states(at->from, depth) || get_lua_key(c, node, at->key))
         return false;
     const JoxPatchKind is = get_lua_kind(c, at->value);
     for (int v = 0; (is == JOX_PATCH_MAP || is == JOX_PATCH_LIST) && v < JOX_PATCH_VERBS; v++)
@@ -469,4 +483,4 @@ const JoxPatchTree jox_lua_tree = {.kind = get_lua_kind,
                                    .item_mark = "@",
                                    .verbs = (1u << JOX_PATCH_VERBS) - 1,
                                    .lists_merge = true,
-                                   .deepest = 8};
+                                   .deepest = 20};

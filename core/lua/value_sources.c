@@ -120,24 +120,41 @@ static bool add_followed_places(const JoxScript *script, const char *path, Setti
     return true;
 }
 
+/* Returns the state of a name or of a path without its first part, as "Guard.runs.states.Walk";
+   NULL: none. */
+static const JoxState *find_state_at(const JoxMachine *machine, const char *path) {
+    char whole[256];
+    for (uint32_t s = 0; s < machine->state_count + machine->outer_count; s++) {
+        const JoxState *state = s < machine->state_count
+                                    ? &machine->states[s]
+                                    : &machine->outer[s - machine->state_count];
+        jox_state_path(state, whole);
+        if (strcmp(whole + 7, path) == 0 || strcmp(state->name, path) == 0)
+            return state;
+    }
+    return NULL;
+}
+
 /* Replaces the id of a transition in a path by its number, as in the behaviour's own file. */
 static void use_transition_number(const JoxMachine *machine, const char *canonical,
                                   char path[256]) {
-    char state[128];
+    char state[256];
     const char *at = strstr(canonical, ".@");
     snprintf(path, 256, "%s", canonical);
     if (!at || strncmp(canonical, "states.", 7) != 0)
         return;
     snprintf(state, sizeof state, "%.*s", (int)(at - canonical - 7), canonical + 7);
     size_t longest = 0; /* ids may have dots, as names of states */
-    int number = jox_machine_state(machine, state);
-    for (uint32_t t = 0; number >= 0 && t < machine->states[number].transition_count; t++) {
-        const char *id = machine->states[number].transitions[t].id, *rest = at + 2;
+    const JoxState *of = find_state_at(machine, state);
+    for (uint32_t t = 0; of && t < of->transition_count; t++) {
+        const char *id = of->transitions[t].id, *rest = at + 2;
+        if (of->transitions[t].level < of->depth)
+            continue;
         const size_t n = strlen(id);
         if (n < longest || strncmp(rest, id, n) != 0 || (rest[n] && rest[n] != '.'))
             continue;
         longest = n;
-        snprintf(path, 256, "states.%.100s.%u%.100s", state, t + 1, rest + n);
+        snprintf(path, 256, "states.%.140s.%u%.80s", state, of->transitions[t].item + 1u, rest + n);
     }
 }
 
@@ -187,25 +204,30 @@ static bool sets_key(const JoxState *state, const char *key) {
     return false;
 }
 
-/* Returns whether the machine has the part that a path names: a state, a transition, or a key that
-   the state sets. */
-static bool has_part(const JoxMachine *machine, const char *path, int parameter) {
-    char state[128], id[128];
-    const size_t n = strcspn(path, ".");
-    snprintf(state, sizeof state, "%.*s", (int)(n < 120 ? n : 120), path);
-    const int number = jox_machine_state(machine, state);
-    if (number < 0)
-        return false;
-    const JoxState *of = &machine->states[number];
-    if (!path[n] || (parameter >= 0 && of->param[parameter].kind != JOX_VALUE_UNSET))
+/* Returns whether a state sets a key, or has a transition, that a path begins with. */
+static bool state_has_part(const JoxState *of, const char *path, int parameter) {
+    char id[128];
+    if (parameter >= 0 && of->param[parameter].kind != JOX_VALUE_UNSET)
         return true;
-    snprintf(id, sizeof id, "%.*s", (int)strcspn(path + n + 1, "."), path + n + 1);
+    snprintf(id, sizeof id, "%.*s", (int)strcspn(path, "."), path);
     if (sets_key(of, id))
         return true;
     for (uint32_t t = 0; t < of->transition_count; t++)
         if (strcmp(of->transitions[t].id, id) == 0)
             return true;
     return false;
+}
+
+/* Returns whether the machine has the part that a path names: a state, a transition, or a key that
+   the state sets. */
+static bool has_part(const JoxMachine *machine, const char *path, int parameter) {
+    char state[128];
+    const size_t n = strcspn(path, ".");
+    snprintf(state, sizeof state, "%.*s", (int)(n < 120 ? n : 120), path);
+    const int number = jox_machine_state(machine, state);
+    if (number < 0)
+        return false;
+    return !path[n] || state_has_part(&machine->states[number], path + n + 1, parameter);
 }
 
 /* Adds the places of the nearest enclosing part that is written out, for a value that a function
@@ -222,10 +244,85 @@ static int add_enclosing_places(const JoxScript *script, const JoxMachine *machi
     return count;
 }
 
+/* Returns the state within an outer one, or the outer state, that a path begins with, by its whole
+   name or the path of its table, and the rest of the path; NULL: none. */
+static const JoxState *find_nested_state(const JoxMachine *machine, const char *path,
+                                         const char **rest) {
+    const JoxState *found = NULL;
+    size_t longest = 0;
+    bool nested = false;
+    *rest = path;
+    if (machine->outer_count == 0)
+        return NULL;
+    for (uint32_t s = 0; s < machine->state_count + machine->outer_count; s++) {
+        const JoxState *state = s < machine->state_count
+                                    ? &machine->states[s]
+                                    : &machine->outer[s - machine->state_count];
+        char whole[256];
+        jox_state_path(state, whole);
+        const char *const forms[] = {state->name, whole};
+        for (size_t k = 0; k < 2; k++) {
+            const size_t n = strlen(forms[k]);
+            if (n <= longest || strncmp(path, forms[k], n) != 0 || (path[n] && path[n] != '.'))
+                continue;
+            longest = n;
+            found = state;
+            nested = state->depth > 0 || s >= machine->state_count;
+            *rest = path + n + (path[n] == '.');
+        }
+    }
+    return nested ? found : NULL;
+}
+
+/* Visits the places of a key or transition of a state within outer ones: its own; else those of the
+   nearest outer state around it that sets it; else those of defaults, of the machine first. */
+static bool visit_nested_path(const JoxScript *script, const JoxMachine *machine,
+                              const JoxState *state, const char *rest, Settings *to) {
+    char path[256], full[256];
+    const int parameter = jox_parameter_find(rest);
+    int count = 0;
+    for (uint32_t up = 0; !count && up <= state->depth; up++) {
+        const JoxState *on =
+            up == 0 ? state : jox_state_on_level(machine, state, state->depth - up);
+        jox_state_path(on, path);
+        snprintf(full, sizeof full, "%.140s%s%.100s", path, *rest ? "." : "", rest);
+        count = add_all_places(script, machine, full, to);
+        snprintf(full, sizeof full, "%.140s.@%.100s", path, rest);
+        if (!count && *rest)
+            count = add_all_places(script, machine, full, to);
+    }
+    snprintf(full, sizeof full, "defaults.%.120s", rest);
+    if (!count && parameter >= 0)
+        count = add_all_places(script, machine, full, to);
+    for (uint32_t l = 0; !count && parameter >= 0 && l < state->depth; l++) {
+        jox_state_path(jox_state_on_level(machine, state, l), path);
+        snprintf(full, sizeof full, "%.120s.runs.defaults.%.100s", path, rest);
+        count = add_all_places(script, machine, full, to);
+    }
+    if (!count && parameter >= 0) {
+        char number[32];
+        snprintf(number, sizeof number, "%g", jox_parameters[parameter].value);
+        to->visit(to->context, &(JoSetting){.by = JO_SET_DEFAULT,
+                                            .value = number,
+                                            .unit = jox_parameters[parameter].unit});
+        count = 1;
+    }
+    if (!count && (!*rest || state_has_part(state, rest, parameter))) {
+        jox_state_path(state, path);
+        snprintf(full, sizeof full, "%.140s.%.100s", path, rest);
+        count = add_enclosing_places(script, machine, full, to);
+    }
+    return count > 0;
+}
+
 /* Finds the form of a path that the machine has, and visits its places. */
 static bool visit_path(const JoxScript *script, const JoxMachine *machine, const char *path,
                        Settings *to) {
     char canonical[256];
+    const char *within;
+    const JoxState *nested = find_nested_state(machine, path, &within);
+    if (nested)
+        return visit_nested_path(script, machine, nested, within, to);
     const char *rest = strchr(path, '.'), *last = strrchr(path, '.');
     size_t n = rest ? (size_t)(rest - path) : strlen(path);
     int count = add_all_places(script, machine, path, to);

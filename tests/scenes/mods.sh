@@ -377,6 +377,38 @@ END
 [ ! -s "$work/out" ] || cat "$work/out"
 says "why of a key that a state lacks has no position" 3 "nothing sets 'one.A.kick'" "$JOSTLE" mod why one.A.kick "$work/parts/scene.yaml"
 
+# Machines that states run: mods reach into them by whole names and by paths, and `mod why` does.
+mkdir -p "$work/night/patches"
+printf 'name: night\nversion: 1.0\napi: 1\n' >"$work/night/mod.yaml"
+cat >"$work/night/patches/warden.lua" <<'END'
+return patch "warden" { states = {
+  ["Night.Round.Walk"] = { push = 80, change = { Look = { chance = 0.5 } } },
+  Night = { runs = { states = { Sit = { perception = 2 }, Round = { change = { Call = { when = after(0.4) } } } } } },
+  ["Day.Turn"] = { speed = 0.3 },
+} }
+END
+says "a mod changes states within outer ones" 0 '"night 1.0"' "$JOSTLE" run tests/data/nested.yaml --mod "$work/night" --for 2 --quiet --summary -
+while read -r path place; do
+    told=$("$JOSTLE" mod why "$path" tests/data/nested.yaml --mod "$work/night" 2>/dev/null | grep -E "^  .*:[0-9]+:[0-9]+:" | tail -1)
+    case $told in *"$place"*) ;; *) echo "$path: '$told' for '$place'" ;; esac
+done >"$work/out" <<'END'
+warden.Night.Round.Walk.push night/patches/warden.lua:2:28: 80
+warden.Night.Round.Walk.Look.chance night/patches/warden.lua:2:59: 0.5
+warden.Night.Round.Call.when night/patches/warden.lua:3:89: after(0.4)
+warden.states.Night.runs.states.Sit.perception night/patches/warden.lua:3:41: 2
+warden.Day.Turn.speed night/patches/warden.lua:4:20: 0.3
+warden.Day.Turn.lasts nested/warden.lua:
+warden.Night.Round.Walk.speed nested/warden.lua:14:34: 0.9
+guard.Guard.Walk.steer nested/patrol.lua:9:14: seek "east"
+guard.Guard.Walk.push nested/guard.lua:10:57: 20
+guard.Guard.Walk.horizon nested/guard.lua:7:16: 0.5
+guard.Guard.Walk.perception nested/patrol.lua:6:41: 4
+END
+[ ! -s "$work/out" ]; verdict "mod why finds what states within outer ones set and inherit" $?
+[ ! -s "$work/out" ] || cat "$work/out"
+sed 's/Round.Walk"/Round.Wlk"/' "$work/night/patches/warden.lua" >"$work/night/patches/odd.lua" && mv "$work/night/patches/odd.lua" "$work/night/patches/warden.lua"
+says "a misspelt state within outer ones is refused" 3 "warden.lua:2:4: there is no state 'Wlk' to change. Did you mean 'Walk'?" "$JOSTLE" run tests/data/nested.yaml --mod "$work/night" --for 0.1 --quiet
+
 # jostle new: what it writes passes the check and runs.
 mkdir "$work/new"
 (cd "$work/new" && "$program" new behaviour shy && "$program" new scene hall && "$program" new mod calm) >"$work/out" 2>&1; verdict "new writes a behaviour, a scene and a mod" $?

@@ -37,6 +37,15 @@ static bool begins_machine(const JoxSource *source, size_t i) {
 
 enum { DEEPEST = 16 }; /* levels of tables */
 
+/* Writes the whole name of a state in a path "states.NAME" as the path of its table. */
+static void expand_state_name(char path[256]) {
+    char name[256];
+    snprintf(name, sizeof name, "%s", path + 7);
+    size_t n = 7;
+    for (const char *c = name; *c && n < 240; c++)
+        n += (size_t)snprintf(path + n, 256 - n, *c == '.' ? ".runs.states." : "%c", *c);
+}
+
 /* Adds the keys of the table constructor that opens at token `at`; returns the token after it. */
 static size_t outline_table(const JoxSource *source, size_t at, const char *prefix, int level) {
     JoxOutline *outline = source->outline;
@@ -69,8 +78,16 @@ static size_t outline_table(const JoxSource *source, size_t at, const char *pref
         if (key < end) /* else nothing stands between two commas, a syntax error */
             add_path(outline, path, key, value, end);
         const bool table = value < count && jox_token_is(&t[value], "{");
-        if (level < DEEPEST && (table || begins_machine(source, value)))
+        const bool outlined = level < DEEPEST && (table || begins_machine(source, value));
+        if (outlined)
             outline_table(source, table ? value : value + 1, path, level + 1);
+        if (outline->patches && strcmp(prefix, "states") == 0 && strchr(path + 7, '.') &&
+            key < end) { /* "Guard.Walk" is the state Walk of what Guard runs */
+            expand_state_name(path);
+            add_path(outline, path, key, value, end);
+            if (outlined)
+                outline_table(source, table ? value : value + 1, path, level + 1);
+        }
         at = end < count && jox_token_is(&t[end], "}") ? end : end + 1;
     }
     return at + 1;
