@@ -57,8 +57,9 @@ static const char ALL[] = "# a comment\n"
                           "11 delete 0\n"
                           "12 wall barrier 0 0 4 0\n"
                           "12 wall barrier 0 0 4 0 4 1 0 1\n"
-                          "12 unwall barrier\n";
-enum { IN_ALL = 33 };
+                          "12 unwall barrier\n"
+                          "13 setting gentle-queue manner \"quite rude\"\n";
+enum { IN_ALL = 34 };
 
 static JoxDiagnostics wrong;
 
