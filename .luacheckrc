@@ -82,6 +82,7 @@ std = {
     "choose",
     "circuits",
     "memory",
+    "list",
     "machine",
     "sequence",
     "wait",

@@ -130,11 +130,14 @@ static void add_agent_parameters(JoScene *scene, uint32_t i, const JoxWatched *w
     jox_json_end(json);
 }
 
-/* Adds whom memory holds, as text. */
-static void add_somebody(const JoScene *scene, const char *name, double who, JoxJson *json) {
+/* Adds whom memory holds, or its list, as text. */
+static void add_somebody(const JoScene *scene, uint32_t i, const JoxMachine *machine, uint32_t slot,
+                         JoxJson *json) {
+    const JoxAgents *a = &scene->world->state.agents;
+    const double *memory = a->memory + (size_t)i * a->memory_stride;
     JoxText text = {0};
-    jox_who_print(&scene->world->machines, who, &text);
-    jox_json_string(json, name, text.data);
+    jox_memory_print(&scene->world->machines, machine, memory, slot, &text);
+    jox_json_string(json, machine->memory[slot].name, text.data);
     jox_text_free(&text);
 }
 
@@ -149,8 +152,8 @@ static void add_memory_values(const JoScene *scene, uint32_t i, JoxJson *json) {
             continue;
         if (slot->kind == JOX_MEMORY_BOOLEAN)
             jox_json_bool(json, slot->name, value != 0.0);
-        else if (slot->kind == JOX_MEMORY_SOMEBODY)
-            add_somebody(scene, slot->name, value, json);
+        else if (slot->kind >= JOX_MEMORY_SOMEBODY)
+            add_somebody(scene, i, machine, s, json);
         else
             add_rounded(json, slot->name, value);
     }

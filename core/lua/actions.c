@@ -42,6 +42,33 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
     }
 }
 
+/* Reads the change of a list, on top of the stack; pops it. */
+static void read_list_change(JoxBuild *b, const char *path, int32_t slot,
+                             struct JoxAssign *assign) {
+    lua_State *L = b->script->vm.L;
+    const char *name = b->machine->memory[slot].name;
+    JoxNode *node = jox_node_get(L, -1);
+    *assign = (struct JoxAssign){.slot = slot, .target = -1, .change = JOX_LIST_CLEAR};
+    if (node && node->kind == JOX_NODE_LIST && node->op != JOX_LIST_NONE &&
+        strcmp(node->name, name) == 0) {
+        assign->change = (JoxListChange)node->op;
+        if (node->target)
+            assign->target = jox_build_target(b, node->target);
+        if (node->a)
+            assign->value =
+                (JoxValue){JOX_VALUE_EXPRESSION, 0.0,
+                           jox_build_expression(b, node->a, jox_read_at(b, path)), 0, 0};
+        if (node->a && assign->value.index < 0)
+            assign->value.kind = JOX_VALUE_UNSET;
+    } else if (!node || node->kind != JOX_NODE_ERROR) {
+        jox_build_error(b, jox_read_at(b, path), "bad-value",
+                        "Example: set = { met = mine.met:push(nearest \"people\") }",
+                        "'%.60s' is a list, which is set by its own :push, :remove or :clear",
+                        name);
+    }
+    lua_pop(L, 1);
+}
+
 /* Reads whom a slot of memory is set to, under a key of the table at `table`. */
 static void read_assign_somebody(JoxBuild *b, int table, const char *path, const char *key,
                                  int32_t slot, struct JoxAssign *assign) {
@@ -118,6 +145,10 @@ static void read_set_action(JoxBuild *b, int index, const char *path, JoxActions
         struct JoxAssign *assign = &actions->set[actions->set_count++];
         const int32_t slot = jox_read_memory(b, names[m]);
         jox_read_join(part, full, names[m]);
+        if (jox_memory_is_list(&b->machine->memory[slot])) {
+            read_list_change(b, part, slot, assign);
+            continue;
+        }
         if (b->machine->memory[slot].kind != JOX_MEMORY_SOMEBODY) {
             read_assign(b, part, slot, assign);
             continue;

@@ -185,7 +185,8 @@ void jox_lua_luacheck(JoxText *out) {
 
 /* ---- examples ---- */
 
-static const char MEMORY[] = "local mine = memory { laps = 0, touched = false, prey = nobody }\n";
+static const char MEMORY[] =
+    "local mine = memory { laps = 0, touched = false, prey = nobody, met = list(4, nobody) }\n";
 
 static const char RUNS[] =
     "runs = machine { start = \"Wait\", states = { Wait = { ends = true, steer = hold } } },";
@@ -197,9 +198,10 @@ static void print_example(JoxText *out, const char *top, const char *state,
         out,
         "%sreturn machine {\n  name = \"example\", version = 1, start = \"Start\",%s%s\n"
         "  states = {\n    Start = { { to = \"Trial\", when = after(0.2), set = { prey = nearest "
-        "\"people\" } } },\n"
+        "\"people\", met = mine.met:push(nearest \"people\") } } },\n"
         "    Trial = { %s\n      { to = \"Next\"%s } },\n"
-        "    Next = { steer = hold, set = { laps = mine.laps, touched = false, prey = nobody } },\n"
+        "    Next = { steer = hold, set = { laps = mine.laps, touched = false, prey = nobody, met "
+        "= mine.met:clear() } },\n"
         "  },\n}\n",
         MEMORY,
         strstr(top, "public") || strstr(top, "counts") || strstr(state, "counts")

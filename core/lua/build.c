@@ -98,6 +98,19 @@ static void check_renamed_names(JoxBuild *b) {
     }
 }
 
+/* Adds the hidden slots for the items of memory that is a list. */
+static void add_items(JoxBuild *b, int32_t list) {
+    const JoxMemorySlot slot = b->machine->memory[list];
+    for (uint32_t k = 0; k < slot.capacity; k++) {
+        const char role[] = {*JOX_IDENTITY_ITEM, (char)('a' + k), 0};
+        const int32_t item = jox_build_hidden(b, role, list,
+                                              slot.kind == JOX_MEMORY_PEOPLE ? JOX_MEMORY_SOMEBODY
+                                                                             : JOX_MEMORY_NUMBER);
+        if (k == 0)
+            b->machine->memory[list].items = (uint32_t)item;
+    }
+}
+
 /* Builds the machine of the value on top of the stack; may raise errors of the VM. */
 static void build_machine(JoxBuild *build) {
     JoxScript *script = build->script;
@@ -129,7 +142,10 @@ static void build_machine(JoxBuild *build) {
         int32_t slot = jox_build_memory(build, script->memory[i].name);
         m->memory[slot].kind = script->memory[i].kind;
         m->memory[slot].initial = script->memory[i].initial;
+        m->memory[slot].capacity = script->memory[i].capacity;
     }
+    for (uint32_t i = 0; i < script->memory_count; i++)
+        add_items(build, (int32_t)i);
     read_renamed(build, table); /* first, as later keys may use old names */
     const char *known[16];
     jox_read_check(build, table, "", known, jox_table_key_names("machine", false, known, 16),

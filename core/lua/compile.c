@@ -162,6 +162,8 @@ static char *name_target(const JoxNode *node) {
     JoxText text = {0};
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MEMORY)
         jox_text_printf(&text, "mine.%s", node->name);
+    else if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ITEM)
+        jox_text_printf(&text, "mine.%s.%s", node->name, node->arg ? "last" : "first");
     else if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_LAST_SEEN)
         jox_text_printf(&text, "last_seen(mine.%s)", node->name);
     else if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MESSAGE)
@@ -196,6 +198,10 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     }
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MEMORY)
         target.arg = jox_build_memory(build, node->name);
+    if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ITEM) {
+        target.arg = jox_build_memory(build, node->name);
+        target.field = (int16_t)node->arg;
+    }
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_LAST_SEEN)
         target.arg = add_sighting(build, jox_build_memory(build, node->name));
     target.score = build_score(build, node);
@@ -288,6 +294,8 @@ static void emit_expression(Code *code, const JoxNode *node, uint32_t to, uint32
         in.name = jox_build_name(code->build, node->name, 0);
     else if (node->op == JOX_OP_THEIRS)
         in.name = add_name_at(code->build, node->name, JOX_NAME_MEMORY, &node->written);
+    else if (node->op >= JOX_OP_LIST_HAS && node->op <= JOX_OP_LIST_LAST)
+        in.arg = jox_build_memory(code->build, node->name);
     else if (node->op == JOX_OP_TOLD || node->op == JOX_OP_MESSAGE)
         in.name = add_name_at(code->build, node->name, JOX_NAME_TOLD, &node->written);
     else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_OPEN)

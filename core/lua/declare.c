@@ -119,6 +119,10 @@ static void make_memory_public(JoxBuild *b, const char *path) {
                         name ? jox_did_you_mean(name, names, count, hint) : NULL,
                         name ? "memory has no '%.60s' to make public" : "public lists names%s",
                         name ? name : "");
+    if (slot >= 0 && m->memory[slot].kind >= JOX_MEMORY_SOMEBODY)
+        jox_build_error(b, jox_read_at(b, "public"), "bad-value", "Tell it, by `tell`",
+                        "'%.60s' is %s: public memory is a number, or true or false", name,
+                        m->memory[slot].kind == JOX_MEMORY_SOMEBODY ? "somebody" : "a list");
     for (uint32_t c = 0; slot >= 0 && c < m->counter_count; c++)
         if (m->counters[c].value == slot)
             jox_build_error(

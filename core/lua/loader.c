@@ -154,7 +154,7 @@ static void note_what_functions_may(const JoxScript *script, JoxMachine *machine
                           strstr(text, "holding") || strstr(text, "striker");
     }
     for (uint32_t m = 0; script->hook_count && m < machine->memory_count; m++)
-        machine->views |= machine->memory[m].kind == JOX_MEMORY_SOMEBODY;
+        machine->views |= machine->memory[m].kind >= JOX_MEMORY_SOMEBODY;
 }
 
 struct JoxLoaded {

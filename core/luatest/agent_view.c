@@ -27,6 +27,21 @@ static void push_somebody(lua_State *L, const JoxMachineRun *machines, double wh
     jox_text_free(&text);
 }
 
+/* Pushes a list in memory as a table. */
+static void push_list(lua_State *L, const JoxMachineRun *machines, const JoxMachine *machine,
+                      const double *memory, int32_t index) {
+    const JoxMemorySlot *slot = &machine->memory[index];
+    const uint32_t size = jox_list_size(slot, memory, index);
+    lua_newtable(L);
+    for (uint32_t k = 0; k < size; k++) {
+        if (slot->kind == JOX_MEMORY_PEOPLE)
+            push_somebody(L, machines, memory[slot->items + k]);
+        else
+            lua_pushnumber(L, memory[slot->items + k]);
+        lua_rawseti(L, -2, k + 1);
+    }
+}
+
 void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
     const JoxAgents *a = machines->agents;
     lua_newtable(L);
@@ -40,6 +55,9 @@ void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i
                 continue;
             if (m->memory[s].kind == JOX_MEMORY_BOOLEAN) {
                 lua_pushboolean(L, value != 0.0);
+                lua_setfield(L, -2, m->memory[s].name);
+            } else if (jox_memory_is_list(&m->memory[s])) {
+                push_list(L, machines, m, a->memory + (size_t)i * a->memory_stride, (int32_t)s);
                 lua_setfield(L, -2, m->memory[s].name);
             } else if (m->memory[s].kind == JOX_MEMORY_SOMEBODY) {
                 push_somebody(L, machines, value);

@@ -114,7 +114,9 @@ static bool is_named_by_author(const JoxMemorySlot *slot) {
 static const char *describe_kind(const JoxMemorySlot *slot) {
     static const char *const KINDS[] = {[JOX_MEMORY_NUMBER] = "a number",
                                         [JOX_MEMORY_BOOLEAN] = "true or false",
-                                        [JOX_MEMORY_SOMEBODY] = "somebody"};
+                                        [JOX_MEMORY_SOMEBODY] = "somebody",
+                                        [JOX_MEMORY_LIST] = "a list of numbers",
+                                        [JOX_MEMORY_PEOPLE] = "a list of somebody"};
     return KINDS[slot->kind];
 }
 

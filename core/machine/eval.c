@@ -113,6 +113,18 @@ static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spo
     return spot->found && jox_pass_distance(offset, jox_v2(spot->vx, spot->vy)) < (float)reach;
 }
 
+/* Evaluates a word about a list in memory; `item` is the number that it may contain. */
+static double eval_list(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
+                        const JoxInstruction *in, double item) {
+    const double *memory = run->agents->memory + (size_t)i * run->agents->memory_stride;
+    if (in->op == JOX_OP_LIST_SIZE)
+        return jox_list_size(&machine->memory[in->arg], memory, in->arg);
+    if (in->op != JOX_OP_LIST_HAS)
+        return jox_list_end(machine, memory, in->arg, in->op == JOX_OP_LIST_LAST);
+    const double who = in->target >= 0 ? jox_target_who(run, i, in->target) : item;
+    return (in->target < 0 || who != JOX_NOBODY) && jox_list_has(machine, memory, in->arg, who);
+}
+
 /* Returns whether both targets are the same person, body or place. */
 static bool is_same_target(const JoxMachineRun *run, uint32_t i, const JoxInstruction *in) {
     const double who = jox_target_who(run, i, in->target);
@@ -181,6 +193,11 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
         return jox_target_measure(run, i, in->target, (JoxNow)in->arg);
     case JOX_OP_EXISTS:
         return jox_target_who(run, i, in->target) != JOX_NOBODY;
+    case JOX_OP_LIST_HAS:
+    case JOX_OP_LIST_SIZE:
+    case JOX_OP_LIST_FIRST:
+    case JOX_OP_LIST_LAST:
+        return eval_list(run, machine, i, in, a);
     case JOX_OP_TOLD:
         return jox_message_find(run, i, machine->names[in->name].number) != NULL;
     case JOX_OP_MESSAGE:

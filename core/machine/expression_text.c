@@ -124,6 +124,16 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
                        const JoxSpelled *registers, bool valued, JoxText *out) {
     const uint8_t inputs[] = {in->a, in->b, in->c};
     const char *before = "(";
+    if (in->op >= JOX_OP_LIST_HAS && in->op <= JOX_OP_LIST_LAST) {
+        static const char *const PARTS[] = {":contains", ".size", ".first", ".last"};
+        jox_text_printf(out, "mine.%s%s", machine->memory[in->arg].name,
+                        PARTS[in->op - JOX_OP_LIST_HAS]);
+        if (in->op == JOX_OP_LIST_HAS && in->target >= 0)
+            jox_text_printf(out, "(%s)", machine->targets[in->target].name);
+        else if (in->op == JOX_OP_LIST_HAS)
+            jox_text_printf(out, "(%s)", registers[in->a].plain.data);
+        return;
+    }
     if (in->op == JOX_OP_MESSAGE) {
         jox_text_printf(out, "told(\"%s\").%s", machine->names[in->name].text,
                         machine->names[in->arg].text);
@@ -157,8 +167,8 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
 
 bool jox_op_is_condition(JoxOp op) {
     return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS &&
-           op != JOX_OP_OF && op != JOX_OP_MESSAGE && op != JOX_OP_QUEUED &&
-           op != JOX_OP_PROGRAM_NUMBER && op != JOX_OP_OUTER_TIME;
+           op != JOX_OP_OF && op != JOX_OP_MESSAGE && op <= JOX_OP_LIST_HAS &&
+           op != JOX_OP_QUEUED && op != JOX_OP_PROGRAM_NUMBER && op != JOX_OP_OUTER_TIME;
 }
 
 /* Prints one of the two texts of an instruction. */

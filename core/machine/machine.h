@@ -97,13 +97,18 @@ typedef struct JoxTell {
 
 enum { JOX_MOST_SET = 64 };
 
+/* Changes of a list in memory: the item is added at its end, and the first goes if it is full; or
+   all that equal the item are removed, or all. */
+typedef enum { JOX_LIST_NONE, JOX_LIST_PUSH, JOX_LIST_REMOVE, JOX_LIST_CLEAR } JoxListChange;
+
 /* Side effects of entering a state or taking a transition. What is told and what memory is set to
    is evaluated on what was before any of it. */
 typedef struct JoxActions {
     struct JoxAssign {
         int32_t slot; /* memory slot */
         JoxValue value;
-        int16_t target; /* somebody, in place of `value`; -1: none */
+        int16_t target;       /* somebody, in place of `value`; -1: none */
+        JoxListChange change; /* of a list: what is done with the value */
     } * set;
     uint32_t set_count;
     JoxTell *tell;  /* NULL: nothing is told */
@@ -208,6 +213,8 @@ typedef enum {
     JOX_MEMORY_NUMBER,
     JOX_MEMORY_BOOLEAN,
     JOX_MEMORY_SOMEBODY, /* a person, body or place: see JOX_WHO_BODY */
+    JOX_MEMORY_LIST,     /* length of a list of numbers */
+    JOX_MEMORY_PEOPLE,   /* length of a list of persons, bodies and places */
     JOX_MEMORY_STATE,    /* 1 + index of a state, 0: none; hidden slots alone */
     JOX_MEMORY_KINDS
 } JoxMemoryKind;
@@ -224,6 +231,7 @@ typedef enum {
 #define JOX_IDENTITY_CAME_FROM "\6"
 #define JOX_IDENTITY_CLOCK "\7"
 #define JOX_IDENTITY_LASTS "\10"
+#define JOX_IDENTITY_ITEM "\13"
 /* Greatest number of dormant slots of a machine, memory that no name refers to any more; beyond it
    the oldest are dropped. */
 enum { JOX_MOST_DORMANT = 64 };
@@ -234,8 +242,10 @@ typedef struct JoxMemorySlot {
     bool dormant;   /* hidden because this version lacks a name that an earlier one had */
     JoxMemoryKind kind;
     double initial;
-    bool is_public;       /* other machines may read it */
-    uint32_t name_number; /* number of the name in the set of machines, if is_public */
+    uint32_t capacity, items; /* of a list: greatest length, and the slot of its first item; the
+                                 others follow */
+    bool is_public;           /* other machines may read it */
+    uint32_t name_number;     /* number of the name in the set of machines, if is_public */
 } JoxMemorySlot;
 
 /* circuits: net counter-clockwise turns about `target` since the agent first crossed its start line
@@ -358,9 +368,17 @@ int jox_machine_state(const JoxMachine *machine, const char *name);
 static inline const char *jox_memory_identity(const JoxMemorySlot *slot) {
     return *slot->name ? slot->name : slot->identity ? slot->identity : "";
 }
+/* Greatest capacity of a list in memory. Items have identities of two characters before the name,
+   JOX_IDENTITY_ITEM and 'a' + their number. */
+enum { JOX_MOST_ITEMS = 16 };
+static inline bool jox_memory_is_list(const JoxMemorySlot *slot) {
+    return slot->kind == JOX_MEMORY_LIST || slot->kind == JOX_MEMORY_PEOPLE;
+}
 /* Returns the name of the memory to which a hidden slot belongs, by its identity; NULL if the
    identity is not that of a hidden slot. */
 static inline const char *jox_identity_owner(const char *identity) {
+    if (*identity == *JOX_IDENTITY_ITEM && identity[1])
+        return identity + 2;
     return *identity && *identity <= JOX_LAST_IDENTITY ? identity + 1 : NULL;
 }
 /* Returns the index of an outer state by name, or -1. */

@@ -18,8 +18,8 @@ uint32_t jox_op_inputs(JoxOp op) {
     if (op >= JOX_OP_ADD && op <= JOX_OP_OR)
         return 2;
     return op == JOX_OP_NEAR || op == JOX_OP_AFTER || op == JOX_OP_STUCK || op == JOX_OP_INCOMING ||
-           op == JOX_OP_HEARD || op == JOX_OP_EVERY || op == JOX_OP_OUTER_AFTER ||
-           op == JOX_OP_OUTER_EVERY;
+           op == JOX_OP_HEARD || op == JOX_OP_LIST_HAS || op == JOX_OP_EVERY ||
+           op == JOX_OP_OUTER_AFTER || op == JOX_OP_OUTER_EVERY;
 }
 
 static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
@@ -33,6 +33,8 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT((op != JOX_OP_QUEUED && op != JOX_OP_ARRIVED) || in->place >= 0);
     JOX_ASSERT((op != JOX_OP_TOLD && op != JOX_OP_MESSAGE) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));
+    JOX_ASSERT(op < JOX_OP_LIST_HAS || op > JOX_OP_LIST_LAST ||
+               ((uint32_t)in->arg < m->memory_count && jox_memory_is_list(&m->memory[in->arg])));
     JOX_ASSERT(op != JOX_OP_MESSAGE || (uint32_t)in->arg < m->name_count);
     JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_THEIRS && op != JOX_OP_OPEN &&
                 op != JOX_OP_PROGRAM_NUMBER && op != JOX_OP_PROGRAM_CONDITION) ||
@@ -159,6 +161,9 @@ void jox_machine_check(const JoxMachine *m) {
         JOX_ASSERT(target->kind != JOX_TARGET_MEMORY || (uint32_t)target->arg < m->memory_count);
         JOX_ASSERT(target->kind != JOX_TARGET_MESSAGE || ((uint32_t)target->arg < m->name_count &&
                                                           is_index(target->field, m->name_count)));
+        JOX_ASSERT(target->kind != JOX_TARGET_ITEM ||
+                   ((uint32_t)target->arg < m->memory_count &&
+                    jox_memory_is_list(&m->memory[target->arg])));
         JOX_ASSERT(target->kind != JOX_TARGET_LAST_SEEN ||
                    (uint32_t)target->arg < m->sighting_count);
         JOX_ASSERT(target->score >= 0 && (uint32_t)target->score <= m->expression_count);

@@ -119,7 +119,10 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
                         : jox_value(run, machine, &actions->set[n].value, i);
     for (uint32_t n = 0; n < actions->set_count; n++) {
         const struct JoxAssign *assign = &actions->set[n];
-        if (isfinite(values[n]))
+        if (assign->change != JOX_LIST_NONE)
+            jox_list_change(machine, a->memory + (size_t)i * a->memory_stride, assign->slot,
+                            assign->change, values[n]);
+        else if (isfinite(values[n]))
             a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = values[n];
         else
             jox_odd_note(run, i, JOX_ACTION_MEMORY + assign->slot, &assign->value, values[n]);

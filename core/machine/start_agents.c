@@ -214,6 +214,14 @@ void jox_clear_unused_slots(JoxAgents *a, uint32_t i, const JoxMachine *machine)
         memory[s] = 0.0;
 }
 
+/* Returns whether a slot of memory goes on as one of another machine: by its name, or as an item of
+   a list. */
+static bool continues_memory(const JoxMemorySlot *was, const JoxMemorySlot *is) {
+    const char *identity = jox_memory_identity(is);
+    return (*is->name || *identity == *JOX_IDENTITY_ITEM) && was->kind == is->kind &&
+           strcmp(jox_memory_identity(was), identity) == 0;
+}
+
 void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
     JoxAgents *a = run->agents;
     const JoxMachine *old = run->set->items[a->machine[i]], *next = run->set->items[machine];
@@ -233,8 +241,7 @@ void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
             given |= (uint64_t)1 << n;
     for (uint32_t n = 0; n < next->memory_count && n < JOX_MOST_GIVEN; n++)
         for (uint32_t o = 0; o < old->memory_count; o++)
-            if (*next->memory[n].name && !strcmp(old->memory[o].name, next->memory[n].name) &&
-                old->memory[o].kind == next->memory[n].kind) {
+            if (continues_memory(&old->memory[o], &next->memory[n])) {
                 remembered[n] = jox_dist_constant(a->memory[(size_t)i * a->memory_stride + o]);
                 memory[n] = &remembered[n];
             }

@@ -134,6 +134,10 @@ static double find_named_who(const JoxMachineRun *run, const JoxTarget *target, 
         return jox_who_is_held(run, i);
     case JOX_TARGET_STRIKER:
         return jox_who_struck(run, i);
+    case JOX_TARGET_ITEM:
+        return jox_list_end(jox_machine_of(run, i),
+                            run->agents->memory + (size_t)i * run->agents->memory_stride,
+                            target->arg, target->field != 0);
     case JOX_TARGET_MESSAGE:
         return find_message_who(run, target, i);
     case JOX_TARGET_OTHER:

@@ -22,6 +22,7 @@ typedef enum JoxTargetKind {
                               step, else the body */
     JOX_TARGET_OTHER,      /* in the score of a target: the candidate */
     JOX_TARGET_MESSAGE,    /* arg: name of a message; who told it, or its value `field` */
+    JOX_TARGET_ITEM,       /* arg: slot of a list; its first item, or with `field` 1 its last */
     JOX_TARGET_NOBODY,     /* never there */
     JOX_TARGET_HOME,       /* the agent's own post: the position at which it entered the world */
     JOX_TARGET_LAST_SEEN   /* arg: index of a sighting; the point where the agent last saw it */

@@ -20,7 +20,7 @@ static int32_t find_slot(const JoxMachine *machine, const char *name, bool memor
    of memory holds somebody, whom no scene can name. */
 static bool has_other_type(const JoxMachine *machine, int32_t slot, const JoxGroupValue *value,
                            bool memory) {
-    return memory ? machine->memory[slot].kind == JOX_MEMORY_SOMEBODY
+    return memory ? machine->memory[slot].kind >= JOX_MEMORY_SOMEBODY
                   : machine->own[slot].is_place != (value->kind != JOX_SET_NUMBER);
 }
 
@@ -47,9 +47,10 @@ static void check_types(const JoxMachine *machine, const JoxGroupValue *values, 
         if (memory)
             jox_diag_add(diagnostics, severity, values[v].position, "bad-type",
                          "The behaviour sets it, as set = { prey = nearest \"people\" }", NULL,
-                         NULL,
-                         "memory '%.60s' of behaviour %s holds somebody, whom a scene cannot name",
-                         values[v].name, machine->name);
+                         NULL, "memory '%.60s' of behaviour %s %s, which a scene cannot name",
+                         values[v].name, machine->name,
+                         machine->memory[slot].kind == JOX_MEMORY_SOMEBODY ? "holds somebody"
+                                                                           : "is a list");
         else
             jox_diag_add(diagnostics, severity, values[v].position, "bad-type", NULL, NULL, NULL,
                          "'%.60s' of behaviour %s is a %s%s", values[v].name, machine->name,

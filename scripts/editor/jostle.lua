@@ -74,6 +74,10 @@ function Counted:within(metres) end
 ---@param degrees number
 ---@return jostle.Counted
 function Counted:ahead(degrees) end
+--- the list in memory holds this number or target
+---@param item any
+---@return jostle.Counted
+function Counted:contains(item) end
 
 --- A person, body or place. Its numbers are 0 if it is not there, or not seen.
 ---@class jostle.Target
@@ -130,6 +134,10 @@ function Target:within(metres) end
 ---@param degrees number
 ---@return jostle.Target
 function Target:ahead(degrees) end
+--- the list in memory holds this number or target
+---@param item any
+---@return jostle.Target
+function Target:contains(item) end
 
 ---@class jostle.Nobody: jostle.Target
 
@@ -280,7 +288,7 @@ function Target:ahead(degrees) end
 ---@field colour? string colour of agents in this state where people are coloured by state; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes. Default: one is chosen
 ---@field signal? string|jostle.Signal signal that the agent gives on entering, and again after each interval with { name, every = seconds }
 ---@field tell? jostle.Tell message that the agent tells on entering: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)
----@field set? jostle.Set values to set on entering, all of them computed from what was before: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
+---@field set? jostle.Set values to set on entering, all of them computed from what was before: memory = number, condition, true/false, target, or a list's :push(item), :remove(item) or :clear(); team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
 ---@field counts? table<string, jostle.Counter> memory that counts while the agent is in this state; see `circuits`
 ---@field on_enter? fun(me: jostle.Me) called when an agent enters the state
 ---@field on_exit? fun(me: jostle.Me) called when an agent leaves the state
@@ -868,11 +876,17 @@ function choose(a, b, ...) end
 ---@return jostle.Counter
 function circuits(place) end
 
---- `memory { name = value, ... }`: declares the memory of each agent: numbers, booleans, and somebody, which begins as `nobody`; kept through reloads. The result is a table of their values as expressions and targets
+--- `memory { name = value, ... }`: declares the memory of each agent: numbers, booleans, somebody, which begins as `nobody`, and lists (`list`); kept through reloads. The result is a table of their values as expressions and targets
 ---@generic T: table<string, any>
 ---@param declared T
 ---@return T|jostle.Remembered
 function memory(declared) end
+
+--- `list(capacity [, nobody])`: for `memory`: begins as an empty list of at most so many numbers, 1 to 16, or with `nobody` of people, bodies and places. mine.LIST.size, .first and .last read it, mine.LIST:contains(item) asks; `set` changes it: by mine.LIST:push(item), after which a full list lacks its first, :remove(item), which removes all that are the item, or :clear()
+---@param capacity any
+---@param nobody? any
+---@return any
+function list(capacity, nobody) end
 
 --- `machine { ... }`: the table that a behaviour returns, or that a state runs (see `runs`)
 ---@param sheet jostle.Machine

@@ -86,7 +86,8 @@ end)
 test("mistakes in the table name the place and the way out", function()
   local function wrong(items, says)
     refused({ places = { post = { point = { 5, 5 } } }, groups = { one = { at = { { 1, 1 } }, behaviour =
-      'local mine = memory { prey = nobody, n = 0 }\nreturn machine { name = "m", start = "A", states = { A = { ' ..
+      'local mine = memory { prey = nobody, n = 0, met = list(4, nobody), times = list(2) }\n' ..
+      'return machine { name = "m", start = "A", states = { A = { ' ..
       items .. ' } } }' } } }, says)
   end
   wrong('steer = seek(other)', "the candidate in the score of `best`")
@@ -107,6 +108,14 @@ test("mistakes in the table name the place and the way out", function()
   wrong('{ when = after(1) }', "an item needs `to`")
   wrong('{ every = 0, set = { n = 1 } }', "from 0.01 to 1e+06 s")
   wrong('{ every = 1, when = function(me) return true end, set = { n = 1 } }', "not with a function")
+  wrong('set = { met = mine.prey }', "is a list, which is set by its own :push")
+  wrong('set = { met = mine.times:push(1) }', "is a list, which is set by its own :push")
+  wrong('set = { times = mine.times:push(nearest "anyone") }', "holds numbers")
+  wrong('set = { met = mine.met:push(3) }', "argument 2 of push")
+  wrong('set = { n = mine.met.length }', "a list has no 'length'")
+  wrong('set = { n = mine.met }', "must be a number")
+  wrong('steer = seek(mine.met)', "argument 1 of seek")
+  wrong('} }, public = "met", own = { a = { ', "public memory is a number")
   wrong('{ when = same(mine.prey), set = { n = 1 } }', "argument 2 of same")
 end)
 

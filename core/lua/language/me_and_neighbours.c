@@ -91,8 +91,7 @@ static int me_index(lua_State *L) {
     const JoxField *field = jox_field_find(script, lua_topointer(L, 2));
     const int32_t slot = jox_field_slot(L, script, m, field);
     if (slot >= 0)
-        return jox_view_push_memory(L, script, &m->memory[slot],
-                                    a->memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
+        return jox_view_push_memory(L, script, m, a->memory + (size_t)i * a->memory_stride, slot),
                1;
     switch (field->kind) {
     case FIELD_STATE:
@@ -154,8 +153,11 @@ static int me_newindex(lua_State *L) {
     const int parameter = field->parameter;
     if (slot >= 0) {
         const JoxAgents *a = machines->agents;
-        double value = jox_view_check_memory(L, script, &script->machine->memory[slot], 3);
-        a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
+        double *memory = a->memory + (size_t)i * a->memory_stride;
+        if (jox_memory_is_list(&script->machine->memory[slot]))
+            jox_view_set_list(L, script, memory, slot, 3);
+        else
+            memory[slot] = jox_view_check_memory(L, script, &script->machine->memory[slot], 3);
         record_write(L, machines, i, true, slot);
     } else if (parameter >= 0) { /* an agent's own values begin with its parameters */
         const JoxParameterInfo *info = &jox_parameters[parameter];

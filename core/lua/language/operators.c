@@ -443,6 +443,101 @@ static int index_message(lua_State *L, const JoxNode *told, const char *name) {
     return 1;
 }
 
+/* ---- lists ---- */
+
+/* Returns the list that a method is called on; NULL with an error pushed. */
+static const JoxNode *get_list(lua_State *L, const char *method) {
+    const JoxNode *list = jox_node_get(L, 1);
+    if (list && list->kind == JOX_NODE_LIST && list->name && list->op == JOX_LIST_NONE)
+        return list;
+    jox_word_error(L, method, "bad-operand", "local mine = memory { met = list(8, nobody) }",
+                   ":%s is of a list in memory, not of %s", method, jox_node_kind(L, 1));
+    return NULL;
+}
+
+/* Reads the item that a method of a list takes as argument 2 into `to`; false with an error pushed.
+ */
+static bool read_item(lua_State *L, const char *method, const JoxNode *list, JoxNode *to) {
+    const bool people = list->target_kind == JOX_TARGET_NOBODY;
+    to->name = list->name;
+    if (people) {
+        lua_settop(L, 2);
+        to->target = jox_word_argument(L, method, 2, 't');
+        return to->target != NULL;
+    }
+    to->a = jox_node_number(L, 2);
+    if (to->a)
+        return true;
+    jox_word_error(L, method, "bad-argument", "For people: list(8, nobody)",
+                   ":%s takes a number, as this list holds numbers, not %s", method,
+                   jox_node_kind(L, 2));
+    return false;
+}
+
+static int method_contains(lua_State *L) {
+    const JoxNode *list = get_list(L, "contains");
+    if (!list)
+        return 1;
+    JoxNode item = {0};
+    if (!read_item(L, "contains", list, &item))
+        return 1;
+    JoxNode *node = jox_node_push(L, JOX_NODE_CONDITION);
+    node->op = JOX_OP_LIST_HAS;
+    node->name = item.name;
+    node->a = item.a ? item.a : jox_node_constant(L, 0.0);
+    node->target = item.target;
+    jox_node_repush(L, node);
+    return 1;
+}
+
+/* Pushes a changed list. */
+static int push_change(lua_State *L, const char *method, JoxListChange change) {
+    const JoxNode *list = get_list(L, method);
+    if (!list)
+        return 1;
+    JoxNode item = {.name = list->name};
+    if (change != JOX_LIST_CLEAR && !read_item(L, method, list, &item))
+        return 1;
+    JoxNode *node = jox_node_push(L, JOX_NODE_LIST);
+    node->op = change;
+    node->name = item.name;
+    node->a = item.a;
+    node->target = item.target;
+    node->target_kind = list->target_kind;
+    return 1;
+}
+static int method_push(lua_State *L) {
+    return push_change(L, "push", JOX_LIST_PUSH);
+}
+static int method_remove(lua_State *L) {
+    return push_change(L, "remove", JOX_LIST_REMOVE);
+}
+static int method_clear(lua_State *L) {
+    return push_change(L, "clear", JOX_LIST_CLEAR);
+}
+
+/* __index of a list: its size, its first and its last item. */
+static int index_list(lua_State *L, const JoxNode *list, const char *name) {
+    const bool people = list->target_kind == JOX_TARGET_NOBODY, size = strcmp(name, "size") == 0;
+    const bool last = strcmp(name, "last") == 0;
+    if (!size && !last && strcmp(name, "first") != 0)
+        return jox_word_error(L, name, "unknown-method",
+                              "A list has size, first, last, :contains, :push, :remove and :clear",
+                              "a list has no '%s'", name);
+    JoxNode *node = jox_node_push(L, people && !size ? JOX_NODE_TARGET : JOX_NODE_NUMBER);
+    node->op = size ? JOX_OP_LIST_SIZE : last ? JOX_OP_LIST_LAST : JOX_OP_LIST_FIRST;
+    node->target_kind = JOX_TARGET_ITEM;
+    node->arg = last;
+    node->name = list->name;
+    return 1;
+}
+
+static const luaL_Reg LIST_METHODS[] = {{"contains", method_contains},
+                                        {"push", method_push},
+                                        {"remove", method_remove},
+                                        {"clear", method_clear},
+                                        {NULL, NULL}};
+
 static int meta_index(lua_State *L) {
     if (jox_node_is_error(L, 1))
         return jox_node_push_error(L);
@@ -457,6 +552,12 @@ static int meta_index(lua_State *L) {
         }
     }
     const JoxNode *of = jox_node_get(L, 1);
+    if (of->kind == JOX_NODE_LIST) {
+        for (const luaL_Reg *m = LIST_METHODS; m->name; m++)
+            if (strcmp(m->name, name) == 0)
+                return lua_pushcfunction(L, m->func), 1;
+        return index_list(L, of, name);
+    }
     if (of->kind == JOX_NODE_CONDITION && of->op == JOX_OP_TOLD && strlen(name) <= 60)
         return index_message(L, of, name);
     if (of->kind == JOX_NODE_TARGET)

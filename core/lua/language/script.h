@@ -69,6 +69,7 @@ typedef enum {
     JOX_NODE_STEER,
     JOX_NODE_DIST,
     JOX_NODE_CIRCUITS,
+    JOX_NODE_LIST, /* a list in memory; op: JoxListChange of it, with the item in `a` or `target` */
     JOX_NODE_MACHINE,
     JOX_NODE_PATCH,   /* in a mod: a table that changes another file's machine */
     JOX_NODE_REPLACE, /* in a mod: a table that replaces another file's machine */

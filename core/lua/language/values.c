@@ -82,9 +82,27 @@ static const JoxMemorySlot *find_memory(const JoxScript *script, const char *nam
     return NULL;
 }
 
+/* list(capacity [, nobody]): memory that begins as an empty list of numbers, or of somebody. */
+static int make_list(lua_State *L) {
+    const JoxNode *of = jox_node_get(L, 2);
+    const bool people = of && of->kind == JOX_NODE_TARGET && of->target_kind == JOX_TARGET_NOBODY;
+    const double capacity = lua_type(L, 1) == LUA_TNUMBER ? lua_tonumber(L, 1) : 0.0;
+    if (!(capacity >= 1.0 && capacity <= JOX_MOST_ITEMS && capacity == floor(capacity)) ||
+        (!people && !lua_isnoneornil(L, 2)))
+        return jox_word_error(
+            L, "list", "bad-argument", "list(8) is a list of numbers, list(8, nobody) of people",
+            "list takes a length from 1 to %d, and `nobody` if it holds people", JOX_MOST_ITEMS);
+    JoxNode *node = jox_node_push(L, JOX_NODE_LIST);
+    node->arg = (int)capacity;
+    node->target_kind = people ? JOX_TARGET_NOBODY : JOX_TARGET_PLACE;
+    return 1;
+}
+
 /* Returns the kind of memory that begins as the value on top of the stack; -1 if none does. */
 static int read_memory_kind(lua_State *L) {
     const JoxNode *node = jox_node_get(L, -1);
+    if (node && node->kind == JOX_NODE_LIST && !node->name)
+        return node->target_kind == JOX_TARGET_NOBODY ? JOX_MEMORY_PEOPLE : JOX_MEMORY_LIST;
     if (lua_type(L, -1) == LUA_TNUMBER)
         return JOX_MEMORY_NUMBER;
     if (lua_type(L, -1) == LUA_TBOOLEAN)
@@ -106,7 +124,7 @@ static int make_memory(lua_State *L) {
         const int kind = read_memory_kind(L);
         if (lua_type(L, -2) != LUA_TSTRING || kind < 0 || script->memory_count >= 64)
             return jox_word_error(L, name, "bad-memory",
-                                  "Numbers, true or false, and `nobody` can be remembered",
+                                  "Numbers, true or false, `nobody` and list(8) can be remembered",
                                   "memory '%s' cannot be %s%s", name,
                                   jox_node_get(L, -1) ? "" : "a ", jox_node_kind(L, -1));
         JOX_RESERVE(script->memory, script->memory_capacity, script->memory_count + 1);
@@ -114,7 +132,11 @@ static int make_memory(lua_State *L) {
                        : kind == JOX_MEMORY_BOOLEAN ? lua_toboolean(L, -1)
                                                     : JOX_NOBODY;
         const JoxMemorySlot *known = find_memory(script, name);
-        if (known && known->initial == value && known->kind == (JoxMemoryKind)kind) {
+        const uint32_t capacity = kind == JOX_MEMORY_LIST || kind == JOX_MEMORY_PEOPLE
+                                      ? (uint32_t)jox_node_get(L, -1)->arg
+                                      : 0;
+        if (known && known->initial == value && known->kind == (JoxMemoryKind)kind &&
+            known->capacity == capacity) {
             lua_pop(L, 1); /* another file declares it too */
             continue;
         }
@@ -125,8 +147,10 @@ static int make_memory(lua_State *L) {
         if (!isfinite(value))
             return jox_word_error(L, name, "bad-memory", NULL,
                                   "memory '%s' must begin with a finite number", name);
-        JoxMemorySlot slot = {
-            .name = jox_strdup(name), .kind = (JoxMemoryKind)kind, .initial = value};
+        JoxMemorySlot slot = {.name = jox_strdup(name),
+                              .kind = (JoxMemoryKind)kind,
+                              .capacity = capacity,
+                              .initial = value};
         uint32_t at =
             script->memory_count++; /* inserted in order of names, as tables have no order */
         for (; at > 0 && strcmp(script->memory[at - 1].name, name) > 0; at--)
@@ -151,10 +175,16 @@ static int memory_index(lua_State *L) {
         if (strcmp(script->memory[i].name, name) == 0) {
             static const JoxNodeKind KINDS[] = {[JOX_MEMORY_NUMBER] = JOX_NODE_NUMBER,
                                                 [JOX_MEMORY_BOOLEAN] = JOX_NODE_CONDITION,
-                                                [JOX_MEMORY_SOMEBODY] = JOX_NODE_TARGET};
+                                                [JOX_MEMORY_SOMEBODY] = JOX_NODE_TARGET,
+                                                [JOX_MEMORY_LIST] = JOX_NODE_LIST,
+                                                [JOX_MEMORY_PEOPLE] = JOX_NODE_LIST};
             JoxNode *node = jox_node_push(L, KINDS[script->memory[i].kind]);
             node->op = JOX_OP_MEMORY;
-            node->target_kind = JOX_TARGET_MEMORY;
+            node->target_kind = script->memory[i].kind == JOX_MEMORY_PEOPLE ? JOX_TARGET_NOBODY
+                                : script->memory[i].kind == JOX_MEMORY_LIST ? JOX_TARGET_PLACE
+                                                                            : JOX_TARGET_MEMORY;
+            if (node->kind == JOX_NODE_LIST)
+                node->op = JOX_LIST_NONE;
             node->name = jox_vm_intern(&script->vm, name);
             return 1;
         }
@@ -272,8 +302,11 @@ static void add_object(lua_State *L, const char *name, const char *type, lua_CFu
 
 void jox_values_add(lua_State *L) {
     JOX_ASSERT(lua_istable(L, -1));
-    static const luaL_Reg MAKERS[] = {
-        {"orbit", make_orbit}, {"machine", make_machine}, {"memory", make_memory}, {NULL, NULL}};
+    static const luaL_Reg MAKERS[] = {{"orbit", make_orbit},
+                                      {"machine", make_machine},
+                                      {"memory", make_memory},
+                                      {"list", make_list},
+                                      {NULL, NULL}};
     luaL_setfuncs(L, MAKERS, 0);
     jox_sequence_add(L);
     for (size_t i = 0; i < jox_word_count; i++)

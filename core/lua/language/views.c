@@ -20,14 +20,34 @@ struct JoxView {
 
 /* ---- memory ---- */
 
-void jox_view_push_memory(lua_State *L, JoxScript *script, const JoxMemorySlot *slot,
-                          double value) {
-    if (slot->kind == JOX_MEMORY_BOOLEAN)
-        lua_pushboolean(L, value != 0.0);
+/* Pushes a list in memory as a table. */
+static void push_list(lua_State *L, JoxScript *script, const JoxMachine *machine,
+                      const double *memory, int32_t index) {
+    const JoxMemorySlot *slot = &machine->memory[index];
+    const uint32_t size = jox_list_size(slot, memory, index);
+    jox_vm_charge(L, 20 * (size + 1));
+    luaL_checkstack(L, 4, NULL);
+    lua_createtable(L, (int)size, 0);
+    for (uint32_t k = 0; k < size; k++) {
+        if (slot->kind == JOX_MEMORY_PEOPLE)
+            jox_view_push_somebody(L, script, memory[slot->items + k]);
+        else
+            lua_pushnumber(L, memory[slot->items + k]);
+        lua_rawseti(L, -2, k + 1);
+    }
+}
+
+void jox_view_push_memory(lua_State *L, JoxScript *script, const JoxMachine *machine,
+                          const double *memory, int32_t index) {
+    const JoxMemorySlot *slot = &machine->memory[index];
+    if (jox_memory_is_list(slot))
+        push_list(L, script, machine, memory, index);
+    else if (slot->kind == JOX_MEMORY_BOOLEAN)
+        lua_pushboolean(L, memory[index] != 0.0);
     else if (slot->kind == JOX_MEMORY_SOMEBODY)
-        jox_view_push_somebody(L, script, value);
+        jox_view_push_somebody(L, script, memory[index]);
     else
-        lua_pushnumber(L, value);
+        lua_pushnumber(L, memory[index]);
 }
 
 /* Returns the somebody at a stack index as a number: nil, a view or the name of a place; raises an
@@ -48,6 +68,27 @@ static double check_somebody(lua_State *L, const JoxScript *script, const char *
                    name);
     return view->is_body ? JOX_WHO_BODY + machines->objects->rows[view->index].id
                          : 1.0 + machines->agents->id[view->index];
+}
+
+void jox_view_set_list(lua_State *L, const JoxScript *script, double *memory, int32_t index,
+                       int at) {
+    const JoxMemorySlot *slot = &script->machine->memory[index];
+    double items[JOX_MOST_ITEMS] = {0};
+    const size_t count = lua_type(L, at) == LUA_TTABLE ? lua_rawlen(L, at) : SIZE_MAX;
+    if (count > slot->capacity)
+        luaL_error(L, "memory '%s' is a list of at most %d items", slot->name, (int)slot->capacity);
+    for (size_t k = 0; k < count; k++) {
+        lua_rawgeti(L, at, (lua_Integer)k + 1);
+        if (slot->kind == JOX_MEMORY_PEOPLE)
+            items[k] = check_somebody(L, script, slot->name, -1);
+        else if (lua_type(L, -1) == LUA_TNUMBER && isfinite(lua_tonumber(L, -1)))
+            items[k] = lua_tonumber(L, -1);
+        else
+            luaL_error(L, "memory '%s' is a list of finite numbers", slot->name);
+        lua_pop(L, 1);
+    }
+    memcpy(memory + slot->items, items, slot->capacity * sizeof *items);
+    memory[index] = (double)count;
 }
 
 double jox_view_check_memory(lua_State *L, const JoxScript *script, const JoxMemorySlot *slot,
@@ -122,8 +163,7 @@ static int view_index(lua_State *L) {
         const uint32_t most = sizeof script->read / sizeof *script->read;
         script->read[script->read_count % most].agent = i;
         script->read[script->read_count++ % most].slot = (uint32_t)slot;
-        jox_view_push_memory(L, script, &m->memory[slot],
-                             lua->before_memory[(size_t)i * a->memory_stride + (uint32_t)slot]);
+        jox_view_push_memory(L, script, m, lua->before_memory + (size_t)i * a->memory_stride, slot);
         return 1;
     }
     if (jox_field_push(L, lua->machines, i, field))
@@ -163,6 +203,8 @@ static int view_newindex(lua_State *L) {
                           jox_field_key(L));
     if (lua->write_count >= 100000)
         return luaL_error(L, "too much is written to neighbours in one step");
+    if (jox_memory_is_list(&m->memory[slot]))
+        return luaL_error(L, "a list of a neighbour cannot be set: tell it, by me.tell");
     double value = jox_view_check_memory(L, script, &m->memory[slot], 3);
     JOX_RESERVE(lua->writes, lua->write_capacity, lua->write_count + 1);
     const JoxPosition at = jox_vm_place(L);

@@ -224,8 +224,14 @@ const JoxWord jox_words[] = {
      "for `counts`: net number of counter-clockwise turns about a place since the agent first "
      "crossed its start line; turns back are subtracted", "circuits \"yard\""},
     {"memory", "*", 0, 0, 0, "memory { name = value, ... }", "",
-     "declares the memory of each agent: numbers, booleans, and somebody, which begins as `nobody`; kept through "
+     "declares the memory of each agent: numbers, booleans, somebody, which begins as `nobody`, and lists (`list`); kept through "
      "reloads. The result is a table of their values as expressions and targets", "memory { laps = 0, touched = false, prey = nobody }"},
+    {"list", "*", 0, 0, 0, "list(capacity [, nobody])", "",
+     "for `memory`: begins as an empty list of at most so many numbers, 1 to 16, or with `nobody` of people, bodies and "
+     "places. mine.LIST.size, .first and .last read it, mine.LIST:contains(item) asks; `set` changes it: by "
+     "mine.LIST:push(item), after which a full list lacks its first, :remove(item), which removes all that are the "
+     "item, or :clear()", "memory { met = list(8, nobody), times = list(3) }"},
+    {":contains", "*", CONDITION, 0, 0, "list:contains(item)", "", "the list in memory holds this number or target", "mine.met:contains(nearest \"people\")"},
     {"machine", "*", 0, 0, 0, "machine { ... }", "", "the table that a behaviour returns, or that a state runs (see `runs`)",
      "machine { name = \"m\", start = \"A\", states = { A = {} } }"},
     {"sequence", "*", 0, 0, 0, "sequence { step, ... }", "",
@@ -337,7 +343,7 @@ const JoxTableKey jox_table_keys[] = {
      "signal = { \"alarm\", every = 1 }", 0, 0},
     {"state", "tell", "table", "", "message that the agent tells on entering: to whom, a target, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)",
      "tell = { nearest \"people\", \"shot\", damage = 2 }", 0, 0},
-    {"state", "set", "table", "", "values to set on entering, all of them computed from what was before: memory = number, condition, true/false, or target; team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
+    {"state", "set", "table", "", "values to set on entering, all of them computed from what was before: memory = number, condition, true/false, target, or a list's :push(item), :remove(item) or :clear(); team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
      "set = { laps = mine.laps + 1, tags = \"people\" }", 0, 0},
     {"state", "counts", "table", "", "memory that counts while the agent is in this state; see `circuits`", "counts = { laps = circuits \"yard\" }", 0, 0},
     {"state", "on_enter", "function(me)", "", "called when an agent enters the state", "on_enter = function(me) me.laps = 1 end", 0, 0},

@@ -251,19 +251,20 @@ static void add_own(Search *search, const char *name, double value) {
 }
 
 /* Stores the present value as text. */
-static void store_present_value(const Search *search, double value, bool truth, bool place) {
+static void store_present_value(const Search *search, double value, bool place) {
     char number[32];
     snprintf(number, sizeof number, "%.6g", value);
     jox_settings_set_value(search->pack, search->head,
-                           place   ? name_place(search->scene->spec, (int32_t)value)
-                           : truth ? (value != 0.0 ? "true" : "false")
-                                   : number);
+                           place ? name_place(search->scene->spec, (int32_t)value) : number);
 }
 
-/* Stores whom memory holds as text. */
-static void store_somebody(const Search *search, double who) {
+/* Stores a value of memory as text. */
+static void store_memory(const Search *search, int32_t slot) {
+    const JoxAgents *a = &search->scene->world->state.agents;
+    const JoxMachineRun *machines = &search->scene->world->machines;
+    const double *memory = a->memory + (size_t)search->i * a->memory_stride;
     JoxText text = {0};
-    jox_who_print(&search->scene->world->machines, who, &text);
+    jox_memory_print(machines, search->machine, memory, (uint32_t)slot, &text);
     jox_settings_set_value(search->pack, search->head, text.data);
     jox_text_free(&text);
 }
@@ -275,24 +276,20 @@ static bool list_value(Search *search, const char *name, double *value) {
     const int32_t slot = jox_machine_memory(search->machine, name);
     if (slot >= 0) {
         *value = a->memory[(size_t)search->i * a->memory_stride + (uint32_t)slot];
-        if (search->machine->memory[slot].kind == JOX_MEMORY_SOMEBODY)
-            store_somebody(search, *value);
-        else
-            store_present_value(search, *value,
-                                search->machine->memory[slot].kind == JOX_MEMORY_BOOLEAN, false);
+        store_memory(search, slot);
         add_memory(search, (uint32_t)slot);
         return true;
     }
     if (p >= 0) {
         *value = jox_parameter_value((JoxParameter)p, jox_param(a, p, search->i));
-        store_present_value(search, *value, false, false);
+        store_present_value(search, *value, false);
         add_parameter(search, p);
         return true;
     }
     for (uint32_t s = 0; s < search->machine->own_count; s++)
         if (strcmp(search->machine->own[s].name, name) == 0) {
             *value = jox_own(a, search->i, s);
-            store_present_value(search, *value, false, search->machine->own[s].is_place);
+            store_present_value(search, *value, search->machine->own[s].is_place);
             add_own(search, name, *value);
             return true;
         }

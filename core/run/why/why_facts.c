@@ -34,15 +34,10 @@ void jox_why_add_function(const JoScene *scene, const JoxMachine *machine, int32
 bool jox_why_add_memory(const JoScene *scene, uint32_t agent, uint32_t slot, JoxText *out) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = scene->world->machines.set->items[a->machine[agent]];
-    const double value = a->memory[(size_t)agent * a->memory_stride + slot];
     if (!*machine->memory[slot].name)
         return false;
-    if (machine->memory[slot].kind == JOX_MEMORY_BOOLEAN)
-        jox_text_add(out, value != 0.0 ? "true" : "false");
-    else if (machine->memory[slot].kind == JOX_MEMORY_SOMEBODY)
-        jox_who_print(&scene->world->machines, value, out);
-    else
-        jox_text_printf(out, "%.6g", value);
+    jox_memory_print(&scene->world->machines, machine, a->memory + (size_t)agent * a->memory_stride,
+                     slot, out);
     return true;
 }
 

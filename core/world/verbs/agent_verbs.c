@@ -193,6 +193,10 @@ bool jox_perform_memory(JoWorld *world, const JoxInputEntry *entry, JoxText *why
             jox_text_printf(why, "%.60s is true or false: 1 or 0, not %g", slot->name, value);
             return false;
         }
+        if (jox_memory_is_list(slot)) {
+            jox_text_printf(why, "%.60s is a list, which a program cannot set", slot->name);
+            return false;
+        }
         if (slot->kind == JOX_MEMORY_SOMEBODY && value != JOX_NOBODY &&
             !jox_who_exists(&world->machines, value)) {
             jox_text_printf(why,
