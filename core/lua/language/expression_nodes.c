@@ -85,16 +85,22 @@ int jox_node_push_error(lua_State *L) {
 }
 
 const char *jox_node_kind(lua_State *L, int index) {
-    static const char *const NAMES[] = {
-        [JOX_NODE_NUMBER] = "a number",   [JOX_NODE_CONDITION] = "a condition",
-        [JOX_NODE_TARGET] = "a target",   [JOX_NODE_OWN] = "a value",
-        [JOX_NODE_STEER] = "a steering",  [JOX_NODE_DIST] = "a distribution",
-        [JOX_NODE_CIRCUITS] = "circuits", [JOX_NODE_LIST] = "a list",
-        [JOX_NODE_MACHINE] = "a machine",
-        [JOX_NODE_PATCH] = "a patch",     [JOX_NODE_REPLACE] = "a replacement",
-        [JOX_NODE_NONE] = "`none`",       [JOX_NODE_LAYER] = "an extended function",
-        [JOX_NODE_WAIT] = "`wait`",       [JOX_NODE_BACK] = "`back`",
-        [JOX_NODE_ERROR] = "an error"};
+    static const char *const NAMES[] = {[JOX_NODE_NUMBER] = "a number",
+                                        [JOX_NODE_CONDITION] = "a condition",
+                                        [JOX_NODE_TARGET] = "a target",
+                                        [JOX_NODE_OWN] = "a value",
+                                        [JOX_NODE_STEER] = "a steering",
+                                        [JOX_NODE_DIST] = "a distribution",
+                                        [JOX_NODE_CIRCUITS] = "circuits",
+                                        [JOX_NODE_LIST] = "a list",
+                                        [JOX_NODE_MACHINE] = "a machine",
+                                        [JOX_NODE_PATCH] = "a patch",
+                                        [JOX_NODE_REPLACE] = "a replacement",
+                                        [JOX_NODE_NONE] = "`none`",
+                                        [JOX_NODE_LAYER] = "an extended function",
+                                        [JOX_NODE_WAIT] = "`wait`",
+                                        [JOX_NODE_BACK] = "`back`",
+                                        [JOX_NODE_ERROR] = "an error"};
     static_assert(sizeof NAMES / sizeof *NAMES == JOX_NODE_ERROR + 1, "every kind has a name");
     JoxNode *node = jox_node_get(L, index);
     return node ? NAMES[node->kind] : luaL_typename(L, index);
@@ -108,4 +114,13 @@ void jox_nodes_open(lua_State *L, const luaL_Reg *operators) {
     lua_pushliteral(L, "value"); /* as type() names it */
     lua_setfield(L, -2, "__kind");
     lua_pop(L, 1);
+}
+
+JoxNode *jox_node_push_operation(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b) {
+    JOX_ASSERT(a && (kind == JOX_NODE_NUMBER || kind == JOX_NODE_CONDITION));
+    JoxNode *node = jox_node_push(L, kind);
+    node->op = op;
+    node->a = a;
+    node->b = b;
+    return node;
 }

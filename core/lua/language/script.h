@@ -345,6 +345,10 @@ JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if the value is 
 JoxNode *jox_node_number(lua_State *L, int index);
 /* Returns a value of a message as a target, where one is wanted; any other node as it is. */
 JoxNode *jox_node_target(lua_State *L, JoxNode *node);
+/* Pushes an operation on one or two nodes (`b` NULL: one). */
+JoxNode *jox_node_push_operation(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b);
+/* The metamethod __index of nodes: their methods and fields. */
+int jox_node_index(lua_State *L);
 /* Pushes a node again. */
 void jox_node_repush(lua_State *L, JoxNode *node);
 /* Returns a node for a number; nothing is pushed. */
