@@ -11,11 +11,12 @@ Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y
 """
 from ._events import Events
 from ._library import Error
+from ._words import Word
 from .recording import Recording
 from .scene import Agent, Body, Scene
 from .sweep import Sweep, sweep
 
-__all__ = ["Agent", "Body", "Error", "Events", "Recording", "Scene", "Sweep", "sweep", "version"]
+__all__ = ["Agent", "Body", "Error", "Events", "Recording", "Scene", "Sweep", "Word", "sweep", "version"]
 
 
 def version() -> str:

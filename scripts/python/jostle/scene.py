@@ -13,13 +13,10 @@ import numpy as np
 
 from ._events import Events, events_of
 from ._library import Error, check, ffi, lib, named, path_named, text_of, told, whole
+from ._words import Word, Words, column_of
 from .show import Picture, live_page, picture_of
 
 __all__ = ["Agent", "Body", "Scene"]
-
-TYPES = {lib.JO_U8: np.uint8, lib.JO_U16: np.uint16, lib.JO_U32: np.uint32, lib.JO_I32: np.int32, lib.JO_U64: np.uint64,
-         lib.JO_F32: np.float32, lib.JO_F64: np.float64}
-
 
 def _written(value: Any) -> str:
     """A value as `jostle run --set` takes it."""
@@ -67,13 +64,13 @@ class Scene:
     seed, dt: in place of the scene's (dt in s). set: keys of the scene and their values, as `jostle run --set`.
     threads: 0 are all processors; they never change a result. mods: folders or names of mods, and no others.
     input_log: a file of what people and programs did, played back. message: is told what is to be said to people;
-    by default it goes to stderr. One scene must not be used by two threads at once, and is neither copied nor pickled.
+    by default it goes to stderr. words: what behaviours can use besides the language's own (Word). One scene must not be used by two threads at once, and is neither copied nor pickled.
     """
 
     def __init__(self, path: Union[str, Path], seed: Optional[int] = None, set: Optional[Mapping[str, Any]] = None,
                  dt: Optional[float] = None, threads: int = 0, mods: Sequence[str] = (),
                  input_log: Union[str, Path, None] = None, message: Optional[Callable[[str], Any]] = None,
-                 density: bool = True) -> None:
+                 density: bool = True, words: Sequence[Word] = ()) -> None:
         if getattr(self, "_scene", None):
             raise Error("the scene is loaded already", 2)
         if isinstance(mods, (str, bytes)):
@@ -94,6 +91,8 @@ class Scene:
         definition.mods, definition.mod_count = ffi.cast("const char *const *", kept[2]), len(names)
         definition.named_mods_only, definition.no_density = True, not density
         definition.threads, definition.message = whole("threads", threads, 2**32 - 1), self._message
+        self._words = Words(words, self._acting)
+        definition.words, definition.word_count = self._words.array, self._words.count
         if seed is not None:
             definition.has_seed, definition.seed = True, whole("a seed", seed)
         if dt is not None:
@@ -104,6 +103,7 @@ class Scene:
         self._error = ffi.new("JoError *")
         self._scene = check(lib.jo_scene_load(definition, self._error), self._error)
         self._world = lib.jo_scene_world(self._scene)
+        self._raise_failure()
 
     # ---- its life ----
 
@@ -148,6 +148,15 @@ class Scene:
             self._busy = False
         return check(result, self._error)
 
+    def _acting(self, begins: bool) -> None:
+        """An action of the program may use the scene, within the call that steps it."""
+        self._busy = not begins
+
+    def _raise_failure(self) -> None:
+        failure, self._words.failure = self._words.failure, None
+        if failure:
+            raise failure
+
     # ---- stepping ----
 
     def _going(self) -> None:
@@ -160,6 +169,7 @@ class Scene:
         for _ in range(whole("a number of steps", steps)):
             self._going()
             self._do(lib.jo_scene_step, self._scene)
+            self._raise_failure()
 
     def run(self, seconds: Optional[float] = None) -> "Scene":
         """Advances by simulated seconds, to the nearest step; without, until the scene's duration is over."""
@@ -201,15 +211,7 @@ class Scene:
     def __getitem__(self, name: str) -> np.ndarray:
         """A column, one number for each agent, as it is now: a read-only copy, which later steps do not change and
         which outlives the scene. Agents change their places as they walk; `scene["id"]` says who is who."""
-        column = lib.jo_world_column(self._live(), named(name))
-        if not column.stride and not column.count:
-            raise KeyError(name)
-        dtype = TYPES[column.type]
-        if not column.count:
-            return np.empty(0, dtype)
-        extent = (column.count - 1) * column.stride + np.dtype(dtype).itemsize
-        memory = ffi.buffer(ffi.cast("char *", column.data), extent)
-        copy = np.ndarray(column.count, dtype, memory, strides=(column.stride,)).copy()
+        copy = column_of(self._live(), name).copy()
         copy.flags.writeable = False
         return copy
 

@@ -354,3 +354,34 @@ def test_what_means_nothing_is_refused(path):
     for call, arguments in [(scene.step, ()), (scene.input, ("push 0 1 1",))]:
         with pytest.raises(jostle.Error, match="finished"):
             call(*arguments)
+
+
+WORDY = """return machine { name = "walker", version = 1, start = "Walk", states = {
+  Walk = { steer = seek(own.goal), speed = pace, { to = "Rest", when = far_out } },
+  Rest = { steer = hold, on_enter = function(me) ring(me.id, 2) end } } }
+"""
+
+
+def test_behaviours_use_words_of_the_program(path):
+    (path.parent / "walker.lua").write_text(WORDY)
+    rung = []
+    words = [jostle.Word("pace", lambda columns: 1 + 0 * columns["x"], "how fast people walk", "pace:above(2)", unit="m/s"),
+             jostle.Word("far_out", lambda columns: columns["x"] > 2.5, "whether an agent is far", "far_out", "condition"),
+             jostle.Word("ring", lambda agent, numbers: rung.append((agent, numbers, len(scene))), "rings", "ring(2)", "action")]
+    with pytest.raises(jostle.Error, match="unknown word 'pace'"):
+        jostle.Scene(path, message=lambda text: None)
+    scene = jostle.Scene(path, words=words)
+    scene.step(2)
+    assert rung == [(3, [3.0, 2.0], 4)]
+    assert list(scene.states()).count("Rest") == 1
+    scene.close()
+    with pytest.raises(jostle.Error, match="the language has a word of this name"):
+        jostle.Scene(path, words=[jostle.Word("after", None, "m", "after")], message=lambda text: None)
+
+    def wrong(columns):
+        raise RuntimeError("no pace")
+
+    scene = None
+    with pytest.raises(RuntimeError, match="no pace"):
+        scene = jostle.Scene(path, words=[words[0]._replace(function=wrong), *words[1:]])
+        scene.step(2)
