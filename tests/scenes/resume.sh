@@ -24,6 +24,8 @@ goes_on "a wall that breaks" scenes/wall-breaking.yaml 1 "6.5 8"
 goes_on "people who come and go" scenes/tawaf.yaml 2 "3.5" --set groups.pilgrims.count=1000
 goes_on "doors upon their paths" scenes/train-doors.yaml 2 "9.6 14.5"
 goes_on "events and gates" scenes/gates.yaml 4 "9"
+goes_on "messages that wait, and whom people hold" scenes/drill.yaml 8 "32 54 71"
+goes_on "whom people chase, and where they saw them" scenes/pickpocket.yaml 3 "6 19"
 goes_on "a mod" scenes/tawaf.yaml 1 "2.5" --set groups.pilgrims.count=300 --mod scenes/mods/rough
 
 # ---- from the texts that it holds, anywhere ----
