@@ -175,6 +175,7 @@ bench:
 	@for b in $(BENCH); do echo "== $$b"; $$b; done
 	$(B)/jostle bench
 	@B=$(B) bash tests/bench/reload.sh
+	@B=$(B) bash tests/bench/functions.sh
 # Times each scene, and appends a line for it to the table of this model of processor in tests/bench/results.
 bench-record: all
 	@B=$(B) bash tests/bench/record.sh

@@ -151,7 +151,9 @@ void jox_lua_reference(JoxText *out) {
         "\n## Functions\n\n`on_enter`, `on_exit`, `on_take`, `when` and `steer` may be plain "
         "functions of `me`. They run for the agents\nconcerned, in order of id, after the compiled "
         "transitions. `me` also has every parameter and whatever `memory`\ndeclares; parameters, "
-        "memory and `goal` can be set.\n\n| of me | what | unit | meaning |\n|---|---|---|---|\n");
+        "memory and `goal` can be set. A call takes about 0.1 us, `me.neighbours` of ten 0.7 us, "
+        "each name of `me` or a\nneighbour 0.02 us; `--profile-lua` tells what each function "
+        "takes.\n\n| of me | what | unit | meaning |\n|---|---|---|---|\n");
     for (size_t k = 0; k < jox_me_key_count; k++)
         jox_text_printf(out, "| `%s` | %s | %s | %s |\n", jox_me_keys[k].name, jox_me_keys[k].type,
                         jox_me_keys[k].unit, jox_me_keys[k].meaning);

@@ -218,13 +218,15 @@ static bool call_function(JoxLua *lua, JoxScript *script, int32_t number, double
     script->nested = 0.0;
     script->measured = timed;
     jox_me_begin(script);
+    jox_vm_push_handler(&script->vm);
     lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
     lua_rawgeti(L, LUA_REGISTRYINDEX, script->me);
     if (around)
         lua_rawgeti(L, LUA_REGISTRYINDEX, hook->previous_ref);
     const char *why = NULL;
     int line = 0;
-    if (jox_vm_call(&script->vm, 1 + around, 2, lua->group.limits.hook_instructions, &why, &line)) {
+    if (jox_vm_call_handled(&script->vm, 1 + around, 2, lua->group.limits.hook_instructions, &why,
+                            &line)) {
         why = take_results(L, hook, script->kind, result);
         if (why) {
             lua_Debug where;

@@ -386,10 +386,27 @@ static uint64_t get_call_budget(JoxVm *vm, uint64_t instructions) {
     return instructions < left ? instructions : left;
 }
 
+void jox_vm_push_handler(JoxVm *vm) {
+    lua_pushcfunction(vm->L, keep_traceback);
+}
+
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line) {
-    JOX_ASSERT(!vm->running);
     JOX_ASSERT(arguments >= 0 && lua_gettop(vm->L) > arguments);
+    const int handler = lua_gettop(vm->L) - arguments;
+    jox_vm_push_handler(vm);
+    lua_insert(vm->L, handler);
+    const bool good = jox_vm_call_handled(vm, arguments, results, instructions, why, line);
+    if (good)
+        lua_remove(vm->L, handler);
+    return good;
+}
+
+bool jox_vm_call_handled(JoxVm *vm, int arguments, int results, uint64_t instructions,
+                         const char **why, int *line) {
+    JOX_ASSERT(!vm->running);
+    const int handler = lua_gettop(vm->L) - arguments - 1;
+    JOX_ASSERT(arguments >= 0 && handler > 0 && lua_iscfunction(vm->L, handler));
     vm->over = vm->starved = false;
     vm->failed_source = 0;
     vm->traceback[0] = 0;
@@ -405,9 +422,6 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
         start_watch(vm);
     vm->interval = vm->loading ? CHECK_EVERY : FIRST_CHECK;
     set_hook(vm, vm->interval);
-    int handler = lua_gettop(vm->L) - arguments;
-    lua_pushcfunction(vm->L, keep_traceback);
-    lua_insert(vm->L, handler);
     vm->running = true;
     int status = lua_pcall(vm->L, arguments, results, handler);
     vm->running = false;
@@ -420,10 +434,8 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     else if (sampled) /* a short call stands for SAMPLED others */
         check_time(vm, SAMPLED, 0.1);
     jox_numeric_use(before);
-    if (status == LUA_OK) {
-        lua_remove(vm->L, handler);
+    if (status == LUA_OK)
         return true;
-    }
     if (vm->no_memory)
         jox_out_of_memory(0);
     static _Thread_local char text[512];

@@ -76,6 +76,11 @@ JoxVm *jox_vm_of(lua_State *L);
    this thread, *line its line or 0, and the stack is empty. */
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line);
+/* As jox_vm_call, for a function that was pushed right after jox_vm_push_handler, which stays below
+   the results: saves moving them. */
+void jox_vm_push_handler(JoxVm *vm);
+bool jox_vm_call_handled(JoxVm *vm, int arguments, int results, uint64_t instructions,
+                         const char **why, int *line);
 /* Returns a copy of a name that lives as long as the VM, the same for equal names. Raises an error
    at too many names, so call it within jox_vm_call. */
 const char *jox_vm_intern(JoxVm *vm, const char *name);
