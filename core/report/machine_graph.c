@@ -103,6 +103,24 @@ static bool is_own_item(const JoxState *state, const JoxTransition *t) {
     return t->level == state->depth;
 }
 
+/* Returns whether a state is a step of a sequence: one of those beside it has a number as its name,
+   "2 wait". */
+static bool is_step(const JoxMachine *m, const JoxState *state) {
+    if (state->depth == 0)
+        return false;
+    const uint16_t outer = state->around[state->depth - 1];
+    const size_t around = strlen(m->outer[outer].name) + 1;
+    for (uint32_t s = 0; s < m->state_count; s++) {
+        const JoxState *beside = &m->states[s];
+        if (beside->depth != state->depth || beside->around[state->depth - 1] != outer)
+            continue;
+        const size_t digits = strspn(beside->name + around, "0123456789");
+        if (digits > 0 && beside->name[around + digits] == ' ')
+            return true;
+    }
+    return false;
+}
+
 /* Adds condition, chance and actions of item `k` of a state: of a transition with its number among
    several, of a reaction with "if". */
 static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
@@ -125,11 +143,13 @@ static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
                                           "every");
     if (!written && !every) {
         const bool always = t->when < 0 && t->when_hook < 0;
+        const bool over = !always && !t->stays && is_step(g->machine, from);
         snprintf(text, sizeof text, "%s%s", prefix,
-                 !always    ? "a condition built here"
+                 over       ? "when it is over"
+                 : !always  ? "a condition built here"
                  : t->stays ? "it is in this state"
                             : "at once");
-        if (!always)
+        if (!always && !over)
             snprintf(text + strlen(text), sizeof text - strlen(text), ", line %d", t->line);
         add_lines(g, text, ARROW_WIDTH);
     }

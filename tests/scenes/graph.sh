@@ -52,6 +52,13 @@ if command -v dot >/dev/null; then
     xmllint --noout "$work/odd.svg"; verdict "  as well-formed XML" $?
 fi
 
+cat >"$work/steps.lua" <<'END'
+return machine { name = "steps", start = "Leave", states = {
+  Leave = { runs = sequence { seek "door", wait(2) }, { to = "Gone", when = done } }, Gone = { removes = true } } }
+END
+expect "steps of a sequence follow one another" 0 'label=<when it is over<' "$JOSTLE" graph "$work/steps.lua" --dot
+dot_has "  in a frame" '<b>1 seek door</b>' '<b>2 wait</b>' 'label=<done<'
+
 # ---- pictures ----
 if command -v dot >/dev/null; then
     "$JOSTLE" graph behaviours/outbreak.lua --out "$work/outbreak.svg" >"$work/said" 2>&1; verdict "a graph as SVG" $?
