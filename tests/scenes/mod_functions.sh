@@ -76,6 +76,22 @@ trail "steer: around gets the compiled velocity, and the next one what that retu
 mod beta "" '{ Go = { steer = before(function(me) return 3, 3 end) } }'
 expect "  what runs before it returns nothing" 1 "what runs before or afterwards returns nothing here" "${run[@]}" --mod beta
 
+# States within states.
+cat >behaviours/inner.lua <<'END'
+local mine = memory { trail = 0 }
+local function step(digit) return function(me) me.trail = me.trail * 10 + digit end end
+local patrol = machine { name = "patrol", start = "Walk", states = {
+  Walk = { steer = drift(1, 0), on_enter = step(2), { to = "Look", when = after(0.3) } },
+  Look = { steer = hold, on_enter = step(3) } } }
+return machine { name = "yard", version = 1, start = "Guard", states = {
+  Guard = { runs = patrol, on_enter = step(1) } } }
+END
+cp behaviours/yard.lua yard.lua; cp behaviours/inner.lua behaviours/yard.lua
+mod alpha "" '{ Guard = { on_enter = before(step(7)), runs = { states = { Walk = { on_enter = afterwards(step(8)) } } } } }'
+mod beta "" '{ Guard = { runs = { states = { Look = { on_enter = around(function(me, previous) previous(me) step(9)(me) end) } } } } }'
+expect "functions of states within states are extended" 0 "state Guard.Look: 712839" "$program" mod why trail scenes/yard.yaml --agent 0 --at 2 "${two[@]}"
+cp yard.lua behaviours/yard.lua
+
 # Failures.
 mod alpha "" '{ Go = { on_enter = around(function(me, previous) previous(me) end) } }'
 mod beta "" '{ Go = { on_enter = before(function(me) error("no") end) } }'
