@@ -13,14 +13,15 @@
 static void print_part_path(const char *path, JoxText *out) {
     char part[128];
     for (int depth = 0; *path; depth++) {
+        path += strncmp(path, "runs.states.", 12) == 0 ? 12 : 0; /* a state within a state */
         size_t n = strcspn(path, ".");
         snprintf(part, sizeof part, "%.*s", (int)n, path);
         bool number = part[strspn(part, "0123456789")] == 0;
         if (depth > 0)
             jox_text_printf(out, "%s%s%s", depth > 1 ? " > " : "",
-                            depth == 1                               ? "state "
-                            : number || (depth == 2 && *part == '@') ? "transition "
-                                                                     : "",
+                            depth == 1               ? "state "
+                            : number || *part == '@' ? "transition "
+                                                     : "",
                             *part == '@' ? part + 1 : part);
         path += n + (path[n] == '.');
     }
