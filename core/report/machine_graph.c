@@ -132,8 +132,8 @@ static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
         number += o <= k && counts;
         count += counts;
     }
-    if (!t->stays)
-        snprintf(prefix, sizeof prefix, count > 1 ? "%u. " : "", number);
+    if (!t->stays && count > 1)
+        snprintf(prefix, sizeof prefix, "%u. ", number);
     g->margin = t->stays ? "&#160;&#160;&#160;" : "";
     const bool written = add_transition_key(g, from, t, prefix, "when");
     const bool every = add_transition_key(g, from, t,
