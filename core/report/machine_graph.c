@@ -132,6 +132,8 @@ static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
         number += o <= k && counts;
         count += counts;
     }
+    if (!t->stays)
+        *prefix = 0;
     if (!t->stays && count > 1)
         snprintf(prefix, sizeof prefix, "%u. ", number);
     g->margin = t->stays ? "&#160;&#160;&#160;" : "";
