@@ -299,7 +299,7 @@ static bool visit_nested_path(const JoxScript *script, const JoxMachine *machine
         snprintf(full, sizeof full, "%.120s.runs.defaults.%.100s", path, rest);
         count = add_all_places(script, machine, full, to);
     }
-    if (!count && parameter >= 0) {
+    if (!count && parameter >= 0 && to->visit) {
         char number[32];
         snprintf(number, sizeof number, "%g", jox_parameters[parameter].value);
         to->visit(to->context, &(JoSetting){.by = JO_SET_DEFAULT,
@@ -307,7 +307,7 @@ static bool visit_nested_path(const JoxScript *script, const JoxMachine *machine
                                             .unit = jox_parameters[parameter].unit});
         count = 1;
     }
-    if (!count && (!*rest || state_has_part(state, rest, parameter))) {
+    if (!count && to->visit && (!*rest || state_has_part(state, rest, parameter))) {
         jox_state_path(state, path);
         snprintf(full, sizeof full, "%.140s.%.100s", path, rest);
         count = add_enclosing_places(script, machine, full, to);
@@ -321,6 +321,8 @@ static bool visit_path(const JoxScript *script, const JoxMachine *machine, const
     char canonical[256];
     const char *within;
     const JoxState *nested = find_nested_state(machine, path, &within);
+    if (!nested && strncmp(path, "states.", 7) == 0)
+        nested = find_nested_state(machine, path + 7, &within);
     if (nested)
         return visit_nested_path(script, machine, nested, within, to);
     const char *rest = strchr(path, '.'), *last = strrchr(path, '.');
@@ -375,7 +377,11 @@ static bool find_written(const JoxLua *lua, const JoxMachine *machine, const cha
     const JoxScript *script = jox_lua_script(lua, machine);
     Settings to = {.scope = scope, .follows = follows};
     *out = (JoxWritten){0};
-    const bool found = script && add_all_places(script, machine, path, &to) > 0;
+    const char *rest;
+    const JoxState *nested =
+        strncmp(path, "states.", 7) == 0 ? find_nested_state(machine, path + 7, &rest) : NULL;
+    const bool found = script && (nested ? visit_nested_path(script, machine, nested, rest, &to)
+                                         : add_all_places(script, machine, path, &to) > 0);
     jox_kinds_free(to.kinds);
     if (!found || to.last.removes)
         return false;

@@ -111,7 +111,8 @@ typedef struct JoxWrote {
     bool is_memory;
     uint16_t machine, index; /* slot of memory, or parameter */
     JoxWriter by;
-    uint16_t state, transition; /* TRANSITION, STATE: the state, and a transition that leaves it */
+    uint16_t state, transition; /* TRANSITION, STATE: the state, and a transition that leaves it; an
+                                   outer state counts on from the others */
     uint32_t tick;
     char file[128]; /* FUNCTION: its file */
     int line;

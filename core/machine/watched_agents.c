@@ -51,6 +51,9 @@ void jox_machines_record_writer(JoxMachineRun *run, uint32_t i, const JoxWrote *
 /* Finds the transition or state that actions belong to. */
 static JoxWrote find_writer(const JoxMachine *machine, const JoxActions *actions) {
     JoxWrote wrote = {.is_memory = true, .by = JOX_WROTE_STATE};
+    for (uint32_t o = 0; o < machine->outer_count; o++)
+        if (&machine->outer[o].enters == actions)
+            wrote.state = (uint16_t)(machine->state_count + o);
     for (uint32_t s = 0; s < machine->state_count; s++) {
         const JoxState *state = &machine->states[s];
         if (&state->enters == actions)

@@ -121,14 +121,17 @@ static const JoxWrote *find_last_write(const Search *search, bool memory, uint32
 /* Adds a write by the `set` of a transition or of a state. */
 static void add_set_action(const Search *search, const JoxWrote *wrote, const char *name,
                            double time) {
-    const JoxState *state = &search->machine->states[wrote->state];
+    const JoxMachine *machine = search->machine;
+    const JoxState *state = wrote->state < machine->state_count
+                                ? &machine->states[wrote->state]
+                                : &machine->outer[wrote->state - machine->state_count];
     const bool taken = wrote->by == JOX_WROTE_TRANSITION;
     const JoxTransition *t = taken ? &state->transitions[wrote->transition] : NULL;
     char path[400], where[160];
     JoxWritten written;
     if (taken) {
         snprintf(path, sizeof path, "states.%.120s.@%.120s.set.%.100s", state->name, t->id, name);
-        snprintf(where, sizeof where, "to %.120s", search->machine->states[t->to].name);
+        snprintf(where, sizeof where, "to %.120s", jox_transition_leads_to(machine, t));
     } else {
         snprintf(path, sizeof path, "states.%.120s.set.%.100s", state->name, name);
         snprintf(where, sizeof where, "state %.120s", state->name);
