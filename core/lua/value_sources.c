@@ -258,10 +258,11 @@ static const JoxState *find_nested_state(const JoxMachine *machine, const char *
         const JoxState *state = s < machine->state_count
                                     ? &machine->states[s]
                                     : &machine->outer[s - machine->state_count];
-        char whole[256];
+        char whole[256], prefixed[256];
         jox_state_path(state, whole);
-        const char *const forms[] = {state->name, whole};
-        for (size_t k = 0; k < 2; k++) {
+        snprintf(prefixed, sizeof prefixed, "states.%.200s", state->name);
+        const char *const forms[] = {state->name, prefixed, whole};
+        for (size_t k = 0; k < sizeof forms / sizeof *forms; k++) {
             const size_t n = strlen(forms[k]);
             if (n <= longest || strncmp(path, forms[k], n) != 0 || (path[n] && path[n] != '.'))
                 continue;
@@ -321,8 +322,6 @@ static bool visit_path(const JoxScript *script, const JoxMachine *machine, const
     char canonical[256];
     const char *within;
     const JoxState *nested = find_nested_state(machine, path, &within);
-    if (!nested && strncmp(path, "states.", 7) == 0)
-        nested = find_nested_state(machine, path + 7, &within);
     if (nested)
         return visit_nested_path(script, machine, nested, within, to);
     const char *rest = strchr(path, '.'), *last = strrchr(path, '.');
@@ -378,8 +377,7 @@ static bool find_written(const JoxLua *lua, const JoxMachine *machine, const cha
     Settings to = {.scope = scope, .follows = follows};
     *out = (JoxWritten){0};
     const char *rest;
-    const JoxState *nested =
-        strncmp(path, "states.", 7) == 0 ? find_nested_state(machine, path + 7, &rest) : NULL;
+    const JoxState *nested = find_nested_state(machine, path, &rest);
     const bool found = script && (nested ? visit_nested_path(script, machine, nested, rest, &to)
                                          : add_all_places(script, machine, path, &to) > 0);
     jox_kinds_free(to.kinds);
