@@ -28,6 +28,7 @@ std = {
     "density",
     "count",
     "queued",
+    "left",
     "distance",
     "neighbours",
     "theirs",

@@ -113,6 +113,19 @@ static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spo
     return spot->found && jox_pass_distance(offset, jox_v2(spot->vx, spot->vy)) < (float)reach;
 }
 
+/* Returns the number of agents that left the world from a place, or from the members of a set. */
+static double count_left(const JoxMachineRun *run, int32_t index) {
+    const JoxPlace *place = index < 0 || !run->count_left ? NULL : &run->places[index];
+    if (!place)
+        return 0.0;
+    if (!jox_place_is_set(place))
+        return run->count_left(run->exits, place->name);
+    double sum = 0.0;
+    for (uint32_t m = 0; m < place->member_count; m++)
+        sum += run->count_left(run->exits, run->places[place->members[m]].name);
+    return sum;
+}
+
 /* Evaluates a word about a list in memory; `item` is the number that it may contain. */
 static double eval_list(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
                         const JoxInstruction *in, double item) {
@@ -209,6 +222,8 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
         return is_due(run, jox_time_in_state(run, i), a);
     case JOX_OP_SAME:
         return is_same_target(run, i, in);
+    case JOX_OP_LEFT:
+        return count_left(run, jox_target_place(run, i, in->place));
     case JOX_OP_QUEUED:
         place = jox_target_place(run, i, in->place);
         return place < 0 ? 0.0 : run->scratch->place_queue[place];

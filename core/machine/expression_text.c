@@ -169,7 +169,7 @@ bool jox_op_is_condition(JoxOp op) {
     return op >= JOX_OP_INSIDE && op != JOX_OP_NEIGHBOURS && op != JOX_OP_THEIRS &&
            op != JOX_OP_OF && op != JOX_OP_MESSAGE &&
            (op < JOX_OP_LIST_SIZE || op > JOX_OP_LIST_LAST) && op != JOX_OP_QUEUED &&
-           op != JOX_OP_PROGRAM_NUMBER && op != JOX_OP_OUTER_TIME;
+           op != JOX_OP_LEFT && op != JOX_OP_PROGRAM_NUMBER && op != JOX_OP_OUTER_TIME;
 }
 
 /* Prints one of the two texts of an instruction. */

@@ -73,7 +73,7 @@ typedef enum JoxNow {
    for the agent. MESSAGE: the value called names[arg] of the oldest such message; 0 if there is
    none. EVERY: the time in state has reached a multiple of a, s, in this step. LIST_HAS: memory
    `arg`, a list, contains a, or target; LIST_SIZE, LIST_FIRST, LIST_LAST: its length and items.
-   SHUT: a gate at place is closed, and the agent sees it. QUEUED: number of agents in the queue
+   SHUT: a gate at place is closed, and the agent sees it. LEFT: number of agents that left the world from `place`. QUEUED: number of agents in the queue
    `place`. OPEN: the gates called `name` are open. DONE: the machine that the outer state on level
    `arg` runs has ended. OUTER_AFTER, OUTER_LASTED, OUTER_TIME, OUTER_EVERY: AFTER, LASTED, the time
    in the state and EVERY, of the outer state whose clock is memory slot `arg`. Agents behind a wall
@@ -90,7 +90,7 @@ typedef enum JoxNow {
     X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(OF) X(EXISTS) X(SAME) X(TOLD)     \
     X(MESSAGE) X(EVERY) X(SHUT)                                                 \
     X(PROGRAM_NUMBER) X(PROGRAM_CONDITION)                                      \
-    X(QUEUED) X(OPEN) X(LIST_HAS) X(LIST_SIZE) X(LIST_FIRST) X(LIST_LAST) X(DONE) X(OUTER_AFTER) X(OUTER_LASTED) X(OUTER_TIME)      \
+    X(QUEUED) X(OPEN) X(LEFT) X(LIST_HAS) X(LIST_SIZE) X(LIST_FIRST) X(LIST_LAST) X(DONE) X(OUTER_AFTER) X(OUTER_LASTED) X(OUTER_TIME)      \
     X(OUTER_EVERY)
 /* clang-format on */
 

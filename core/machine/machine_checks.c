@@ -30,6 +30,7 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT(op != JOX_OP_MEMORY || (uint32_t)in->arg < m->memory_count);
     JOX_ASSERT((op != JOX_OP_PLACE_DENSITY && op != JOX_OP_PLACE_COUNT && op != JOX_OP_SHUT) ||
                in->place >= 0);
+    JOX_ASSERT(op != JOX_OP_LEFT || in->place >= 0);
     JOX_ASSERT((op != JOX_OP_QUEUED && op != JOX_OP_ARRIVED) || in->place >= 0);
     JOX_ASSERT((op != JOX_OP_TOLD && op != JOX_OP_MESSAGE) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));

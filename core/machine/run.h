@@ -240,6 +240,9 @@ typedef struct JoxMachineRun {
     JoIsa isa; /* instruction set of the kernels */
     /* Inputs, assigned by the world before each stage. */
     const JoxNeighbours *neighbours;
+    /* Returns how many agents left the world from a place, by its name; NULL: nobody counts. */
+    uint32_t (*count_left)(const void *exits, const char *place);
+    const void *exits;
     const JoxObjects *objects;
     const JoxPlace *places;
     uint32_t place_count;

@@ -18,6 +18,14 @@ struct JoxExit *jox_exits_get(JoxExits *exits, const char *name) {
     return exit;
 }
 
+uint32_t jox_exits_count(const void *exits, const char *place) {
+    const JoxExits *of = exits;
+    for (uint32_t e = 0; e < of->count; e++)
+        if (strcmp(of->items[e].name, place) == 0)
+            return of->items[e].people;
+    return 0;
+}
+
 void jox_exits_free(JoxExits *exits) {
     for (uint32_t e = 0; e < exits->count; e++)
         jox_free(exits->items[e].name);
@@ -113,7 +121,6 @@ void jox_world_empty_sinks(JoWorld *world) {
 
 void jox_exits_sections(JoxExits *exits, JoxSections *s) {
     jox_sections_module(s, "exits");
-    jox_sections_unhashed(s, true);
     JOX_SECTION(s, "left", exits->left);
     JOX_SECTION(s, "last", exits->last);
     const size_t count = jox_section_count(s, "count", exits->count, 1);
@@ -129,5 +136,4 @@ void jox_exits_sections(JoxExits *exits, JoxSections *s) {
         JOX_SECTION(s, "people", exits->items[e].people);
         JOX_SECTION(s, "last_here", exits->items[e].last);
     }
-    jox_sections_unhashed(s, false);
 }

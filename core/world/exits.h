@@ -27,6 +27,8 @@ typedef struct JoxExits {
 } JoxExits;
 /* Returns the exit of a name, added if new. */
 struct JoxExit *jox_exits_get(JoxExits *exits, const char *name);
+/* Returns how many agents left by the exit of a name; `exits` is a JoxExits. */
+uint32_t jox_exits_count(const void *exits, const char *place);
 void jox_exits_free(JoxExits *exits);
 
 /* Sets the sinks of a world, in place of those before. The caller keeps them until they are
@@ -34,7 +36,7 @@ void jox_exits_free(JoxExits *exits);
 void jox_world_set_sinks(JoWorld *world, const JoxAgentSink *sinks, uint32_t count);
 /* After a step: removes agents in sinks, at every fourth step, and counts all that left. */
 void jox_world_empty_sinks(JoWorld *world);
-/* Lists the counts; no step reads them, so that they are not hashed. */
+/* Lists the counts. */
 void jox_exits_sections(JoxExits *exits, JoxSections *sections);
 
 #endif

@@ -31,6 +31,8 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     bodies.lost = def->lost_bodies;
     world->state.bodies = jox_bodies_create(&bodies);
     world->machines.set = &world->model.machines;
+    world->machines.count_left = jox_exits_count;
+    world->machines.exits = &world->state.exits;
     world->machines.state = &world->state.machines;
     world->machines.agents = &world->state.agents;
     world->machines.seed = def->seed;

@@ -93,7 +93,7 @@ typedef struct JoxWorldState {
     size_t added_capacity;
     bool walls_applied; /* scratch.walls, images, nav, forces and bodies agree with all_walls */
     bool has_new_walls; /* some edges are marked as new: agents may stand in them */
-    JoxExits exits;     /* figures, which no step reads */
+    JoxExits exits;     /* which the machines' word `left` reads */
     JoxStatistics statistics; /* likewise */
 } JoxWorldState;
 

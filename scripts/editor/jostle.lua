@@ -581,6 +581,11 @@ function count(place) end
 ---@return jostle.Number
 function queued(queue) end
 
+--- `left(place)`: number of people who have left the world from this place, the smallest one in which they stood
+---@param place jostle.Place
+---@return jostle.Number
+function left(place) end
+
 --- `distance(target)` in m: distance to the target; 0 in a place, infinite if there is no such target
 ---@param target jostle.AnyTarget
 ---@return jostle.Number

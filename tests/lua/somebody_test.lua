@@ -159,3 +159,21 @@ test("messages wait in order, and of more than 16 the oldest goes", function()
   equal(deaf.n, 16)
   equal(deaf.last, 18)
 end)
+
+test("left counts who went from a place, wherever the agent is", function()
+  local leaver = [[return machine { name = "leaver", start = "Go", states = {
+    Go = { steer = seek(own.way), { to = "Gone", when = inside(own.way) } }, Gone = { removes = true } } }]]
+  local guard = [[local mine = memory { both = 0 }
+    return machine { name = "guard", start = "Wait", defaults = { perception = 1 }, states = {
+      Wait = { steer = hold,
+        { to = "Done", when = left("east"):at_least(2) & left("west"):is(1), set = { both = left "ways" } } },
+      Done = { steer = hold } } }]]
+  local s = scene {
+    places = { east = { polygon = { { 5, -2 }, { 8, -2 }, { 8, 2 }, { 5, 2 } } },
+      west = { polygon = { { -8, -2 }, { -5, -2 }, { -5, 2 }, { -8, 2 } } }, ways = { set = { "east", "west" } } },
+    groups = { guard = { behaviour = guard, at = { { 0, 20 } } },
+      east = { behaviour = leaver, at = { { 2, 0 }, { 2, 1 } }, set = { way = "east" } },
+      west = { behaviour = leaver, at = { { 0, -1 } }, set = { way = "west" } } } }
+  s:reaches("Done", { agents = "guard", within = 12 })
+  equal(s:agents("guard")[1].both, 3)
+end)

@@ -83,6 +83,8 @@ const JoxWord jox_words[] = {
      "count \"yard\""},
     {"queued", "p", NUMBER, JOX_OP_QUEUED, 0, "queued(queue)", "",
      "number of people who steer in the queue, also those on their way to their place in it", "queued \"row\""},
+    {"left", "p", NUMBER, JOX_OP_LEFT, 0, "left(place)", "",
+     "number of people who have left the world from this place, the smallest one in which they stood", "left \"post\""},
     {"distance", "t", NUMBER, JOX_OP_DISTANCE, 0, "distance(target)", "m",
      "distance to the target; 0 in a place, infinite if there is no such target", "distance \"post\""},
     {"neighbours", "g", NUMBER, JOX_OP_NEIGHBOURS, 0, "neighbours(tag)", "",
