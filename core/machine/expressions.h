@@ -73,11 +73,12 @@ typedef enum JoxNow {
    for the agent. MESSAGE: the value called names[arg] of the oldest such message; 0 if there is
    none. EVERY: the time in state has reached a multiple of a, s, in this step. LIST_HAS: memory
    `arg`, a list, contains a, or target; LIST_SIZE, LIST_FIRST, LIST_LAST: its length and items.
-   SHUT: a gate at place is closed, and the agent sees it. LEFT: number of agents that left the world from `place`. QUEUED: number of agents in the queue
-   `place`. OPEN: the gates called `name` are open. DONE: the machine that the outer state on level
-   `arg` runs has ended. OUTER_AFTER, OUTER_LASTED, OUTER_TIME, OUTER_EVERY: AFTER, LASTED, the time
-   in the state and EVERY, of the outer state whose clock is memory slot `arg`. Agents behind a wall
-   are not seen, heard or touched. */
+   SHUT: a gate at place is closed, and the agent sees it. LEFT: number of agents that left the
+   world from `place`. QUEUED: number of agents in the queue `place`. OPEN: the gates called `name`
+   are open. DONE: the machine that the outer state on level `arg` runs has ended. OUTER_AFTER,
+   OUTER_LASTED, OUTER_TIME, OUTER_EVERY: AFTER, LASTED, the time in the state and EVERY, of the
+   outer state whose clock is memory slot `arg`. Agents behind a wall are not seen, heard or
+   touched. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
