@@ -153,7 +153,8 @@ static const struct Inherited {
     PART("kick", kick_speed),     PART("kick", kick_lift),
     PART("throw", toss),          PART("throw", toss_at),
     PART("throw", toss_speed),    PART("take", take),
-    PART("grasp", grasp),         PART("grasp", grip),
+    PART("drop", drop),           PART("grasp", grasp),
+    PART("grasp", grip),
 #undef PART
 };
 

@@ -242,6 +242,20 @@ void jox_heard_check(const JoxMachineRun *run) {
         JOX_ASSERT(s->everywhere[k] < run->set->name_count);
 }
 
+/* Returns the first broken condition of some messages; those that wait are sorted by receiver. */
+static const char *messages_fault(const JoxMachineRun *run, const JoxMessage *messages,
+                                  uint32_t count, bool sorted) {
+    for (uint32_t n = 0; n < count; n++) {
+        const JoxMessage *message = &messages[n];
+        JOX_MUST(message->name < run->set->name_count && message->count <= JOX_MOST_CARRIED);
+        JOX_MUST(message->from < run->agents->next_id && message->to < run->agents->next_id);
+        JOX_MUST(!sorted || n == 0 || message[-1].to <= message->to);
+        for (uint32_t v = 0; v < message->count; v++)
+            JOX_MUST(message->names[v] < run->set->name_count && isfinite(message->values[v]));
+    }
+    return NULL;
+}
+
 const char *jox_signals_fault(const JoxMachineRun *run) {
     const JoxMachineState *state = run->state;
     for (uint32_t n = 0; n < state->called_count; n++) {
@@ -251,7 +265,8 @@ const char *jox_signals_fault(const JoxMachineRun *run) {
     }
     for (uint32_t n = 0; n < state->announced_count; n++)
         JOX_MUST(state->announced[n] < run->set->name_count);
-    return NULL;
+    const char *fault = messages_fault(run, state->sent, state->sent_count, false);
+    return fault ? fault : messages_fault(run, state->waiting, state->waiting_count, true);
 }
 
 /* Returns the first broken condition of an agent's own values and memory. Cells beyond the

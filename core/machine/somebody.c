@@ -1,18 +1,26 @@
 /* Somebody as a number (JOX_WHO_BODY in target_kinds.h): which agent, body or place it means, whom
    an agent holds, who struck it, and where somebody is. Targets are resolved in target.c. */
+#include <math.h>
+
 #include "agents/torso.h"
 #include "base/mem.h"
 #include "machine/machine_parts.h"
 
+/* Returns whether a number is a whole one from `first` on, and 32 bits hold its distance from that.
+ */
+static bool is_within_ids(double who, double first) {
+    return who >= first && who <= first + UINT32_MAX && who == floor(who);
+}
+
 uint32_t jox_who_agent(const JoxMachineRun *run, double who) {
-    if (!(who >= 1.0 && who <= JOX_WHO_BODY))
+    if (!is_within_ids(who, 1.0))
         return JOX_NO_INDEX;
     const uint32_t i = jox_agents_find(run->agents, (uint32_t)(who - 1.0));
     return i == JOX_NO_INDEX || run->agents->removed[i] ? JOX_NO_INDEX : i;
 }
 
 int32_t jox_who_row(const JoxMachineRun *run, double who) {
-    if (!(who >= JOX_WHO_BODY && who < JOX_WHO_PLACE) || !run->objects)
+    if (!is_within_ids(who, JOX_WHO_BODY) || !run->objects)
         return -1;
     const uint32_t id = (uint32_t)(who - JOX_WHO_BODY);
     for (uint32_t o = 0; o < run->objects->count; o++)
@@ -22,7 +30,7 @@ int32_t jox_who_row(const JoxMachineRun *run, double who) {
 }
 
 int32_t jox_who_place(const JoxMachineRun *run, double who) {
-    return who >= JOX_WHO_PLACE && who < JOX_WHO_PLACE + run->place_count
+    return is_within_ids(who, JOX_WHO_PLACE) && who < JOX_WHO_PLACE + run->place_count
                ? (int32_t)(who - JOX_WHO_PLACE)
                : -1;
 }

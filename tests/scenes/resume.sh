@@ -26,6 +26,23 @@ goes_on "doors upon their paths" scenes/train-doors.yaml 2 "9.6 14.5"
 goes_on "events and gates" scenes/gates.yaml 4 "9"
 goes_on "messages that wait, and whom people hold" scenes/drill.yaml 8 "32 54 71"
 goes_on "whom people chase, and where they saw them" scenes/pickpocket.yaml 3 "6 19"
+cat >"$work/teller.lua" <<'END'
+-- Names of messages that functions make up, and of their values.
+local mine = memory { sum = 0, met = list(4, nobody), last = nobody }
+return machine { name = "teller", version = 1, start = "Walk", defaults = { perception = 9 }, states = {
+  Walk = { steer = wander(),
+    { every = 0.4, when = sees(nearest "anyone"), on_take = function(me)
+        local name = "call" .. math.random(5)
+        me.tell(me.neighbours[1], name, { ["value" .. math.random(3)] = me.x, who = me.neighbours[2] })
+      end },
+    { every = 3, set = { met = mine.met:push(nearest "anyone"), last = best("anyone", other.speed) },
+      on_take = function(me)
+        local call = me.told("call" .. math.random(5))
+        if call then me.sum = me.sum + (call.value1 or 0) + (call.value2 or 0) + 1 end
+      end } } } }
+END
+printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\nwalls: [{line: [[0, 0], [9, 0], [9, 9], [0, 9]], closed: true}]\ngroups: {g: {behaviour: teller.lua, count: 20, fill: random, in: yard}}\n' >"$work/teller.yaml"
+goes_on "messages whose names functions make up" "$work/teller.yaml" 2 "4.3 9"
 goes_on "a mod" scenes/tawaf.yaml 1 "2.5" --set groups.pilgrims.count=300 --mod scenes/mods/rough
 
 # ---- from the texts that it holds, anywhere ----
