@@ -51,7 +51,7 @@ static void send_graph(int to, const char *text) {
    could not be started. */
 static int run_dot(const char *graph, const char *format, int output, char *why, size_t size) {
     int input[2], errors[2], status = 0;
-    pid_t child = -1, ended;
+    pid_t child = -1, ended = -1;
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0)
         return errno;
     int failure = pipe2(errors, O_CLOEXEC) == 0 ? 0 : errno;
@@ -67,9 +67,8 @@ static int run_dot(const char *graph, const char *format, int output, char *why,
         jox_plot_read_last_output(errors[0], child, PATIENCE, why, size);
         close(errors[0]);
     }
-    do
-        ended = child > 0 ? waitpid(child, &status, 0) : -1;
-    while (ended < 0 && child > 0 && errno == EINTR);
+    while (child > 0 && (ended = waitpid(child, &status, 0)) < 0 && errno == EINTR)
+        ;
     return failure ? failure : ended > 0 && status == 0 ? 0 : -1;
 }
 

@@ -20,8 +20,8 @@ void jox_view_push_memory(lua_State *L, JoxScript *script, const JoxMachine *mac
                           const double *memory, int32_t slot);
 /* Sets memory that is a list to the items of the table at a stack index; raises an error if they do
    not fit. */
-void jox_view_set_list(lua_State *L, const JoxScript *script, double *memory, int32_t slot,
-                       int index);
+void jox_view_set_list(lua_State *L, const JoxScript *script, double *memory, int32_t index,
+                       int at);
 /* Returns the value at a stack index as memory of the slot's kind; raises an error if it has
    another. */
 double jox_view_check_memory(lua_State *L, const JoxScript *script, const JoxMemorySlot *slot,
