@@ -273,6 +273,11 @@ static void read_tell(JoxBuild *b, int index, const char *path, JoxActions *acti
                             "tell needs the name of the message as its second item");
         lua_pop(L, 1);
         for (const char *key = NULL; (key = find_next_key(L, table, key));) {
+            if (strcmp(key, "sender") == 0) {
+                jox_build_error(b, jox_read_at(b, full), "bad-key", "Give the value another name",
+                                "`sender` is who told the message");
+                break;
+            }
             if (tell.count == JOX_MOST_CARRIED || strlen(key) > 60) {
                 jox_build_error(b, jox_read_at(b, full), "too-many", NULL,
                                 "a message carries at most %d values, with names of at most 60 "

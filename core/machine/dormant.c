@@ -26,7 +26,7 @@ static const char *find_old_identity(const JoxMachine *old, const JoxMachine *ne
         jox_name_before(old, next, state ? JOX_PART_STATE : JOX_PART_MEMORY, owner ? owner : is);
     if (!owner || strlen(before) > 250)
         return before;
-    snprintf(buffer, 256, "%c%s", *is, before);
+    snprintf(buffer, 256, "%.*s%s", (int)(owner - is), is, before);
     return buffer;
 }
 

@@ -215,7 +215,7 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
         return jox_message_find(run, i, machine->names[in->name].number) != NULL;
     case JOX_OP_MESSAGE:
         return jox_message_value(jox_message_find(run, i, machine->names[in->name].number),
-                                 machine->names[in->arg].number);
+                                 machine->names[in->arg].number, false);
     case JOX_OP_OUTER_EVERY:
         return is_due(run, jox_time_since(run, i, (uint32_t)in->arg), a);
     case JOX_OP_EVERY:

@@ -43,9 +43,9 @@ const JoxMessage *jox_message_take(JoxMachineRun *run, uint32_t agent, uint32_t 
     return message;
 }
 
-double jox_message_value(const JoxMessage *message, uint32_t name) {
+double jox_message_value(const JoxMessage *message, uint32_t name, bool somebody) {
     for (uint32_t v = 0; message && v < message->count; v++)
-        if (message->names[v] == name)
+        if (message->names[v] == name && (message->somebody >> v & 1) == somebody)
             return message->values[v];
     return 0.0;
 }

@@ -156,8 +156,9 @@ const JoxSpot *jox_target_considered(void);
    not there. */
 double jox_target_measure(const JoxMachineRun *run, uint32_t agent, int32_t index, JoxNow what);
 
-/* Returns the value of a message by the number of its name; 0 if it has none. */
-double jox_message_value(const JoxMessage *message, uint32_t name);
+/* Returns the value of a message by the number of its name, a number or somebody; 0 if it has no
+   such value, or one of the other kind. */
+double jox_message_value(const JoxMessage *message, uint32_t name, bool somebody);
 /* tell.c: tells a message. */
 void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell, uint32_t agent);
 /* Delivers what was told since the last step, and drops what was used. */

@@ -122,7 +122,7 @@ static double find_message_who(const JoxMachineRun *run, const JoxTarget *target
     if (!message)
         return JOX_NOBODY;
     return target->field < 0 ? 1.0 + message->from
-                             : jox_message_value(message, names[target->field].number);
+                             : jox_message_value(message, names[target->field].number, true);
 }
 
 /* Returns whom a target means that names somebody and does not choose. */

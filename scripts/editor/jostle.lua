@@ -551,7 +551,7 @@ function sees(target) end
 ---@return jostle.Condition
 function heard(name, metres) end
 
---- `told(name)`: a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; told(name).VALUE a value that it carries, a number, or a target where one is wanted. It waits until an item is taken whose `when` rests on it; of several the oldest is meant. At most 16 messages wait for an agent; then the oldest goes, and the run says so
+--- `told(name)`: a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; told(name).VALUE a value that it carries, a number, or a target where one is wanted (0, or nobody, if it carries the other). It waits until an item is taken whose `when` rests on it; of several the oldest is meant. At most 16 messages wait for an agent; then the oldest goes, and the run says so
 ---@param name string
 ---@return jostle.Message
 function told(name) end

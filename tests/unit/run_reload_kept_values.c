@@ -175,6 +175,35 @@ static void memory_is_kept_by_name_and_type(void **state) {
     jo_scene_free(scene);
 }
 
+/* Lists, whom memory holds, and where it was seen last; the memory moves, and a list is renamed. */
+static void lists_and_people_are_kept(void **state) {
+    (void)state;
+    static const char BEFORE[] =
+        "local mine = memory { times = list(3), met = list(2, nobody), prey = nobody, ok = 0 "
+        "}\n" MACHINE_START "\"A\", defaults = { perception = 20 }, states = {\n"
+        "  A = { steer = hold + seek(last_seen(mine.prey)), { to = \"B\", when = after(0.1), set = "
+        "{\n"
+        "    times = mine.times:push(5), met = mine.met:push(nearest \"anyone\"),\n"
+        "    prey = nearest \"anyone\" } } },\n"
+        "  B = { steer = hold, { to = \"C\", when = after(0.1),\n"
+        "    set = { times = mine.times:push(7) } } }, C = { steer = hold } } }\n";
+    static const char AFTER[] =
+        "local mine = memory { first = 1, hours = list(3), met = list(2, nobody), ok = 0,\n"
+        "  prey = nobody }\n" MACHINE_START
+        "\"A\", renamed = { times = \"hours\" }, defaults = { perception = 20 }, states = {\n"
+        "  A = { steer = seek(last_seen(mine.prey)) }, B = { steer = hold },\n"
+        "  C = { steer = hold, { when = mine.hours.size:is(2) & mine.hours.first:is(5)\n"
+        "    & mine.hours.last:is(7) & exists(mine.met.first) & same(mine.met.first, mine.prey)\n"
+        "    & distance(last_seen(mine.prey)):above(0), set = { ok = 1 } } } } }\n";
+    JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(5), BEFORE);
+    step_scene(scene, 8);
+    assert_true(reload_behaviour(scene, 0, AFTER));
+    step_scene(scene, 2);
+    for (uint32_t i = 0; i < 5; i++)
+        assert_true(read_memory_value(scene, i, "ok") == 1.0);
+    jo_scene_free(scene);
+}
+
 static const char TWO_GROUPS[] =
     YARD_SCENE("groups:\n"
                "  free: {behaviour: own.lua, count: 50, fill: grid, in: yard}\n"
@@ -327,6 +356,7 @@ int main(void) {
         cmocka_unit_test(renamed_memory_and_own_values_keep_their_numbers),
         cmocka_unit_test(removing_a_state_with_people_is_refused),
         cmocka_unit_test(memory_is_kept_by_name_and_type),
+        cmocka_unit_test(lists_and_people_are_kept),
         cmocka_unit_test(new_distribution_applies_to_present_agents),
         cmocka_unit_test(own_values_are_kept_by_name),
         cmocka_unit_test(values_at_another_index_are_kept),

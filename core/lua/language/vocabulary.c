@@ -67,7 +67,7 @@ const JoxWord jox_words[] = {
      "heard(\"alarm\", 10)"},
     {"told", "s", CONDITION, JOX_OP_TOLD, 0, "told(name)", "",
      "a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; "
-     "told(name).VALUE a value that it carries, a number, or a target where one is wanted. It waits until an item "
+     "told(name).VALUE a value that it carries, a number, or a target where one is wanted (0, or nobody, if it carries the other). It waits until an item "
      "is taken whose `when` rests on it; of several the oldest is meant. At most 16 messages wait for an agent; then the oldest goes, and the run says so", "told \"shot\""},
     {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
      "a gate at the place, or within 0.5 m of it, is closed, and the agent sees it: within "
