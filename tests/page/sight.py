@@ -57,7 +57,8 @@ def first_tab(browser):
     """the first tab says what this is, what to try and how it stands; nobody is chosen"""
     def test():
         expect(browser.run("return page.panel.front") == "scene", "another tab is in front")
-        expect(not browser.find("#tab-agent").is_enabled(), "a page of a person can be opened, and nobody is chosen")
+        expect(browser.run("return page.slot") is None, "somebody is chosen")
+        expect(browser.find("#tab-agent").is_enabled(), "nobody can be found by id, state or group")
         text = browser.wait("const t = document.getElementById('page-scene').innerText; return /second/.test(t) && t", "no exits")
         expect("two gaps" in text, f"what it shows is not said: {text[:120]!r}")
         people, said = browser.run("""const cells = [...document.querySelectorAll('#page-scene dt')];
