@@ -137,15 +137,16 @@ static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
     if (!t->stays && count > 1)
         snprintf(prefix, sizeof prefix, "%u. ", number);
     g->margin = t->stays ? "&#160;&#160;&#160;" : "";
-    const bool written = add_transition_key(g, from, t, prefix, "when");
-    const bool every = add_transition_key(g, from, t,
-                                          written    ? "every "
-                                          : t->stays ? "if every "
-                                                     : "every ",
-                                          "every");
+    const bool over = !t->stays && (t->when >= 0 || t->when_hook >= 0) && t->level == from->depth &&
+                      is_step(g->machine, from);
+    const bool written = !over && add_transition_key(g, from, t, prefix, "when");
+    const bool every = !over && add_transition_key(g, from, t,
+                                                   written    ? "every "
+                                                   : t->stays ? "if every "
+                                                              : "every ",
+                                                   "every");
     if (!written && !every) {
         const bool always = t->when < 0 && t->when_hook < 0;
-        const bool over = !always && !t->stays && is_step(g->machine, from);
         snprintf(text, sizeof text, "%s%s", prefix,
                  over       ? "when it is over"
                  : !always  ? "a condition built here"
