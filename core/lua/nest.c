@@ -320,7 +320,7 @@ void jox_nest_read(JoxBuild *b) {
     lua_State *L = b->script->vm.L;
     for (uint32_t n = 0; n < b->nested_count; n++)
         read_nested(b, n);
-    for (uint32_t n = b->nested_count; n-- > 0;) { /* those within others first */
+    for (uint32_t n = b->nested_count; n-- > 0;) { /* inner machines first */
         lua_rawgeti(L, LUA_REGISTRYINDEX, b->nested[n].table);
         read_start_state(b, lua_gettop(L), n);
         lua_pop(L, 1);

@@ -247,7 +247,7 @@ static void report_unknown_state(JoxBuild *b, const char *path, const char *to) 
             names[count++] = name + n;
     }
     const char *near = jox_did_you_mean(to, names, count, hint);
-    if (b->nest > 0 && jox_machine_entry(m, to) >= 0) /* of the behaviour that runs this machine */
+    if (b->nest > 0 && jox_machine_entry(m, to) >= 0) /* a state of the outer machine */
         near = "A machine that a state runs knows its own states: end it by a state with `ends = "
                "true`, and ask `done` around it";
     jox_build_error(b, jox_read_at(b, path), "unknown-state", near, "there is no state '%s'", to);

@@ -12,11 +12,11 @@ typedef struct JoxNested {
     int table;       /* registry reference of its table */
     int32_t outer;   /* index of the outer state that runs it; -1: the behaviour's own */
     uint32_t parent; /* number of the machine that has this state */
-    char path[256];  /* of its table: "states.Guard.runs" */
+    char path[256];  /* path of its table: "states.Guard.runs" */
     int32_t source;  /* number of the source that writes it; -1 unknown */
     char root[24];   /* its path in the outline of that source */
-    int steps;       /* of a sequence: registry reference, see JoxNode; else 0 */
-    /* Its defaults, of those that no machine around it sets; UNSET: it has none. */
+    int steps;       /* for a sequence: registry reference, see JoxNode; else 0 */
+    /* Defaults that no machine around it sets; UNSET: it has none. */
     bool is_set[JOX_PARAM_COUNT]; /* by it or a machine around it */
     JoxValue defaults[JOX_PARAM_COUNT];
 } JoxNested;

@@ -275,6 +275,15 @@ static const JoxState *find_nested_state(const JoxMachine *machine, const char *
     return nested ? found : NULL;
 }
 
+/* Visits the engine's default of a parameter. */
+static void visit_engine_default(int parameter, const Settings *to) {
+    char number[32];
+    snprintf(number, sizeof number, "%g", jox_parameters[parameter].value);
+    to->visit(to->context, &(JoSetting){.by = JO_SET_DEFAULT,
+                                        .value = number,
+                                        .unit = jox_parameters[parameter].unit});
+}
+
 /* Visits the places of a key or transition of a state within outer ones: its own; else those of the
    nearest outer state around it that sets it; else those of defaults, of the machine first. */
 static bool visit_nested_path(const JoxScript *script, const JoxMachine *machine,
@@ -301,11 +310,7 @@ static bool visit_nested_path(const JoxScript *script, const JoxMachine *machine
         count = add_all_places(script, machine, full, to);
     }
     if (!count && parameter >= 0 && to->visit) {
-        char number[32];
-        snprintf(number, sizeof number, "%g", jox_parameters[parameter].value);
-        to->visit(to->context, &(JoSetting){.by = JO_SET_DEFAULT,
-                                            .value = number,
-                                            .unit = jox_parameters[parameter].unit});
+        visit_engine_default(parameter, to);
         count = 1;
     }
     if (!count && to->visit && (!*rest || state_has_part(state, rest, parameter))) {
@@ -352,11 +357,7 @@ static bool visit_path(const JoxScript *script, const JoxMachine *machine, const
             count = add_enclosing_places(script, machine, canonical, to);
     }
     if (!count) {
-        char number[32];
-        snprintf(number, sizeof number, "%g", jox_parameters[parameter].value);
-        to->visit(to->context, &(JoSetting){.by = JO_SET_DEFAULT,
-                                            .value = number,
-                                            .unit = jox_parameters[parameter].unit});
+        visit_engine_default(parameter, to);
         count = 1;
     }
     return true;

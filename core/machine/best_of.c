@@ -35,14 +35,14 @@ static uint32_t list_agents(const JoxMachineRun *run, const JoxTarget *target, u
         found[at] = moving;
     }
     for (uint32_t n = 0; n < count; n++)
-        candidates[n] = jox_who_spot(run, i, 1.0 + a->id[found[n]]);
+        candidates[n] = jox_spot_agent(run, i, found[n]);
     return count;
 }
 
 JoxSpot jox_find_best(const JoxMachineRun *run, uint32_t i, const JoxTarget *target) {
     const JoxExpression *score = &jox_machine_of(run, i)->expressions[target->score - 1];
     JoxSpot candidates[JOX_SMALL_CROWD];
-    Best best = {.spot = {.place = -1, .object = -1, .agent = JOX_NO_INDEX}};
+    Best best = {.spot = JOX_NO_SPOT};
     uint32_t count = list_agents(run, target, i, candidates);
     choose_best(run, i, score, candidates, count, &best);
     count = 0;
@@ -50,7 +50,7 @@ JoxSpot jox_find_best(const JoxMachineRun *run, uint32_t i, const JoxTarget *tar
         if (!jox_is_wanted_body(run, target, i, &run->objects->rows[o]) ||
             !jox_sees_body(run, i, o))
             continue;
-        candidates[count++] = jox_who_spot(run, i, JOX_WHO_BODY + run->objects->rows[o].id);
+        candidates[count++] = jox_spot_body(&run->objects->rows[o], (int32_t)o);
         if (count == JOX_SMALL_CROWD) {
             choose_best(run, i, score, candidates, count, &best);
             count = 0;

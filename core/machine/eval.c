@@ -144,12 +144,6 @@ static bool is_same_target(const JoxMachineRun *run, uint32_t i, const JoxInstru
     return who != JOX_NOBODY && who == jox_target_who(run, i, in->place);
 }
 
-/* Returns whether the time in state has reached a multiple of `every`, s, in this step. */
-static bool is_due(const JoxMachineRun *run, double time, double every) {
-    return time > 0.0 && every > 0.0 &&
-           floor(time / every + 1e-9) > floor((time - run->dt) / every + 1e-9);
-}
-
 /* Evaluates a word about the agent's surroundings; `a` is the first input. */
 static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
                                 const JoxInstruction *in, double a) {
@@ -217,9 +211,9 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
         return jox_message_value(jox_message_find(run, i, machine->names[in->name].number),
                                  machine->names[in->arg].number, false);
     case JOX_OP_OUTER_EVERY:
-        return is_due(run, jox_time_since(run, i, (uint32_t)in->arg), a);
+        return jox_is_interval_over(jox_time_since(run, i, (uint32_t)in->arg), run->dt, a);
     case JOX_OP_EVERY:
-        return is_due(run, jox_time_in_state(run, i), a);
+        return jox_is_interval_over(jox_time_in_state(run, i), run->dt, a);
     case JOX_OP_SAME:
         return is_same_target(run, i, in);
     case JOX_OP_LEFT:

@@ -122,7 +122,7 @@ typedef struct JoxActions {
 typedef struct JoxTransition {
     char *id;
     uint16_t
-        to; /* of a reaction: its own state; with `back`: state if there is none to go back to */
+        to; /* next state; its own for a reaction; with `back`: if there is none to go back to */
     bool stays;    /* it is a reaction */
     bool back;     /* leads to the state that was left for the present one */
     uint8_t level; /* number of outer states around the state that lists it, which it leaves */
@@ -146,7 +146,7 @@ typedef struct JoxState {
     char *name;                       /* of a state within an outer one: "Guard.Walk" */
     uint8_t depth;                    /* number of outer states around it */
     uint16_t around[JOX_MOST_LEVELS]; /* their indices in JoxMachine.outer, outermost first */
-    uint16_t start;                   /* of an outer state: state in which its machine begins */
+    uint16_t start;                   /* for an outer state: where its machine begins */
     bool ends;                        /* the machine that has this state ends in it */
     uint8_t done;         /* bit per level of an outer state around it: its machine has ended */
     int8_t goal_level;    /* level of the state from which it has a target "one of" */
@@ -242,8 +242,7 @@ typedef struct JoxMemorySlot {
     bool dormant;   /* hidden because this version lacks a name that an earlier one had */
     JoxMemoryKind kind;
     double initial;
-    uint32_t capacity, items; /* of a list: greatest length, and the slot of its first item; the
-                                 others follow */
+    uint32_t capacity, items; /* for a list: greatest length, and the slot of its first item */
     bool is_public;           /* other machines may read it */
     uint32_t name_number;     /* number of the name in the set of machines, if is_public */
 } JoxMemorySlot;

@@ -2,6 +2,8 @@
 #ifndef JOX_MACHINE_MACHINE_PARTS_H
 #define JOX_MACHINE_MACHINE_PARTS_H
 
+#include <math.h>
+
 #include "geom/hand_reach.h"
 #include "machine/run.h"
 
@@ -109,6 +111,11 @@ static const JoxSpot JOX_NO_SPOT = {.place = -1, .object = -1, .agent = JOX_NO_I
 
 static inline const JoxMachine *jox_machine_of(const JoxMachineRun *run, uint32_t agent) {
     return run->set->items[run->agents->machine[agent]];
+}
+/* Returns whether a time since `time - dt` has reached a multiple of an interval, s; never at 0. */
+static inline bool jox_is_interval_over(double time, double dt, double every) {
+    return time > 0.0 && every > 0.0 &&
+           floor(time / every + 1e-9) > floor((time - dt) / every + 1e-9);
 }
 static inline double jox_time_in_state(const JoxMachineRun *run, uint32_t agent) {
     return (double)(run->tick - run->agents->entered[agent]) * run->dt;

@@ -289,7 +289,7 @@ typedef struct JoxMachineRun {
     bool traces;         /* explain transitions of agent trace_id in `trace` */
     uint32_t trace_id;
     JoxText trace;
-    struct JoxTraceTerms *trace_terms; /* what the traced agent waits for (trace.c) */
+    struct JoxTraceTerms *trace_terms; /* terms that the traced agent waits for (trace.c) */
     JoxWatched *watched;               /* owned by the world */
     uint32_t watched_count;
 

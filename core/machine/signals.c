@@ -62,12 +62,10 @@ static int32_t find_repeated_signal(const JoxMachineRun *run, const JoxMachine *
                                     uint32_t level) {
     const JoxState *state = &machine->states[run->agents->state[i]];
     const JoxState *on = jox_state_on_level(machine, state, level);
-    const double every = on->signal_every;
-    if (!(every > 0.0))
+    if (!(on->signal_every > 0.0))
         return -1;
     const double time = jox_time_on_level(run, machine, i, level);
-    const bool due = floor(time / every + 1e-9) > floor((time - run->dt) / every + 1e-9);
-    return due && time > 0.0 ? on->enters.signal : -1;
+    return jox_is_interval_over(time, run->dt, on->signal_every) ? on->enters.signal : -1;
 }
 
 static bool repeats_signals(const JoxMachine *machine, const JoxState *state) {
@@ -119,13 +117,13 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
                         : jox_value(run, machine, &actions->set[n].value, i);
     for (uint32_t n = 0; n < actions->set_count; n++) {
         const struct JoxAssign *assign = &actions->set[n];
-        if (assign->change != JOX_LIST_NONE)
-            jox_list_change(machine, a->memory + (size_t)i * a->memory_stride, assign->slot,
-                            assign->change, values[n]);
-        else if (isfinite(values[n]))
-            a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = values[n];
-        else
+        double *memory = a->memory + (size_t)i * a->memory_stride;
+        if (!isfinite(values[n]))
             jox_odd_note(run, i, JOX_ACTION_MEMORY + assign->slot, &assign->value, values[n]);
+        else if (assign->change != JOX_LIST_NONE)
+            jox_list_change(machine, memory, assign->slot, assign->change, values[n]);
+        else
+            memory[assign->slot] = values[n];
     }
     jox_sightings_note_agent(run, i);
     if (run->watched_count)

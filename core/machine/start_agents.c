@@ -111,7 +111,7 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
         draw_own(run, agent, s, overrides_slot(own, s) ? own[s] : &kind->own[s].dist);
     for (uint32_t s = kind->own_count; s < a->own_count; s++)
         jox_own_set(a, agent, s, 0.0);
-    for (uint32_t s = 0; s < kind->own_count; s++) /* what the scene gives holds in all states */
+    for (uint32_t s = 0; s < kind->own_count; s++) /* values of the scene hold in all states */
         if (kind->own[s].general && overrides_slot(own, kind->own[s].general - 1))
             jox_own_set(a, agent, s, jox_own(a, agent, kind->own[s].general - 1));
     for (uint32_t s = 0; s < kind->memory_count; s++) {

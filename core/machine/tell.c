@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/sort.h"
 #include "machine/machine_parts.h"
 
 static JoxMessage *add_sent(JoxMachineState *state, const JoxMessage *message) {
@@ -85,23 +86,10 @@ static bool is_deliverable(JoxMachineRun *run, const JoxMessage *message) {
     return false;
 }
 
-/* Sorts messages by receiver, keeping the order of those of one. */
-static void sort_by_receiver(JoxMessage *messages, uint32_t count) {
-    for (uint32_t m = 0; m < count; m++)
-        messages[m].used = m; /* the order, as the sort is not stable by itself */
-    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
-        for (uint32_t k = gap; k < count; k++) {
-            const JoxMessage moving = messages[k];
-            uint32_t at = k;
-            for (; at >= gap &&
-                   (messages[at - gap].to > moving.to ||
-                    (messages[at - gap].to == moving.to && messages[at - gap].used > moving.used));
-                 at -= gap)
-                messages[at] = messages[at - gap];
-            messages[at] = moving;
-        }
-    for (uint32_t m = 0; m < count; m++)
-        messages[m].used = 0;
+static int compare_receivers(const void *a, const void *b, const void *context) {
+    const JoxMessage *one = a, *other = b;
+    (void)context;
+    return (one->to > other->to) - (one->to < other->to);
 }
 
 /* Reports that a message is dropped because too many wait, once for each name. */
@@ -156,7 +144,9 @@ void jox_messages_deliver(JoxMachineRun *run) {
     state->sent_count = 0;
     if (count == 0 && state->waiting_count == 0)
         return;
-    sort_by_receiver(state->sent, count);
+    JOX_RESERVE(state->sent, state->sent_capacity, count + JOX_SORT_SPARE(count));
+    jox_sort(state->sent, count, sizeof *state->sent, compare_receivers, NULL,
+             state->sent + count); /* keeps the order of those of one receiver */
     JOX_RESERVE(state->waiting, state->waiting_capacity, state->waiting_count + count);
     uint32_t from = state->waiting_count, at = from + count;
     state->waiting_count = at;

@@ -15,7 +15,7 @@ typedef struct Traced {
 } Traced;
 
 struct JoxTraceTerms {
-    const JoxMachine *version; /* of the machine: terms are those of its text */
+    const JoxMachine *version; /* version whose text has these terms */
     uint16_t machine, state;
     uint32_t entered; /* tick at which the state was entered; the terms are of that stay */
     Traced *terms;

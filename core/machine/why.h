@@ -51,7 +51,7 @@ typedef enum JoxWhyChance {
 /* Why one transition of an agent's present state does not fire, or that it will. */
 typedef struct JoxWhyTransition {
     uint32_t index; /* in the state */
-    uint16_t to;    /* state to which it leads this agent; of `back` the one that it left */
+    uint16_t to;    /* state to which it leads this agent; for `back` the one that it left */
     JoxWhyTerm *terms;
     uint32_t count, root; /* root JOX_WHY_NONE: no condition, or a function */
     size_t capacity;

@@ -29,7 +29,7 @@ const char *jox_why_unit(const JoxInstruction *in) {
 
 /* The nearest agent or body that a target may mean, seen or not. */
 typedef struct Candidate {
-    uint32_t count; /* of them in the world */
+    uint32_t count; /* candidates in the world */
     uint32_t agent; /* index; JOX_NO_INDEX: a body, or none */
     int32_t object; /* row; -1: an agent, or none */
     float distance; /* m */

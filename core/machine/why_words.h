@@ -1,4 +1,4 @@
-/* What single words of a condition measure, and what there is where they do not hold. */
+/* Measures of single words of a condition, and the surroundings where they do not hold. */
 #ifndef JOX_MACHINE_WHY_WORDS_H
 #define JOX_MACHINE_WHY_WORDS_H
 

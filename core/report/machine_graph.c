@@ -25,7 +25,7 @@ typedef struct Graph {
     const JoxInk *inks; /* colours of its states */
     JoxText out;
     const char *margin; /* before each line of a text but that which begins with "if" */
-    JoxText seen;       /* all that was written so far, to find which variables it names */
+    JoxText seen;       /* text written so far, searched for the variables that it names */
 } Graph;
 
 /* ---- texts ---- */

@@ -9,7 +9,7 @@
 struct JoWorld;
 typedef struct JoxBehaviourLook {
     JoxMachineLook before;
-    JoxNeighbours neighbours; /* of the agent that is looked at */
+    JoxNeighbours neighbours; /* neighbours of the inspected agent */
 } JoxBehaviourLook;
 
 /* Begins a look; end it before the next step. */

@@ -79,6 +79,9 @@ end
 
 test("mistakes in functions name the way out", function()
   fails_with('me.prey = 3', "prey is somebody: a neighbour, the name of a place of the scene, or nil")
+  fails_with('me.prey = now', "prey is somebody")
+  fails_with('me.tell(nil, "a", { sender = 1 })', "`sender` is who told the message")
+  fails_with('me.tell(nil, "a", { a = 1, b = 1, c = 1, d = 1, e = 1 })', "at most 4 values")
   fails_with('me.tell(me.prey, 7)', "a message has a name")
   fails_with('me.tell(me.prey, "a", 7)', "{ damage = 2 }")
 end)
@@ -177,4 +180,14 @@ test("left counts who went from a place, wherever the agent is", function()
       west = { behaviour = leaver, at = { { 0, -1 } }, set = { way = "west" } } } }
   s:reaches("Done", { agents = "guard", within = 12 })
   equal(s:agents("guard")[1].both, 3)
+end)
+
+test("a number that is not finite is not pushed onto a list, and told", function()
+  local machine = [[local mine = memory { times = list(3), gone = nobody }
+    return machine { name = "m", start = "A", states = {
+      A = { steer = hold, { to = "B", when = after(0.1), set = { times = mine.times:push(distance(mine.gone)) } } },
+      B = { steer = hold } } }]]
+  local s = scene { groups = { one = { behaviour = machine, at = { { 0, 0 } } } } }
+  s:run(0.3)
+  equal(#s:agents("one")[1].times, 0)
 end)

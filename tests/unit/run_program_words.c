@@ -15,7 +15,7 @@
     "    { to = \"Rest\", when = noise:above(50) & ~gate_is_free, on_take = ring } },\n"           \
     "  Rest = { steer = hold, on_enter = function(me) ring(me.x, 2) ring(me, 1) end } } }\n"
 
-/* What the program knows: how loud it is to the east, and the rings that it heard. */
+/* Data of the program: loudness to the east, and the rings that it heard. */
 typedef struct Host {
     double loudest;
     uint32_t rings, wrong, last_id;

@@ -78,7 +78,7 @@ static void alternatives_and_negations_are_terms(void **state) {
     jo_scene_free(scene);
 }
 
-/* What is not seen is named, with the reason. */
+/* Targets out of sight are named, with the reason. */
 static void absent_targets_are_explained(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(
@@ -205,7 +205,7 @@ static void messages_and_reactions_are_explained(void **state) {
     jo_scene_free(scene);
 }
 
-/* Of machines in states: the clock of the outer state, what it waits for, and the way back. */
+/* Nested machines: the clock of the outer state, its terms, and the way back. */
 static void nested_machines_are_explained(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(

@@ -111,7 +111,7 @@ struct JoxNode {
     int32_t target_arg;
     JoxNode *a, *b, *c; /* operands */
     JoxNode *target, *place;
-    JoxNode *score; /* of a target: the number by which the best one is chosen, or NULL */
+    JoxNode *score; /* number by which a target chooses the best one, or NULL */
     union {
         JoxDist dist;      /* JOX_NODE_DIST */
         JoxSteerTerm term; /* JOX_NODE_STEER: one term, with its target and weight in nodes here */
@@ -255,7 +255,7 @@ typedef struct JoxScript {
     } read[16];          /* latest reads of neighbours' memory by the running function, as a ring */
     uint32_t read_count; /* number of all such reads */
     uint32_t draws;      /* random numbers drawn by the running function */
-    JoxHookKind kind;    /* what the running function is called for */
+    JoxHookKind kind;    /* purpose of the running call */
     int32_t running;     /* innermost hook that runs */
     double nested;       /* time of hooks within the running one, s, if that is measured */
     bool measured;

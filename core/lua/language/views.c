@@ -54,7 +54,7 @@ void jox_view_push_memory(lua_State *L, JoxScript *script, const JoxMachine *mac
    error if it is none of them. */
 static double check_somebody(lua_State *L, const JoxScript *script, const char *name, int index) {
     const JoxMachineRun *machines = script->owner->machines;
-    const JoxView *view = lua_touserdata(L, index);
+    const JoxView *view = lua_rawlen(L, index) == sizeof *view ? lua_touserdata(L, index) : NULL;
     if (lua_isnoneornil(L, index))
         return JOX_NOBODY;
     if (lua_type(L, index) == LUA_TSTRING) {
@@ -267,36 +267,42 @@ void jox_view_push_somebody(lua_State *L, JoxScript *script, double who) {
 
 /* ---- messages ---- */
 
-/* Reads the values of a message, the table at a stack index, by ascending names. */
-static void read_values(lua_State *L, JoxScript *script, int table, JoxMessage *message) {
-    for (const char *last = NULL;;) {
-        const char *next = NULL;
-        lua_pushnil(L);
-        while (lua_next(L, table)) {
-            lua_pop(L, 1);
-            const char *key = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-            if (!key || lua_rawlen(L, -1) > 60)
-                luaL_error(L, "values of a message have names of at most 60 bytes");
-            if ((!last || strcmp(key, last) > 0) && (!next || strcmp(key, next) < 0))
-                next = key;
-        }
-        if (!next)
-            return;
-        if (message->count == JOX_MOST_CARRIED)
+/* Writes the keys of the table at a stack index to `keys`, ascending; returns how many. */
+static uint32_t list_value_names(lua_State *L, int table, const char *keys[JOX_MOST_CARRIED]) {
+    uint32_t count = 0;
+    for (lua_pushnil(L); lua_next(L, table); count++) {
+        lua_pop(L, 1);
+        const char *key = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+        if (!key || lua_rawlen(L, -1) > 60)
+            luaL_error(L, "values of a message have names of at most 60 bytes");
+        if (strcmp(key, "sender") == 0)
+            luaL_error(L, "`sender` is who told the message: give the value another name");
+        if (count == JOX_MOST_CARRIED)
             luaL_error(L, "a message carries at most %d values", JOX_MOST_CARRIED);
-        lua_getfield(L, table, next);
-        const uint32_t v = message->count++;
-        message->names[v] = jox_machines_name(script->owner->machines, next);
+        uint32_t at = count;
+        for (; at > 0 && strcmp(keys[at - 1], key) > 0; at--)
+            keys[at] = keys[at - 1];
+        keys[at] = key;
+    }
+    return count;
+}
+
+/* Reads the values of a message from the table at a stack index, by ascending names. */
+static void read_values(lua_State *L, JoxScript *script, int table, JoxMessage *message) {
+    const char *keys[JOX_MOST_CARRIED];
+    message->count = list_value_names(L, table, keys);
+    for (uint32_t v = 0; v < message->count; v++) {
+        lua_getfield(L, table, keys[v]);
+        message->names[v] = jox_machines_name(script->owner->machines, keys[v]);
         if (lua_type(L, -1) == LUA_TBOOLEAN) {
             message->values[v] = lua_toboolean(L, -1);
         } else if (lua_type(L, -1) == LUA_TNUMBER && isfinite(lua_tonumber(L, -1))) {
             message->values[v] = lua_tonumber(L, -1);
         } else {
-            message->values[v] = check_somebody(L, script, next, -1);
+            message->values[v] = check_somebody(L, script, keys[v], -1);
             message->somebody |= 1u << v;
         }
         lua_pop(L, 1);
-        last = next;
     }
 }
 

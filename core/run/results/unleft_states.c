@@ -117,7 +117,7 @@ static bool is_same_item(const JoxState *a, const JoxTransition *of_a, const Jox
                        a->around[of_a->level] == b->around[of_a->level]));
 }
 
-/* What became of a transition: of one of an outer state, in all states within it. */
+/* Fate of a transition; for one of an outer state, over all states within it. */
 typedef struct Fate {
     bool first;      /* no state before has it, too */
     double spent;    /* s: in all, by all agents, in states that have it */

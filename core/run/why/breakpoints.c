@@ -34,8 +34,8 @@ typedef struct Breakpoints {
     uint32_t known; /* next id in the step before */
     bool met;       /* in the last step */
     uint32_t agent; /* id of the first who met one */
-    JoxText said;   /* what was met in the last step, a line each, */
-    uint32_t lines; /* of which MOST_LINES are written */
+    JoxText said;   /* breakpoints met in the last step, a line each */
+    uint32_t lines; /* number of lines; MOST_LINES of them are written */
 } Breakpoints;
 
 /* ---- what happened in a step ---- */

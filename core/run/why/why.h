@@ -39,7 +39,7 @@ typedef struct JoxWhyCrowd {
        is nearest to firing, with its tree. */
     struct JoxWhyCrowdTransition {
         uint32_t *holders;      /* per term */
-        uint32_t fires, lost;   /* agents that take it next; that lost its chance */
+        uint32_t fires, lost;   /* agents that take it next; agents that lost its chance */
         uint32_t held;          /* agents whose condition holds, or whose function did */
         uint32_t nearest;       /* index */
         JoxWhyTransition shown; /* of the nearest */

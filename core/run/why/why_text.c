@@ -39,10 +39,10 @@ static void add_word_line(const char *mark, const JoxWhyTerm *term, int indent, 
     jox_text_free(&details);
 }
 
-/* What the trees of one agent and of many have in common. */
+/* Shared data of printing the tree of one agent or of many. */
 typedef struct Printing {
     const JoxWhyTransition *t;
-    const uint32_t *holders; /* of many: per term; of one agent: NULL */
+    const uint32_t *holders; /* per term, for many; NULL for one agent */
     uint32_t people;
     JoxText *out;
 } Printing;
