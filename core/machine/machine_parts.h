@@ -393,6 +393,9 @@ const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *s
 /* Zeroes the agent's own values and memory beyond those of the machine, since values that an older
    machine left there would be hashed as state. */
 void jox_clear_unused_slots(JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
+/* Assigns the numbers of a machine's names, unique in the set, and of its transitions, unique in
+   the machine. */
+void jox_machine_number_names(JoxMachineRun *run, JoxMachine *machine);
 /* Stores a machine at an index of the set: numbers its names and transitions, widens the agents'
    rows, starts its counts. From here on it does not change. */
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine);

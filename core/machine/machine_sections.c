@@ -62,46 +62,47 @@ static void check_restored(const JoxMachineRun *run, JoxSections *s) {
         jox_sections_fail(s, "called", fault);
 }
 
-/* Lists the names by number: functions add names, which another process does not have. On
-   restoring, returns the present number of each, for the caller to free; else NULL. */
-static uint32_t *list_names(JoxMachineRun *run, JoxSections *s, size_t *count) {
+/* Gives names the numbers of a restored state, and numbers those after them that it lacks. A
+   process that loads other versions of behaviours numbers names in another order, and functions add
+   some. */
+static void restore_names(JoxMachineRun *run, char *const *names, size_t count) {
     JoxMachineSet *set = run->set;
-    *count = jox_section_count(s, "names", set->name_count, 1);
-    uint32_t *now = NULL;
-    if (s->mode == JOX_SECTIONS_RESTORE)
-        now = jox_alloc(*count + 1, sizeof *now);
-    for (size_t n = 0; n < *count && !s->failed; n++) {
-        char *text = NULL;
-        jox_section_string(s, "name", now ? &text : &set->names[n]);
-        if (now && text)
-            now[n] = jox_machines_name(run, text);
-        jox_free(text);
+    char **old = set->names;
+    const uint32_t old_count = set->name_count;
+    jox_free(set->name_table);
+    set->names = NULL;
+    set->name_table = NULL;
+    set->name_count = 0;
+    set->name_capacity = set->name_room = 0;
+    for (size_t n = 0; n < count; n++)
+        jox_machines_name(run, names[n]);
+    for (uint32_t n = 0; n < old_count; n++)
+        jox_machines_name(run, old[n]);
+    for (uint32_t m = 0; m < set->count; m++)
+        jox_machine_number_names(run, set->built[m]);
+    for (uint32_t n = 0; n < old_count; n++)
+        jox_free(old[n]);
+    jox_free(old);
+}
+
+/* Lists the names by number. */
+static void list_names(JoxMachineRun *run, JoxSections *s) {
+    JoxMachineSet *set = run->set;
+    const bool restores = s->mode == JOX_SECTIONS_RESTORE;
+    const size_t count = jox_section_count(s, "names", set->name_count, 1);
+    char **names = restores ? jox_alloc(count + 1, sizeof *names) : set->names;
+    bool whole = true;
+    for (size_t n = 0; n < count && !s->failed; n++) {
+        jox_section_string(s, "name", &names[n]);
+        whole &= names[n] != NULL;
     }
-    return now;
-}
-
-/* Replaces the number of a restored name by the present one; an unknown one becomes invalid. */
-static void renumber_name(uint32_t *name, const uint32_t *now, size_t count) {
-    *name = *name < count ? now[*name] : UINT32_MAX;
-}
-
-static void renumber_messages(JoxMessage *messages, uint32_t count, const uint32_t *now,
-                              size_t names) {
-    for (uint32_t m = 0; m < count; m++) {
-        renumber_name(&messages[m].name, now, names);
-        for (uint32_t v = 0; v < messages[m].count && v < JOX_MOST_CARRIED; v++)
-            renumber_name(&messages[m].names[v], now, names);
-    }
-}
-
-/* Replaces the numbers of names in restored signals and messages by the present ones. */
-static void renumber_names(JoxMachineState *state, const uint32_t *now, size_t names) {
-    for (uint32_t n = 0; n < state->called_count; n++)
-        renumber_name(&state->called[n].name, now, names);
-    for (uint32_t n = 0; n < state->announced_count; n++)
-        renumber_name(&state->announced[n], now, names);
-    renumber_messages(state->sent, state->sent_count, now, names);
-    renumber_messages(state->waiting, state->waiting_count, now, names);
+    if (!restores)
+        return;
+    if (whole && !s->failed)
+        restore_names(run, names, count);
+    for (size_t n = 0; n < count; n++)
+        jox_free(names[n]);
+    jox_free(names);
 }
 
 void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
@@ -124,11 +125,7 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
         run->hook_sections(run->call_context, set->built[m], s);
     jox_sections_module(s, "machines");
     jox_sections_unhashed(s, true);
-    size_t name_count;
-    uint32_t *names = list_names(run, s, &name_count);
-    if (names && !s->failed)
-        renumber_names(state, names, name_count);
-    jox_free(names);
+    list_names(run, s);
     for (uint32_t m = 0; m < set->count; m++)
         list_count_sections(&state->counts[m], s);
     JOX_SECTION_ARRAY(s, "calls", state->calls, state->call_count, state->call_capacity);

@@ -29,8 +29,7 @@ static void number_other_names(JoxMachineRun *run, JoxState *state) {
     JOX_ASSERT(state->also_count <= sizeof state->also / sizeof *state->also);
 }
 
-/* Assigns the numbers of names, unique in the set, and of transitions, unique in the machine. */
-static void assign_numbers(JoxMachineRun *run, JoxMachine *machine) {
+void jox_machine_number_names(JoxMachineRun *run, JoxMachine *machine) {
     uint32_t transitions = 0;
     machine->name_number = jox_machines_name(run, machine->name);
     for (uint32_t n = 0; n < machine->name_count; n++)
@@ -80,7 +79,7 @@ static bool has_reactions(const JoxMachine *machine) {
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
     JOX_ASSERT(index <= run->set->count && index < JOX_MOST_MACHINES);
     JOX_CHECK(jox_machine_check(machine));
-    assign_numbers(run, machine);
+    jox_machine_number_names(run, machine);
     machine->headings = reads_headings(machine);
     machine->arrivals = asks_for_arrival(machine);
     machine->reacts = has_reactions(machine);

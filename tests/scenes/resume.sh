@@ -43,6 +43,29 @@ return machine { name = "teller", version = 1, start = "Walk", defaults = { perc
 END
 printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\nwalls: [{line: [[0, 0], [9, 0], [9, 9], [0, 9]], closed: true}]\ngroups: {g: {behaviour: teller.lua, count: 20, fill: random, in: yard}}\n' >"$work/teller.yaml"
 goes_on "messages whose names functions make up" "$work/teller.yaml" 2 "4.3 9"
+# A reload that names messages in another order, while some wait.
+mkdir -p "$work/order"
+cat >"$work/order/ear.lua" <<'END'
+local mine = memory { n = 0, c = 0 }
+local hi, ho = told "hi", told "ho"
+return machine { name = "ear", version = 1, start = "Wait", defaults = { perception = 9 }, states = {
+  Wait = { steer = hold, { to = "Hear", when = after(5) } },
+  Hear = { steer = hold,
+    { when = hi, set = { n = mine.n + hi.v } },
+    { every = 1, when = ho, set = { c = 2 * mine.c + ho.v } } } } }
+END
+cat >"$work/order/mouth.lua" <<'END'
+return machine { name = "mouth", start = "Talk", defaults = { perception = 9 }, states = { Talk = { steer = hold,
+  { every = 0.5, tell = { nearest "ears", "hi", v = now.time } },
+  { every = 0.5, tell = { nearest "ears", "ho", v = now.time } } } } }
+END
+printf 'jostle: 1\ngroups:\n  ears: {behaviour: ear.lua, at: [[0, 0]], tags: [ears]}\n  mouths: {behaviour: mouth.lua, at: [[2, 0]]}\n' >"$work/order/scene.yaml"
+sed 's/local hi, ho = told "hi", told "ho"/local hum, ho, hi = told "hum", told "ho", told "hi"/; s/when = ho, set/when = ho | hum, set/' "$work/order/ear.lua" >"$work/order/new.lua"
+{ printf '60 files 1\norder/ear.lua %s\n' "$(wc -c <"$work/order/new.lua")"; cat "$work/order/new.lua"; echo; } >"$work/order/input"
+there=$PWD
+cd "$work" # an input log names files as the run does
+goes_on "messages that wait over a reload of other names" order/scene.yaml 3.5 "8 12" --input order/input
+cd "$there"
 goes_on "a mod" scenes/tawaf.yaml 1 "2.5" --set groups.pilgrims.count=300 --mod scenes/mods/rough
 
 # ---- from the texts that it holds, anywhere ----
