@@ -189,7 +189,9 @@ static JoxSpot find_last_seen(const JoxMachineRun *run, const JoxTarget *target,
     const JoxSighting *sighting = &jox_machine_of(run, i)->sightings[target->arg];
     if (memory[sighting->who] == JOX_NOBODY || memory[sighting->who] != memory[sighting->memory])
         return JOX_NO_SPOT;
-    return make_point_spot(memory[sighting->x], memory[sighting->y]);
+    const JoxV2 own = {a->x[i], a->y[i]}, seen = jox_v2(memory[sighting->x], memory[sighting->y]);
+    const JoxV2 nearest = jox_add(own, jox_wrap(a, jox_sub(seen, own))); /* across joined edges */
+    return make_point_spot(nearest.x, nearest.y);
 }
 
 JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {

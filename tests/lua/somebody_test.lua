@@ -78,7 +78,7 @@ local function fails_with(body, text)
 end
 
 test("mistakes in functions name the way out", function()
-  fails_with('me.prey = 3', "prey is somebody: a neighbour, the name of a place of the scene, or nil")
+  fails_with('me.prey = 3', "prey is somebody: me, a neighbour, the name of a place of the scene, or nil")
   fails_with('me.prey = now', "prey is somebody")
   fails_with('me.tell(nil, "a", { sender = 1 })', "`sender` is who told the message")
   fails_with('me.tell(nil, "a", { a = 1, b = 1, c = 1, d = 1, e = 1 })', "at most 4 values")
@@ -190,4 +190,31 @@ test("a number that is not finite is not pushed onto a list, and told", function
   local s = scene { groups = { one = { behaviour = machine, at = { { 0, 0 } } } } }
   s:run(0.3)
   equal(#s:agents("one")[1].times, 0)
+end)
+
+test("where one was last seen is the nearest image across joined edges", function()
+  local seeker = [[local mine = memory { prey = nobody }
+    return machine { name = "seeker", start = "Follow", defaults = { perception = 6, speed = 1 }, states = {
+      Follow = { steer = seek(mine.prey), set = { prey = nearest "prey" },
+        { to = "Look", when = ~exists(mine.prey) & after(1) } },
+      Look = { steer = seek(last_seen(mine.prey)), { to = "Found", when = near(last_seen(mine.prey), 0.3) } },
+      Found = { steer = hold } } }]]
+  local prey = [[return machine { name = "prey", start = "Go", states = {
+    Go = { steer = drift(0.3, 0), { to = "Gone", when = after(6) } }, Gone = { removes = true } } }]]
+  local s = scene { bounds = { { -4, -4 }, { 4, 4 } }, periodic = "x", groups = {
+    seeker = { behaviour = seeker, at = { { -3.5, 0 } } },
+    prey = { behaviour = prey, at = { { 2.5, 0 } }, tags = { "prey" } } } }
+  s:reaches("Found", { agents = "seeker", within = 12 })
+end)
+
+test("one may hold, and tell, oneself", function()
+  local machine = [[local mine = memory { whom = nobody, heard = 0 }
+    return machine { name = "m", start = "A", states = { A = { steer = hold,
+      on_enter = function(me) me.whom = me; me.tell(me, "note", { v = 3 }); me:tell(me, "note", { v = 4 }) end,
+      { when = told "note", set = { heard = mine.heard + told("note").v } } } } }]]
+  local s = scene { groups = { one = { behaviour = machine, at = { { 0, 0 } } } } }
+  s:run(0.5)
+  local one = s:agents("one")[1]
+  equal(one.whom, one.id)
+  equal(one.heard, 7)
 end)

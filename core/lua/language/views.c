@@ -57,6 +57,8 @@ static double check_somebody(lua_State *L, const JoxScript *script, const char *
     const JoxView *view = lua_rawlen(L, index) == sizeof *view ? lua_touserdata(L, index) : NULL;
     if (lua_isnoneornil(L, index))
         return JOX_NOBODY;
+    if (lua_touserdata(L, index) == (void *)script->me_object)
+        return 1.0 + machines->agents->id[script->agent];
     if (lua_type(L, index) == LUA_TSTRING) {
         const int32_t place =
             jox_place_find(machines->places, machines->place_count, lua_tostring(L, index));
@@ -64,7 +66,7 @@ static double check_somebody(lua_State *L, const JoxScript *script, const char *
             return JOX_WHO_PLACE + place;
     }
     if (!view || view->type != VIEW || view->run != script->vm.run)
-        luaL_error(L, "%s is somebody: a neighbour, the name of a place of the scene, or nil",
+        luaL_error(L, "%s is somebody: me, a neighbour, the name of a place of the scene, or nil",
                    name);
     return view->is_body ? JOX_WHO_BODY + machines->objects->rows[view->index].id
                          : 1.0 + machines->agents->id[view->index];
@@ -321,7 +323,10 @@ static uint32_t check_message_name(lua_State *L, JoxScript *script, int index) {
 int jox_me_tell(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     JoxMachineRun *machines = script->owner->machines;
-    const int at = lua_touserdata(L, 1) == (void *)script->me_object ? 2 : 1; /* me:tell(...) */
+    /* me:tell(whom, "name"), of which me.tell(me, "name") has the name second */
+    const bool method =
+        lua_touserdata(L, 1) == (void *)script->me_object && lua_type(L, 2) != LUA_TSTRING;
+    const int at = method ? 2 : 1;
     lua_settop(L, at + 2);
     JoxMessage message = {.name = check_message_name(L, script, at + 1),
                           .from = machines->agents->id[script->agent],
