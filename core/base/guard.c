@@ -133,12 +133,15 @@ void jox_guard_close(JoxGuard *guard) {
 }
 
 JoxOutside jox_guard_leave(void) {
-    JoxGuard *guard = innermost;
-    innermost = guard ? guard->outer : NULL;
-    const JoxNumeric now = jox_numeric_use(jox_numeric_plain());
-    if (guard)
-        jox_numeric_use(guard->numeric_before);
-    return (JoxOutside){guard, jox_heap_use(guard ? guard->heap_before : NULL), now};
+    JoxGuard *outermost = innermost;
+    while (outermost && outermost->outer)
+        outermost = outermost->outer;
+    const JoxOutside outside = {innermost, jox_heap_used(), jox_numeric_use(jox_numeric_plain())};
+    if (outermost)
+        jox_numeric_use(outermost->numeric_before);
+    jox_heap_use(outermost ? outermost->heap_before : NULL);
+    innermost = NULL;
+    return outside;
 }
 
 void jox_guard_return(JoxOutside outside) {

@@ -70,8 +70,9 @@ void jox_guard_fail(JoxGuard *guard);
 void jox_guard_close(JoxGuard *guard);
 
 /* Enclose a callback of the program: jox_guard_leave restores the heap and the numeric settings
-   that were in use outside the innermost public call, jox_guard_return puts those of the call back.
-   They may be nested: a callback may make a public call that calls back. */
+   that were in use outside the public call of the program, which may have made others within it;
+   jox_guard_return puts those of the call back. They may be nested: a callback may make a public
+   call that calls back. */
 typedef struct JoxOutside {
     JoxGuard *guard;
     JoxHeap *heap;

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "base/guard.h"
+#include "base/mem.h"
 #include "jostle_read.h"
 #include "task/pool.h"
 
@@ -42,6 +43,36 @@ static JoxNumeric ieee(void) {
     JoxNumeric numeric = jox_numeric_plain();
     numeric.mode = 0;
     return numeric;
+}
+
+/* A public call that calls a callback, as the innermost of `depth` calls. */
+static void call_back(uint32_t depth, Heard *heard) {
+    JoError error = {0};
+    JOX_GUARD (NULL, &error)
+        return;
+    if (depth > 1) {
+        call_back(depth - 1, heard);
+        return;
+    }
+    const JoxHeap *used = jox_heap_used();
+    const JoxOutside outside = jox_guard_leave();
+    assert_null(jox_heap_used()); /* what the program allocates is its own */
+    hear(heard, "");
+    jox_guard_return(outside);
+    assert_ptr_equal(jox_heap_used(), used);
+    assert_false(has_subnormals());
+}
+
+/* A callback has the program's settings also where a public call makes another one. */
+static void calls_within_calls_leave_all(void **state) {
+    (void)state;
+    Heard heard = {0};
+    const JoxNumeric before = jox_numeric_use(ieee());
+    for (uint32_t depth = 1; depth <= 3; depth++)
+        call_back(depth, &heard);
+    assert_true(has_subnormals());
+    assert_int_equal(heard.ieee, 3);
+    jox_numeric_use(before);
 }
 
 static JoSceneDef def_of(const char *path, uint32_t threads, Heard *heard) {
@@ -127,6 +158,7 @@ static void what_decays_ends(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_program_keeps_its_own),
+        cmocka_unit_test(calls_within_calls_leave_all),
         cmocka_unit_test(threads_have_none),
         cmocka_unit_test(what_decays_ends),
     };
