@@ -128,10 +128,13 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
         static const char *const PARTS[] = {":contains", ".size", ".first", ".last"};
         jox_text_printf(out, "mine.%s%s", machine->memory[in->arg].name,
                         PARTS[in->op - JOX_OP_LIST_HAS]);
-        if (in->op == JOX_OP_LIST_HAS && in->target >= 0)
-            jox_text_printf(out, "(%s)", machine->targets[in->target].name);
-        else if (in->op == JOX_OP_LIST_HAS)
+        if (in->op == JOX_OP_LIST_HAS && in->target >= 0) {
+            jox_text_add(out, "(");
+            jox_spell_target(machine, &machine->targets[in->target], out);
+            jox_text_add(out, ")");
+        } else if (in->op == JOX_OP_LIST_HAS) {
             jox_text_printf(out, "(%s)", registers[in->a].plain.data);
+        }
         return;
     }
     if (in->op == JOX_OP_MESSAGE) {
@@ -140,7 +143,8 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
         return;
     }
     if (in->op == JOX_OP_OF) {
-        jox_text_printf(out, "%s.%s", machine->targets[in->target].name, NOWS[in->arg]);
+        jox_spell_target(machine, &machine->targets[in->target], out);
+        jox_text_printf(out, ".%s", NOWS[in->arg]);
         return;
     }
     print_operation((JoxOp)in->op, out);

@@ -146,6 +146,9 @@ void jox_sightings_note_agent(const JoxMachineRun *run, uint32_t agent);
 /* Returns who or what a target is for an agent. What it remembers, holds or was struck by it knows
    out of sight, too, unless the target has a filter. */
 double jox_target_who(const JoxMachineRun *run, uint32_t agent, int32_t index);
+/* Returns whom a target means that names somebody and does not choose, whatever its filter, and
+   also if that one has left the world. */
+double jox_target_named_who(const JoxMachineRun *run, const JoxTarget *target, uint32_t agent);
 /* Returns the spot of somebody, seen or not. */
 JoxSpot jox_who_spot(const JoxMachineRun *run, uint32_t agent, double who);
 /* m: a body that is nearer and faster than 1 m/s hits the agent. */

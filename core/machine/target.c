@@ -125,8 +125,7 @@ static double find_message_who(const JoxMachineRun *run, const JoxTarget *target
                              : jox_message_value(message, names[target->field].number, true);
 }
 
-/* Returns whom a target means that names somebody and does not choose. */
-static double find_named_who(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
+double jox_target_named_who(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
     switch (target->kind) {
     case JOX_TARGET_MEMORY:
         return get_remembered(run, target, i);
@@ -151,7 +150,7 @@ static double find_named_who(const JoxMachineRun *run, const JoxTarget *target, 
    What an agent holds it knows unseen. */
 static JoxSpot find_named_spot(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
     const JoxAgentFilter *filter = &target->filter;
-    const JoxSpot spot = jox_who_spot(run, i, find_named_who(run, target, i));
+    const JoxSpot spot = jox_who_spot(run, i, jox_target_named_who(run, target, i));
     const bool feels = target->kind == JOX_TARGET_HOLDING;
     if (!spot.found || spot.place >= 0)
         return spot;
@@ -219,7 +218,7 @@ double jox_target_who(const JoxMachineRun *run, uint32_t i, int32_t index) {
     const JoxTarget *target = index < 0 ? NULL : &jox_machine_of(run, i)->targets[index];
     if (target && jox_target_kind_moves(target->kind) && !jox_target_kind_chooses(target->kind) &&
         !has_filter(&target->filter)) {
-        const double who = find_named_who(run, target, i);
+        const double who = jox_target_named_who(run, target, i);
         return jox_who_exists(run, who) ? who : JOX_NOBODY;
     }
     const JoxSpot spot = jox_target_find(run, i, index);
@@ -266,7 +265,7 @@ bool jox_target_means(const JoxMachineRun *run, uint32_t i, int32_t index, int32
     if (target->kind == JOX_TARGET_NEAREST)
         return object->live && (object->tags >> target->arg & 1) != 0;
     return object->live && jox_target_kind_moves(target->kind) &&
-           find_named_who(run, target, i) == JOX_WHO_BODY + object->id;
+           jox_target_named_who(run, target, i) == JOX_WHO_BODY + object->id;
 }
 
 float jox_target_distance(const JoxMachineRun *run, uint32_t i, int32_t index) {

@@ -15,6 +15,7 @@ typedef struct Built {
     uint32_t term; /* JOX_WHY_NONE: it is a number or a word without a term yet */
     double value;
     const char *unit;
+    const JoxInstruction *about; /* of a number: what measures a target in it; NULL: nothing */
 } Built;
 
 /* A condition that is being built. */
@@ -148,7 +149,31 @@ static uint32_t add_comparison(Building *b, const JoxInstruction *in, const Buil
     const bool computed = !right->spelled.constant || left->spelled.binding != JOX_BINDS_ALL;
     if (computed)
         jox_text_add(&term.note, of->spelled.valued.data);
+    const JoxInstruction *about = left->about ? left->about : right->about;
+    if (about) {
+        JoxText target = {0};
+        if (about->op == JOX_OP_NEIGHBOURS)
+            jox_why_add_count(b->run, b->agent, about->target, &target);
+        else
+            jox_why_add_target(b->run, b->agent, about->target, &target);
+        if (target.length)
+            jox_text_printf(&term.note, "%s%s", computed ? "; " : "", target.data);
+        jox_text_free(&target);
+    }
     return add_word(b, of, term);
+}
+
+/* Returns what measures a target in the result of an instruction; NULL: nothing does. */
+static const JoxInstruction *find_about(const Building *b, const JoxInstruction *in) {
+    const JoxOp op = (JoxOp)in->op;
+    const uint8_t inputs[] = {in->a, in->b, in->c};
+    const JoxInstruction *about = NULL;
+    if (in->target >= 0 && (op == JOX_OP_DISTANCE || op == JOX_OP_OF || op == JOX_OP_THEIRS ||
+                            op == JOX_OP_NEIGHBOURS))
+        return in;
+    for (uint32_t k = 0; k < jox_op_inputs(op); k++)
+        about = about ? about : b->built[inputs[k]].about;
+    return about;
 }
 
 static void build_instruction(Building *b, const JoxInstruction *in, double value) {
@@ -173,6 +198,7 @@ static void build_instruction(Building *b, const JoxInstruction *in, double valu
         to.term = add_word(b, &to, term);
     } else {
         to.unit = jox_why_unit(in);
+        to.about = find_about(b, in);
     }
     jox_spelled_free(&b->built[in->to].spelled);
     b->built[in->to] = to;

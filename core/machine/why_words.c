@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "agents/torso.h"
-
 static const char *const UNITS[] = {
 #define X(name, word, unit, ...) unit,
     JOX_MEASURED(X)
@@ -25,169 +23,6 @@ const char *jox_why_unit(const JoxInstruction *in) {
     }
 }
 
-/* ---- what is there in place of a target ---- */
-
-/* The nearest agent or body that a target may mean, seen or not. */
-typedef struct Candidate {
-    uint32_t count; /* candidates in the world */
-    uint32_t agent; /* index; JOX_NO_INDEX: a body, or none */
-    int32_t object; /* row; -1: an agent, or none */
-    float distance; /* m */
-    JoxV2 at;       /* m, as the agent sees it */
-} Candidate;
-
-static JoxV2 position_of(const JoxMachineRun *run, uint32_t i) {
-    return (JoxV2){run->agents->x[i], run->agents->y[i]};
-}
-
-static void consider_candidate(Candidate *best, uint32_t agent, int32_t object, JoxV2 from,
-                               JoxV2 at) {
-    const float distance = jox_length(jox_sub(at, from));
-    if (best->count++ == 0 || distance < best->distance)
-        *best = (Candidate){best->count, agent, object, distance, at};
-}
-
-/* Finds the nearest candidate; `filtered`: of those alone that pass the target's filter. */
-static Candidate find_candidate(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
-                                bool filtered) {
-    Candidate best = {.agent = JOX_NO_INDEX, .object = -1};
-    const JoxV2 from = position_of(run, i);
-    for (uint32_t j = 0; j < run->agents->count; j++)
-        if (j != i && jox_is_of_kind(run->agents, target, i, j) &&
-            (!filtered || (!target->filter.flies && jox_passes_filter(run, &target->filter, i, j))))
-            consider_candidate(&best, j, -1, from, jox_add(from, jox_offset(run->agents, i, j)));
-    const bool bodies = target->kind == JOX_TARGET_NEAREST && !target->filter.some;
-    for (uint32_t o = 0; bodies && run->objects && o < run->objects->count; o++) {
-        const JoxObject *object = &run->objects->rows[o];
-        if (filtered ? jox_is_wanted_body(run, target, i, object)
-                     : object->live && (object->tags >> target->arg & 1))
-            consider_candidate(&best, JOX_NO_INDEX, (int32_t)o, from,
-                               (JoxV2){object->position.x, object->position.y});
-    }
-    return best;
-}
-
-/* Appends what an agent or body is called: "agent 12 (in Walk)", "ball", "body 3". */
-static void name_somebody(const JoxMachineRun *run, uint32_t agent, int32_t object, JoxText *out) {
-    const JoxAgents *a = run->agents;
-    if (agent != JOX_NO_INDEX && a->machine[agent] != JOX_NO_MACHINE)
-        jox_text_printf(out, "agent %u (in %s)", a->id[agent],
-                        jox_machine_of(run, agent)->states[a->state[agent]].name);
-    else if (agent != JOX_NO_INDEX)
-        jox_text_printf(out, "agent %u", a->id[agent]);
-    else if (object >= 0 && *run->objects->rows[object].name)
-        jox_text_printf(out, "body '%s'", run->objects->rows[object].name);
-    else if (object >= 0)
-        jox_text_printf(out, "body %u", run->objects->rows[object].id);
-}
-
-/* Appends why an agent does not see a candidate. */
-static void say_why_unseen(const JoxMachineRun *run, uint32_t i, const Candidate *candidate,
-                           JoxText *out) {
-    const float perception = jox_param(run->agents, JOX_PARAM_perception, i);
-    const JoxV2 from = position_of(run, i);
-    if (candidate->distance > perception)
-        jox_text_printf(out, ", beyond its perception of %.3g m", (double)perception);
-    else if (jox_is_hidden(run, from, candidate->at, false))
-        jox_text_add(out, ", behind a wall");
-    else if (jox_is_behind_body(run, from, candidate->at, candidate->object))
-        jox_text_add(out, ", behind a body");
-    else if (candidate->agent != JOX_NO_INDEX && run->agents->count > JOX_SMALL_CROWD)
-        jox_text_printf(out, ", not among the %u nearest people that it perceives (neighbours)",
-                        (unsigned)jox_param(run->agents, JOX_PARAM_neighbours, i));
-}
-
-/* Appends what there is in place of a target of people and bodies that is not found. */
-static void say_absent(const JoxMachineRun *run, uint32_t i, const JoxTarget *target,
-                       JoxText *out) {
-    const JoxMachine *machine = jox_machine_of(run, i);
-    const Candidate any = find_candidate(run, target, i, false);
-    const Candidate fit = find_candidate(run, target, i, true);
-    if (any.count == 0) {
-        jox_text_printf(out, "there is no %s in the world", target->name);
-        return;
-    }
-    if (fit.count == 0) {
-        jox_text_printf(out, "none of %u is ", any.count);
-        jox_spell_target(machine, target, out);
-        jox_text_add(out, "; the nearest of them is ");
-        name_somebody(run, any.agent, any.object, out);
-        jox_text_printf(out, ", %.3g m away", (double)any.distance);
-        return;
-    }
-    jox_text_add(out, "the nearest is ");
-    name_somebody(run, fit.agent, fit.object, out);
-    jox_text_printf(out, ", %.3g m away", (double)fit.distance);
-    say_why_unseen(run, i, &fit, out);
-}
-
-/* Appends what there is of somebody whom an agent remembers or holds, and does not see. */
-static void say_unseen_somebody(const JoxMachineRun *run, uint32_t i, const JoxTarget *target,
-                                double who, JoxText *out) {
-    const JoxSpot spot = jox_who_spot(run, i, who);
-    jox_text_printf(out, "%s is ", target->name);
-    if (!spot.found) {
-        jox_text_add(out, "nobody");
-        return;
-    }
-    const JoxV2 at = {spot.x, spot.y};
-    const Candidate one = {.count = 1,
-                           .agent = spot.agent,
-                           .object = spot.object,
-                           .distance = jox_length(jox_sub(at, position_of(run, i))),
-                           .at = at};
-    name_somebody(run, spot.agent, spot.object, out);
-    jox_text_printf(out, ", %.3g m away", (double)one.distance);
-    if (spot.place < 0)
-        say_why_unseen(run, i, &one, out);
-}
-
-/* Appends what there is in place of a target that is not found. */
-static void say_unfound(const JoxMachineRun *run, uint32_t i, int32_t index, JoxText *out) {
-    const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
-    if (jox_target_kind_chooses(target->kind))
-        say_absent(run, i, target, out);
-    else if (target->kind == JOX_TARGET_LAST_SEEN)
-        jox_text_printf(out, "it has not seen %s", target->name);
-    else if (jox_target_kind_moves(target->kind))
-        say_unseen_somebody(run, i, target, jox_target_who(run, i, index), out);
-    else
-        jox_text_printf(out, "%s is no place yet", target->name);
-}
-
-/* Appends which agent, body or place a target is, or why there is none. Returns whether it was
-   found. */
-static bool say_target(const JoxMachineRun *run, uint32_t i, int32_t index, JoxText *out) {
-    const JoxTarget *target = index < 0 ? NULL : &jox_machine_of(run, i)->targets[index];
-    const JoxSpot spot = jox_target_find(run, i, index);
-    if (!target)
-        return true;
-    if (spot.found && spot.place >= 0) {
-        const char *name = run->places[spot.place].name;
-        if (target->kind != JOX_TARGET_PLACE && name)
-            jox_text_printf(out, "it is %s", name);
-    } else if (spot.found && (spot.agent != JOX_NO_INDEX || spot.object >= 0)) {
-        const JoxV2 from = position_of(run, i);
-        name_somebody(run, spot.agent, spot.object, out);
-        jox_text_printf(out, ", %.3g m away",
-                        (double)jox_length(jox_sub((JoxV2){spot.x, spot.y}, from)));
-    } else if (!spot.found) {
-        say_unfound(run, i, index, out);
-    }
-    return spot.found;
-}
-
-/* Appends who or what a target is, seen or not: "prey is agent 12". */
-static void say_identity(const JoxMachineRun *run, uint32_t i, int32_t index, JoxText *out) {
-    const JoxMachine *machine = jox_machine_of(run, i);
-    if (index < 0)
-        return;
-    jox_text_add(out, out->length ? ", " : "");
-    jox_spell_target(machine, &machine->targets[index], out);
-    jox_text_add(out, " is ");
-    jox_who_print(run, jox_target_who(run, i, index), out);
-}
-
 /* ---- words ---- */
 
 static void set_measure(JoxWhyTerm *term, double value, const char *relation, double bound,
@@ -204,14 +39,14 @@ static void measure_place(const JoxMachineRun *run, uint32_t i, const JoxInstruc
                           JoxWhyTerm *term) {
     const int32_t place = jox_target_place(run, i, in->place);
     if (place < 0) {
-        say_target(run, i, in->place, &term->note);
+        jox_why_add_target(run, i, in->place, &term->note);
         return;
     }
     const JoxPlace *p = &run->places[place];
-    JoxV2 at = position_of(run, i);
+    JoxV2 at = jox_why_position(run, i);
     if (in->target >= 0) {
         const JoxSpot spot = jox_target_find(run, i, in->target);
-        if (!say_target(run, i, in->target, &term->note))
+        if (!jox_why_add_target(run, i, in->target, &term->note))
             return;
         at = (JoxV2){spot.x, spot.y};
     }
@@ -225,18 +60,18 @@ static void measure_place(const JoxMachineRun *run, uint32_t i, const JoxInstruc
         !jox_place_is_reached(run->places, (uint32_t)place, run->walls, at))
         jox_text_add(&term->note, "a wall is between");
     else if (in->target < 0)
-        say_target(run, i, in->place, &term->note);
+        jox_why_add_target(run, i, in->place, &term->note);
 }
 
 static void measure_nearness(const JoxMachineRun *run, uint32_t i, const JoxInstruction *in,
                              double a, JoxWhyTerm *term) {
     const int32_t place = jox_target_place(run, i, in->target);
     const double distance = (double)jox_target_distance(run, i, in->target);
-    const bool found = say_target(run, i, in->target, &term->note);
+    const bool found = jox_why_add_target(run, i, in->target, &term->note);
     if (found)
         set_measure(term, distance, "<", a, "m");
     if (place >= 0 && distance < a &&
-        !jox_place_is_near(run->places, (uint32_t)place, run->walls, position_of(run, i), a))
+        !jox_place_is_near(run->places, (uint32_t)place, run->walls, jox_why_position(run, i), a))
         jox_text_printf(&term->note, "%sa wall is between", term->note.length ? ", " : "");
 }
 
@@ -245,13 +80,13 @@ static void say_side(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
                      JoxWhyTerm *term) {
     const int32_t place = jox_target_place(run, i, in->place);
     if (place < 0) {
-        say_target(run, i, in->place, &term->note);
+        jox_why_add_target(run, i, in->place, &term->note);
         return;
     }
     const JoxPlace *line = &run->places[place];
     if (!jox_place_is_line(line))
         return;
-    const JoxV2 at = position_of(run, i), along = jox_sub(line->points[1], line->points[0]);
+    const JoxV2 at = jox_why_position(run, i), along = jox_sub(line->points[1], line->points[0]);
     const bool left = jox_det(along, jox_sub(at, line->points[0])) > 0.0f;
     jox_text_printf(&term->note, "%.3g m away, on its %s; a crossing counts from right to left",
                     (double)jox_place_distance(run->places, (uint32_t)place, at),
@@ -276,7 +111,7 @@ static void say_last_call(const JoxMachineRun *run, uint32_t i, uint32_t name, d
         return;
     }
     const double time = last.tick * run->dt;
-    const JoxV2 at = {last.x, last.y}, from = position_of(run, i);
+    const JoxV2 at = {last.x, last.y}, from = jox_why_position(run, i);
     const double distance = (double)jox_length(jox_sub(at, from));
     if (last.agent_id == UINT32_MAX)
         jox_text_printf(out, "called out to everybody at %.2f s", time);
@@ -352,7 +187,7 @@ static void say_holding(const JoxMachineRun *run, uint32_t i, JoxText *out) {
         const JoxObject *object = &run->objects->rows[o];
         if (object->live && object->held && object->holder == run->agents->id[i]) {
             jox_text_add(out, "it carries ");
-            name_somebody(run, JOX_NO_INDEX, (int32_t)o, out);
+            jox_why_add_somebody(run, JOX_NO_INDEX, (int32_t)o, out);
             return;
         }
     }
@@ -398,7 +233,7 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
         break;
     case JOX_OP_TOUCHES:
         spot = jox_target_find(run, i, in->target);
-        if (say_target(run, i, in->target, &term->note))
+        if (jox_why_add_target(run, i, in->target, &term->note))
             set_measure(term, (double)jox_spot_gap(run, i, &spot), "<", 0.05, "m");
         break;
     case JOX_OP_FIRST_IN:
@@ -420,20 +255,26 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
     case JOX_OP_DONE:
         say_end(machine, &machine->states[agents->state[i]], (uint32_t)in->arg, &term->note);
         break;
+    case JOX_OP_LIST_HAS:
+        jox_text_printf(&term->note, "mine.%s is ", machine->memory[in->arg].name);
+        jox_memory_print(run, machine, agents->memory + (size_t)i * agents->memory_stride,
+                         (uint32_t)in->arg, &term->note);
+        jox_why_add_identity(run, i, in->target, &term->note);
+        break;
     case JOX_OP_HAS:
         say_holding(run, i, &term->note);
         break;
     case JOX_OP_EXISTS:
     case JOX_OP_SAME:
-        say_identity(run, i, in->target, &term->note);
-        say_identity(run, i, in->place, &term->note);
+        jox_why_add_identity(run, i, in->target, &term->note);
+        jox_why_add_identity(run, i, in->place, &term->note);
         break;
     case JOX_OP_GROUNDED:
     case JOX_OP_KICKED:
     case JOX_OP_HIT_BY:
     case JOX_OP_INCOMING:
     case JOX_OP_SEES:
-        say_target(run, i, in->target, &term->note);
+        jox_why_add_target(run, i, in->target, &term->note);
         break;
     default:
         break;

@@ -26,7 +26,7 @@ school=$work/school/school.yaml
 expect "an agent is explained: its state and since when" 0 "30.00 s: agent 0 of group pupils (machine pupil) has been in state Lesson for 30.00 s" "$JOSTLE" why "$school" --agent 0 --quiet
 grep -q 'no *heard("bell") *nobody has called it so far' "$work/out"; verdict "  a signal that nobody called" $?
 grep -q 'yes *after(5) *30 s' "$work/out"; verdict "  a term that holds, with its value" $?
-grep -q 'no *near(teacher, 2) *the nearest is agent 6 (in Stand), 60 m away, beyond its perception of 4 m' "$work/out"; verdict "  a target that is not there" $?
+grep -q 'no *near(teacher, 2) *the only one is agent 6 (in Stand), 60 m away, beyond its perception of 4 m' "$work/out"; verdict "  a target that is not there" $?
 expect "people of a state are counted by term" 0 "0 of 6  heard" "$JOSTLE" why "$school" --state Lesson --at 30 --quiet
 expect "  also at another time" 0 "4 people are in Lesson" "$JOSTLE" why "$school" --state Lesson --at 1 --quiet
 expect "  a state that nobody is in: who could go there" 0 "nobody in Hide; who could go to Hide:" "$JOSTLE" why "$school" --state Hide --at 30 --quiet

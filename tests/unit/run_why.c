@@ -89,17 +89,69 @@ static void absent_targets_are_explained(void **state) {
     step_scene(scene, 1);
     char *text = ask_agent(scene, 2);
     CHECK_ORDER(text, "touches(pupil)", "4.6 m, needs < 0.05 m; agent 0 (in Lesson), 5 m away",
-                "sees(guard)", "the nearest is agent 3 (in Lesson), 3 m away, behind a wall",
+                "sees(guard)", "the only one is agent 3 (in Lesson), 3 m away, behind a wall",
                 "sees(pupil:in_state(\"Break\"))",
-                "none of 2 is pupil:in_state(\"Break\"); the nearest of them is agent 0");
+                "none of 2 passes: 2 not in state Break; the nearest to passing is agent 0 (in "
+                "Lesson), 5 m away\n");
     jo_free(text);
     text = ask_agent(scene, 3);
-    assert_non_null(strstr(text, "there is no guard in the world"));
+    assert_non_null(strstr(text, "there is no other guard in the world"));
     CHECK_ORDER(text, "touches(pupil)",
-                "the nearest is agent 2 (in Lesson), 3 m away, behind a wall");
+                "none of 3 passes: 2 beyond its perception of 3 m, 1 behind a wall; the nearest to "
+                "passing is agent 2 (in Lesson), 3 m away, behind a wall");
     jo_free(text);
     text = ask_agent(scene, 0);
     assert_non_null(strstr(text, "agent 3 (in Lesson), 8 m away, beyond its perception of 5 m"));
+    jo_free(text);
+    jo_scene_free(scene);
+}
+
+/* Candidates of targets are counted by what they lack first, in all words on targets. */
+static void candidates_are_counted_by_what_they_lack(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(
+        "jostle: 1\nseed: 3\nwalls: [{line: [[-3, -5], [-3, 5]], height: 3}]\n"
+        "bodies: [{name: ball, shape: {sphere: {radius: 0.1}}, mass: 1, at: [1, 1, 0.1], tags: "
+        "[runner]}]\n"
+        "groups:\n"
+        "  one: {behaviour: own.lua, at: [[0, 0]]}\n"
+        "  runners: {behaviour: own.lua, tags: [runner], at: [[2, 0], [4, 0], [-4, 0], [40, 0]]}\n",
+        "local mine = memory { friend = nobody, hp = 2, met = list(4, nobody) }\n"
+        "local weak = best(\"runner\", 0 - distance(other)):where(\"hp\", 3)\n" MACHINE_START
+        "\"Look\", public = { \"hp\" }, defaults = { perception = 9, speed = 1 }, states = {\n"
+        "  Look = { steer = hold,\n"
+        "    { to = \"A\", when = exists(weak) },\n"
+        "    { to = \"B\", when = distance(nearest \"runner\":within(1)):below(3) },\n"
+        "    { to = \"C\", when = exists(best(\"runner\", 0 - distance(other))) & now.x:above(9) "
+        "},\n"
+        "    { to = \"D\", when = neighbours \"runner\":above(7) },\n"
+        "    { to = \"E\", when = theirs(mine.friend, \"hp\"):above(7) },\n"
+        "    { to = \"F\", when = same(mine.friend, nearest \"opponents\") },\n"
+        "    { to = \"G\", when = mine.met:contains(nearest \"runner\":in_state \"A\") } },\n"
+        "  A = { steer = hold }, B = { steer = hold }, C = { steer = hold }, D = { steer = hold "
+        "},\n"
+        "  E = { steer = hold }, F = { steer = hold }, G = { steer = hold } } }\n");
+    step_scene(scene, 1);
+    char *text = ask_agent(scene, 0);
+    const char *const parts[] = {
+        "exists(best(runner):where(\"hp\", 3))",
+        "none of 5 passes: 1 no person, 4 without hp >= 3; the nearest to passing is agent 1 (in "
+        "Look), 2 m away, without hp >= 3 (2)",
+        "distance(runner:within(1)) < 3",
+        "none of 5 passes: 5 not within 1 m; the nearest to passing is body 'ball', 1.41 m away",
+        "yes  exists(best(runner))",
+        "best(runner) is body 'ball', 1.41 m away, the best of 3, with score -1.41",
+        "0 m, needs > 9 m",
+        "2, needs > 7; 2 of 4 pass: 1 beyond its perception of 9 m, 1 behind a wall",
+        "theirs(mine.friend, \"hp\") > 7",
+        "0, needs > 7; mine.friend is nobody",
+        "same(mine.friend, opponents)",
+        "mine.friend is nobody; it has no opponents, as it is in no team",
+        "mine.met is empty; none of 5 passes: 1 no person, 4 not in state A",
+    };
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        if (!strstr(text, parts[k]))
+            fail_msg("'%s' is missing in:\n%s", parts[k], text);
     jo_free(text);
     jo_scene_free(scene);
 }
@@ -317,6 +369,7 @@ int main(void) {
         cmocka_unit_test(nearest_transition_comes_first),
         cmocka_unit_test(alternatives_and_negations_are_terms),
         cmocka_unit_test(absent_targets_are_explained),
+        cmocka_unit_test(candidates_are_counted_by_what_they_lack),
         cmocka_unit_test(last_call_of_a_signal_is_told),
         cmocka_unit_test(chance_and_functions_are_explained),
         cmocka_unit_test(crowds_are_counted_by_term),
