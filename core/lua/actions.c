@@ -1,6 +1,6 @@
 /* Reads the actions of states and transitions: setting memory, signals, kicking, taking and
-   throwing bodies, becoming another machine; and `counts`, memory that counts by itself. Called by
-   read_state.c and build.c. */
+   throwing bodies, becoming another machine; and `counts`, memory that counts by itself.
+   read_tell.c reads messages. Called by read_state.c and build.c. */
 #include <stdio.h>
 #include <string.h>
 
@@ -36,8 +36,11 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
             assign->value.kind = JOX_VALUE_UNSET;
     } else {
         if (!node || node->kind != JOX_NODE_ERROR)
-            jox_build_error(b, jox_read_at(b, path), "bad-value", NULL,
-                            "this memory is true or false, or set to a condition");
+            jox_build_error(b, jox_read_at(b, path), "bad-value",
+                            "A number becomes a condition by :above, :below, :at_least, :at_most "
+                            "or :is",
+                            "this memory is true or false, or set to a condition, not %s",
+                            jox_node_kind(L, -1));
         lua_pop(L, 1);
     }
 }
@@ -195,113 +198,11 @@ static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *ac
     lua_settop(L, top - 1);
 }
 
-/* Reads the receiver of a message, the first item of the table at `table`: a target, or
-   neighbours(tag) for all those. */
-static void read_receiver(JoxBuild *b, int table, const char *path, JoxTell *tell) {
-    lua_State *L = b->script->vm.L;
-    lua_rawgeti(L, table, 1);
-    JoxNode *node = jox_node_target(L, jox_node_get(L, -1));
-    tell->all = node && node->kind == JOX_NODE_NUMBER && node->op == JOX_OP_NEIGHBOURS;
-    if (tell->all)
-        node = node->target;
-    if (node && node->kind == JOX_NODE_TARGET && jox_target_kind_moves(node->target_kind))
-        tell->to = jox_build_target(b, node);
-    else if (!node || node->kind != JOX_NODE_ERROR)
-        jox_build_error(b, jox_read_at(b, path), "bad-value",
-                        "Example: tell = { nearest \"people\", \"shot\", damage = 2 }",
-                        "tell needs whom it tells as its first item: a target that is a person, or "
-                        "neighbours(tag)");
-    lua_pop(L, 1);
-}
-
-/* Returns the key of the table at `table` that comes first after `last` by name; NULL: none. */
-static const char *find_next_key(lua_State *L, int table, const char *last) {
-    const char *next = NULL;
-    lua_pushnil(L);
-    while (lua_next(L, table)) {
-        lua_pop(L, 1);
-        const char *key = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-        if (key && (!last || strcmp(key, last) > 0) && (!next || strcmp(key, next) < 0))
-            next = key;
-    }
-    return next;
-}
-
-/* Reads a value that a message carries, under a key of the table at `table`. */
-static void read_carried(JoxBuild *b, int table, const char *path, const char *key,
-                         struct JoxCarried *carried) {
-    static const JoxParameterInfo ANY = {"this", "", "", -1e12, 1e12, 0};
-    lua_State *L = b->script->vm.L;
-    char full[256];
-    bool is_dist = false;
-    JoxDist dist;
-    jox_read_join(full, path, key);
-    *carried = (struct JoxCarried){.name = jox_build_name(b, key, JOX_NAME_CARRIED), .target = -1};
-    const int type = jox_read_field(L, table, key);
-    const JoxNode *node = jox_node_get(L, -1);
-    if (type == LUA_TSTRING || (node && node->kind == JOX_NODE_TARGET)) {
-        lua_pop(L, 1);
-        carried->target = jox_read_target(b, table, full, key);
-        return;
-    }
-    if (type == LUA_TBOOLEAN) {
-        carried->value = (JoxValue){JOX_VALUE_CONST, lua_toboolean(L, -1), 0, 0, 0};
-        lua_pop(L, 1);
-        return;
-    }
-    carried->value = jox_read_value(b, full, &ANY, &is_dist, &dist);
-    if (is_dist)
-        jox_build_error(b, jox_read_at(b, full), "bad-value", "Use an own value for what is drawn",
-                        "a message carries numbers, expressions and targets");
-}
-
-/* Reads tell = { whom, "name", VALUE = number or target, ... }. */
-static void read_tell(JoxBuild *b, int index, const char *path, JoxActions *actions) {
-    static const char EXAMPLE[] = "Example: tell = { nearest \"people\", \"shot\", damage = 2 }";
-    lua_State *L = b->script->vm.L;
-    char full[256];
-    jox_read_join(full, path, "tell");
-    const int type = jox_read_field(L, index, "tell"), table = lua_gettop(L);
-    if (type == LUA_TTABLE) {
-        const size_t errors = b->script->diagnostics->errors;
-        JoxTell tell = {.to = -1, .name = -1};
-        read_receiver(b, table, full, &tell);
-        if (lua_rawgeti(L, table, 2) == LUA_TSTRING && lua_rawlen(L, -1) <= 60)
-            tell.name = jox_build_name(b, lua_tostring(L, -1), JOX_NAME_SENT);
-        else
-            jox_build_error(b, jox_read_at(b, full), "bad-value", EXAMPLE,
-                            "tell needs the name of the message as its second item");
-        lua_pop(L, 1);
-        for (const char *key = NULL; (key = find_next_key(L, table, key));) {
-            if (strcmp(key, "sender") == 0) {
-                jox_build_error(b, jox_read_at(b, full), "bad-key", "Give the value another name",
-                                "`sender` is who told the message");
-                break;
-            }
-            if (tell.count == JOX_MOST_CARRIED || strlen(key) > 60) {
-                jox_build_error(b, jox_read_at(b, full), "too-many", NULL,
-                                "a message carries at most %d values, with names of at most 60 "
-                                "bytes",
-                                JOX_MOST_CARRIED);
-                break;
-            }
-            read_carried(b, table, full, key, &tell.carries[tell.count++]);
-        }
-        if (tell.to >= 0 && b->script->diagnostics->errors == errors) {
-            actions->tell = jox_alloc(1, sizeof *actions->tell);
-            *actions->tell = tell;
-        }
-    } else if (type != LUA_TNIL) {
-        jox_build_error(b, jox_read_at(b, full), "bad-value", EXAMPLE, "tell must be a table");
-    }
-    lua_settop(L, table - 1);
-}
-
 void jox_read_actions(JoxBuild *b, int index, const char *path, JoxActions *actions,
                       double *every) {
     read_set_action(b, index, path, actions);
     read_signal(b, index, path, actions, every);
-    read_tell(b, index, path, actions);
+    jox_read_tell(b, index, path, actions);
 }
 
 /* Reads a kick or throw: { body, at = target, VALUE = number }; returns the target of the body or

@@ -81,9 +81,12 @@ bool jox_misuse_explains(JoxBuild *build, const char *path);
 int32_t jox_read_memory(const JoxBuild *build, const char *name);
 /* Reads `counts` of the table at `index`, for `state` as in JoxCounter. */
 void jox_read_counts(JoxBuild *build, int index, const char *prefix, int32_t state);
-/* Reads `set` and `signal` of the table at `index`; `every` NULL: the signal takes no interval. */
+/* Reads `set`, `signal` and `tell` of the table at `index`; `every` NULL: the signal takes no
+   interval. */
 void jox_read_actions(JoxBuild *build, int index, const char *path, JoxActions *actions,
                       double *every);
+/* Reads tell = { whom, "name", VALUE = number or target, ... }. */
+void jox_read_tell(JoxBuild *build, int index, const char *path, JoxActions *actions);
 /* Reads kick, take, throw, grasp and become of a state. */
 void jox_read_body_actions(JoxBuild *build, int index, const char *path, JoxState *state);
 /* nest_states.c: finds all states of a machine and of those that its states run; adds them without

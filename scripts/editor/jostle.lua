@@ -287,7 +287,7 @@ function Target:contains(item) end
 ---@field throw? jostle.Throw throws the body that it carries, from its own side of walls
 ---@field colour? string colour of agents in this state where people are coloured by state; one of blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes. Default: one is chosen
 ---@field signal? string|jostle.Signal signal that the agent gives on entering, and again after each interval with { name, every = seconds }
----@field tell? jostle.Tell message that the agent tells on entering: to whom, a target, also one that is remembered and out of sight, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)
+---@field tell? jostle.Tell message that the agent tells on entering: to whom, a target, also one that is remembered and out of sight, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers, conditions (1 if they hold, else 0) or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)
 ---@field set? jostle.Set values to set on entering, all of them computed from what was before: memory = number, condition, true/false, target, or a list's :push(item), :remove(item) or :clear(); team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new
 ---@field counts? table<string, jostle.Counter> memory that counts while the agent is in this state; see `circuits`
 ---@field on_enter? fun(me: jostle.Me) called when an agent enters the state

@@ -5,14 +5,14 @@ local ping, question, answer = told "ping", told "question", told "answer"
 local everybody = neighbours("people"):within(10)
 
 return machine { name = "messages", version = 1, start = "Ask", defaults = { perception = 20 }, states = {
-  Ask = { steer = hold, tell = { everybody, "question", number = now.y, thing = nearest "ball" },
+  Ask = { steer = hold, tell = { everybody, "question", number = now.y, thing = nearest "ball", soon = ~after(1) },
     { when = ping, set = { pings = mine.pings + ping.weight } },
     { every = 0.5, set = { ticks = mine.ticks + 1 }, tell = { everybody, "ping", weight = 1 } },
     { every = 0.5, when = ~exists(mine.shown), set = { late = mine.late + 1 } },
     -- nothing is asked here: questions wait
     { to = "Answer", when = after(2) } },
   Answer = { steer = hold,
-    { when = question & exists(question.thing) & exists(question.sender),
+    { when = question & exists(question.thing) & exists(question.sender) & question.soon:is(1),
       set = { asked_by = question.sender, shown = question.thing, sum = mine.sum + question.number },
       tell = { question.sender, "answer", twice = 2 * question.number } },
     { when = answer & ~same(answer.sender, mine.shown), set = { answers = mine.answers + answer.twice } },

@@ -203,6 +203,38 @@ static const Mistake MISTAKES[] = {
      "out-of-range", "step 2"},
     {"local w = wait(\"x\")\n" HEAD "A = {} } }", ERROR, 1, 11, 15, "bad-argument", "seconds"},
     {"local w = sequence {}\n" HEAD "A = {} } }", ERROR, 1, 11, 19, "bad-argument", "steps"},
+    /* several of one word on a line */
+    {"local c = near(\"k\") & near(\"l\", 3)\n" HEAD "A = {} } }", ERROR, 1, 11, 15, "bad-argument",
+     "nothing"},
+    {"local c = min(\"x\", max(1, min(2, 3)))\n" HEAD "A = {} } }", ERROR, 1, 11, 14,
+     "bad-argument", "argument 1 of min"},
+    {HEAD "A = { runs = machine { start = \"I\", states = { I = { sped = 1 } } } }, B = { runs = "
+          "machine { start = \"I\", states = { I = {} } } } } }",
+     ERROR, 2, 54, 58, "unknown-key", "machine m > state A > state I"},
+    {"local a, b = machine { start = \"I\", states = { I = {} } }, machine { start = \"I\", "
+     "states = { I = { sped = 1 } } }\n" HEAD "A = { runs = a }, B = { runs = b } } }",
+     ERROR, 1, 100, 104, "unknown-key", "state I"},
+    /* words of people who know each other */
+    {HEAD "A = { steer = seek(other) } } }", ERROR, 2, 20, 25, "bad-value", "best(\"people\""},
+    {"local b = best(\"p\", best(\"q\", other.x).x)\n" HEAD "A = { face = b } } }", ERROR, 1, 21,
+     25, "too-complex", "score of another"},
+    {"local b = best(nearest \"p\", other.x)\n" HEAD "A = {} } }", ERROR, 1, 11, 15, "bad-argument",
+     "filters follow it"},
+    {"local b = nearest(own.x)\n" HEAD "A = {} } }", ERROR, 1, 11, 18, "bad-argument",
+     "seek(own.x)"},
+    {"local b = sees(nearest \"p\", 5)\n" HEAD "A = {} } }", ERROR, 1, 11, 15, "bad-argument",
+     "sees(nearest(\"people\"):within(5))"},
+    {"local b = neighbours(\"p\", 5)\n" HEAD "A = {} } }", ERROR, 1, 11, 21, "bad-argument",
+     "neighbours(\"people\"):within(5)"},
+    {"local mine = memory { ids = list(3) }\nlocal a = mine.ids[1]\n" HEAD "A = {} } }", ERROR, 2,
+     16, 19, "bad-operand", ".first and .last"},
+    {"local mine = memory { ids = list(3) }\nlocal a = #mine.ids\n" HEAD "A = {} } }", ERROR, 2, 11,
+     12, "bad-operator", ".size"},
+    {"local mine = memory { ids = list(3) }\n" HEAD
+     "A = { tell = { nearest \"p\", \"go\", all = mine.ids } } } }",
+     ERROR, 3, 35, 38, "bad-value", "one message for each item"},
+    {"local mine = memory { on = false }\n" HEAD "A = { set = { on = now.speed } } } }", ERROR, 3,
+     15, 17, "bad-value", "becomes a condition by"},
 };
 
 static void each_kind_of_mistake_has_its_place(void **state) {

@@ -48,6 +48,17 @@ static bool is_name_in_scene(const JoxScope *scope, const char *name) {
     return false;
 }
 
+/* Replaces the word `other` on top of the stack by a copy that keeps its position, as it has a
+   meaning in scores alone. */
+static void push_placed_target(lua_State *L, JoxPosition at) {
+    const JoxNode *node = jox_node_get(L, -1);
+    if (!node || node->kind != JOX_NODE_TARGET || node->target_kind != JOX_TARGET_OTHER)
+        return;
+    JoxNode *copy = jox_node_push(L, JOX_NODE_TARGET);
+    *copy = *node;
+    copy->position = at;
+}
+
 /* __index of the environment: a name that is no local variable. */
 static int env_index(lua_State *L) {
     JOX_ASSERT(lua_istable(L, lua_upvalueindex(1)));
@@ -57,8 +68,8 @@ static int env_index(lua_State *L) {
     if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL)
         return 1;
     if (jox_word_lookup(L, name)) {
-        if (script->vm.loading)
-            jox_word_position(L, name); /* marks this occurrence as used */
+        if (script->vm.loading) /* marks this occurrence as used */
+            push_placed_target(L, jox_word_position(L, name));
         return 1;
     }
     if (jox_program_word_push(L, name)) {

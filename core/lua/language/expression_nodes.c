@@ -88,7 +88,7 @@ const char *jox_node_kind(lua_State *L, int index) {
     static const char *const NAMES[] = {[JOX_NODE_NUMBER] = "a number",
                                         [JOX_NODE_CONDITION] = "a condition",
                                         [JOX_NODE_TARGET] = "a target",
-                                        [JOX_NODE_OWN] = "a value",
+                                        [JOX_NODE_OWN] = "an own value",
                                         [JOX_NODE_STEER] = "a steering",
                                         [JOX_NODE_DIST] = "a distribution",
                                         [JOX_NODE_CIRCUITS] = "circuits",

@@ -321,6 +321,11 @@ static int method_clear(lua_State *L) {
 static int index_list(lua_State *L, const JoxNode *list, const char *name) {
     const bool people = list->target_kind == JOX_TARGET_NOBODY, size = strcmp(name, "size") == 0;
     const bool last = strcmp(name, "last") == 0;
+    if (lua_type(L, 2) != LUA_TSTRING)
+        return jox_word_error(L, list->name ? list->name : "[", "bad-operand",
+                              "Its ends are .first and .last; :contains(item) asks for an item. In "
+                              "functions a list is a table",
+                              "a list has no items by number");
     if (!size && !last && strcmp(name, "first") != 0)
         return jox_word_error(L, name, "unknown-method",
                               "A list has size, first, last, :contains, :push, :remove and :clear",

@@ -170,7 +170,9 @@ static int meta_concat(lua_State *L) {
     return refuse_operator(L, "..", "Use & between conditions");
 }
 static int meta_len(lua_State *L) {
-    return refuse_operator(L, "#", "Use count(place)");
+    const JoxNode *node = jox_node_get(L, 1);
+    const bool list = node && node->kind == JOX_NODE_LIST;
+    return refuse_operator(L, "#", list ? "Use .size" : "Use count(place)");
 }
 static int meta_pow(lua_State *L) {
     return refuse_operator(L, "^", "Multiply: x * x");

@@ -218,6 +218,8 @@ typedef struct JoxScript {
     size_t node_count, node_capacity, node_bytes;
     const JoxScope *scope;       /* while loading; not owned */
     JoxDiagnostics *diagnostics; /* while loading; not owned */
+    const char *called;          /* while loading: the word that was called last, and where */
+    JoxPosition called_at;
     const JoxMod *mod;        /* mod of the file that is running; NULL: the behaviour's own files */
     JoxPatchChanges changes;  /* changes of the machine's table by mods */
     JoxBelonging *belongings; /* tags and teams that the script names; moved to the machine */
@@ -338,6 +340,8 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
 JoxPosition jox_word_position(lua_State *L, const char *word);
 /* Returns the position as jox_word_position does, with the number of its source. */
 JoxNamePlace jox_word_place(lua_State *L, const char *word);
+/* Returns the place of the call of a word, which runs; errors of the word are reported there. */
+JoxNamePlace jox_word_call_place(lua_State *L, const char *word);
 
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* creates a node and pushes it */
 JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if the value is no node */

@@ -13,6 +13,7 @@ enum { MOST_STEPS = 200, MOST_NAME = 60 };
 
 /* wait(seconds): a step that stands for a number, distribution or expression of seconds. */
 static int make_wait(lua_State *L) {
+    jox_word_call_place(L, "wait");
     const JoxNode *node = jox_node_get(L, 1);
     const bool number = lua_type(L, 1) == LUA_TNUMBER ||
                         (node && (node->kind == JOX_NODE_NUMBER || node->kind == JOX_NODE_OWN ||
@@ -314,6 +315,7 @@ static void add_steps(Sequence *s) {
 static int make_sequence(lua_State *L) {
     if (!jox_script_of(L)->vm.loading)
         return luaL_error(L, "'sequence' makes a machine and cannot be used in a function");
+    const JoxNamePlace written = jox_word_call_place(L, "sequence");
     if (lua_type(L, 1) != LUA_TTABLE || lua_gettop(L) > 1 || lua_rawlen(L, 1) == 0)
         return jox_word_error(L, "sequence", "bad-argument",
                               "Example: sequence { seek \"door\", wait(2) }",
@@ -331,8 +333,7 @@ static int make_sequence(lua_State *L) {
     }
     lua_newtable(L);
     lua_newtable(L);
-    Sequence s = {
-        .written = jox_word_place(L, "sequence"), .L = L, .items = 1, .states = 3, .steps = 4};
+    Sequence s = {.written = written, .L = L, .items = 1, .states = 3, .steps = 4};
     add_steps(&s);
     lua_settop(L, 4);
     if (s.count == 0)

@@ -9,6 +9,7 @@
 
 /* orbit(place [, { inward, density_near, density_far, far, beyond }]) */
 static int make_orbit(lua_State *L) {
+    jox_word_call_place(L, "orbit");
     JoxNode *place = jox_word_argument(L, "orbit", 1, 'p');
     if (!place)
         return 1;
@@ -49,6 +50,7 @@ static int make_dist(lua_State *L) {
     const JoxDistKind kind = (JoxDistKind)word->op;
     const int count = lua_gettop(L);
     JOX_ASSERT(word->makes == JOX_NODE_DIST);
+    jox_word_call_place(L, word->name);
     double v[JOX_DIST_CHOICES];
     for (int i = 0; i < count && i < JOX_DIST_CHOICES; i++) {
         if (lua_type(L, i + 1) != LUA_TNUMBER || !(fabs(lua_tonumber(L, i + 1)) < 1e9))
@@ -65,11 +67,12 @@ static int make_dist(lua_State *L) {
 }
 
 static int make_machine(lua_State *L) {
+    const JoxNamePlace written = jox_word_call_place(L, "machine");
     if (lua_type(L, 1) != LUA_TTABLE)
         return jox_word_error(L, "machine", "bad-argument",
                               "machine { name = ..., states = { ... } }", "machine takes a table");
     JoxNode *node = jox_node_push(L, JOX_NODE_MACHINE);
-    node->written = jox_word_place(L, "machine");
+    node->written = written;
     lua_pushvalue(L, 1);
     node->hook = luaL_ref(L, LUA_REGISTRYINDEX);
     return 1;
@@ -84,6 +87,7 @@ static const JoxMemorySlot *find_memory(const JoxScript *script, const char *nam
 
 /* list(capacity [, nobody]): memory that begins as an empty list of numbers, or of somebody. */
 static int make_list(lua_State *L) {
+    jox_word_call_place(L, "list");
     const JoxNode *of = jox_node_get(L, 2);
     const bool people = of && of->kind == JOX_NODE_TARGET && of->target_kind == JOX_TARGET_NOBODY;
     const double capacity = lua_type(L, 1) == LUA_TNUMBER ? lua_tonumber(L, 1) : 0.0;
@@ -115,6 +119,7 @@ static int read_memory_kind(lua_State *L) {
 /* memory { laps = 0, touched = false }: declares what each agent remembers. */
 static int make_memory(lua_State *L) {
     JoxScript *script = jox_script_of(L);
+    jox_word_call_place(L, "memory");
     if (!script->vm.loading || lua_type(L, 1) != LUA_TTABLE)
         return jox_word_error(L, "memory", "bad-argument", "memory { laps = 0, touched = false }",
                               "memory takes a table");

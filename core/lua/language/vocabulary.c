@@ -343,7 +343,7 @@ const JoxTableKey jox_table_keys[] = {
      "colour = \"vermilion\"", 0, 0},
     {"state", "signal", "name, or table", "", "signal that the agent gives on entering, and again after each interval with { name, every = seconds }",
      "signal = { \"alarm\", every = 1 }", 0, 0},
-    {"state", "tell", "table", "", "message that the agent tells on entering: to whom, a target, also one that is remembered and out of sight, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)",
+    {"state", "tell", "table", "", "message that the agent tells on entering: to whom, a target, also one that is remembered and out of sight, or `neighbours(tag)` for all those; its name; and up to 4 values, numbers, conditions (1 if they hold, else 0) or targets. Its values are those before `set`. It waits for the receiver from the next step on (see `told`)",
      "tell = { nearest \"people\", \"shot\", damage = 2 }", 0, 0},
     {"state", "set", "table", "", "values to set on entering, all of them computed from what was before: memory = number, condition, true/false, target, or a list's :push(item), :remove(item) or :clear(); team = name of a team; tags = tag or list of tags, in place of those that the agent had. Teams and tags may be new",
      "set = { laps = mine.laps + 1, tags = \"people\" }", 0, 0},

@@ -47,6 +47,23 @@ static bool can_be_place(const JoxNode *node) {
            (node->kind == JOX_NODE_TARGET && jox_target_kind_is_place(node->target_kind));
 }
 
+/* Writes how a word that takes a tag is used in place of what it was given. */
+static void explain_tag(lua_State *L, const char *word, int index, char hint[160]) {
+    const JoxNode *node = jox_node_get(L, index);
+    if (node && node->kind == JOX_NODE_TARGET && strcmp(word, "best") == 0)
+        snprintf(hint, 160,
+                 "best chooses itself, and filters follow it: best(\"people\", "
+                 "other.speed):within(5)");
+    else if (node && node->kind == JOX_NODE_OWN)
+        snprintf(hint, 160,
+                 "Write the tag in quotes: %s \"ball\". An own value that names a place is a "
+                 "target by itself: seek(own.%.40s)",
+                 word, node->name);
+    else
+        snprintf(hint, 160, "Example: %s",
+                 strcmp(word, "best") == 0 ? jox_word_example(word) : "nearest \"ball\"");
+}
+
 /* Pushes and returns the target for a tag, or for "opponents", "teammates" or "anyone"; NULL with
    an error pushed. */
 static JoxNode *read_tag_argument(lua_State *L, const char *word, int index) {
@@ -59,9 +76,11 @@ static JoxNode *read_tag_argument(lua_State *L, const char *word, int index) {
     JoxScript *script = jox_script_of(L);
     const JoxScope *scope = script->scope;
     if (lua_type(L, index) != LUA_TSTRING) {
-        jox_word_error(L, word, "bad-argument", "Example: nearest \"ball\"",
-                       "argument %d of %s must be a tag, not %s", index, word,
-                       lua_gettop(L) < index ? "nothing" : luaL_typename(L, index));
+        char hint[160];
+        explain_tag(L, word, index, hint);
+        jox_word_error(L, word, "bad-argument", hint, "argument %d of %s must be a tag, not %s",
+                       index, word,
+                       lua_isnoneornil(L, index) ? "nothing" : jox_node_kind(L, index));
         return NULL;
     }
     const char *name = lua_tostring(L, index);
@@ -199,8 +218,15 @@ static bool check_word_range(lua_State *L, const JoxWord *word, uint32_t n, doub
 static bool report_extra_arguments(lua_State *L, const JoxWord *word, int given, int most) {
     if (given <= most)
         return false;
-    char arguments[JOX_NOUN];
-    jox_word_error(L, word->name, "bad-argument", word->meaning, "%s takes %s, not %d", word->name,
+    char arguments[JOX_NOUN], within[160];
+    const bool near = given == 2 && lua_type(L, 2) == LUA_TNUMBER &&
+                      (strcmp(word->takes, "t") == 0 || strcmp(word->takes, "g") == 0);
+    const char *tag = *word->takes == 't' ? "nearest(\"people\")" : "\"people\"";
+    snprintf(within, sizeof within, "For a distance: %s(%s%s:within(%.6g)%s", word->name, tag,
+             *word->takes == 't' ? "" : ")", near ? lua_tonumber(L, 2) : 0.0,
+             *word->takes == 't' ? ")" : "");
+    jox_word_error(L, word->name, "bad-argument", near ? within : word->meaning,
+                   "%s takes %s, not %d", word->name,
                    jox_noun(arguments, (uint64_t)most, "argument"), given);
     return true;
 }
@@ -271,6 +297,7 @@ static JoxNode *build_word_value(lua_State *L, const JoxWord *word, JoxNode *con
         node->name = arguments[0]->name;
         if (word->op == JOX_TARGET_LAST_SEEN && !read_sighting(L, node, arguments[0]))
             return NULL;
+        node->position = jox_script_of(L)->called_at;
         if (count > 1)
             node->score = arguments[1]; /* best */
         break;
@@ -317,6 +344,7 @@ static int make_word(lua_State *L) {
         return luaL_error(
             L, "'%s' makes a value of the machine's table and cannot be used in a function",
             word->name);
+    jox_word_call_place(L, word->name);
     JoxNode *arguments[3] = {NULL, NULL, NULL};
     int count = 0;
     const int given = lua_gettop(L);

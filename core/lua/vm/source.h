@@ -16,6 +16,7 @@ typedef struct JoxToken {
     uint32_t length;
     int line, column, end_column; /* from 1; end_column is after the last character */
     bool used; /* jox_source_find has returned it: the next search on its line takes the next one */
+    bool called; /* jox_source_find_called has returned it */
 } JoxToken;
 
 typedef struct JoxSource {
@@ -34,6 +35,10 @@ void jox_source_free(JoxSource *source);
 /* Returns the first token of this name on a line that is not used, and marks it used; if all are
    used, one of them; NULL if there is none. */
 JoxToken *jox_source_find(JoxSource *source, int line, const char *name);
+/* Returns the token of a function of this name on a line that is being called: of those that were
+   looked up (jox_source_find) and not called yet the last, as calls are nested. NULL if there is
+   none. Marks it as called. */
+JoxToken *jox_source_find_called(JoxSource *source, int line, const char *name);
 
 /* Returns whether a name or a string has this text. */
 static inline bool jox_token_says(const JoxToken *token, const char *text) {

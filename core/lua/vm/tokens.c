@@ -18,8 +18,12 @@ static void add_token(Scan *s, JoxTokenKind kind, const char *text, size_t lengt
     JoxSource *source = s->source;
     JOX_RESERVE(source->tokens, source->token_capacity, source->token_count + 1);
     int column = (int)(from - line_start) + 1;
-    source->tokens[source->token_count++] =
-        (JoxToken){kind, text, (uint32_t)length, line, column, column + (int)(s->at - from), false};
+    source->tokens[source->token_count++] = (JoxToken){.kind = kind,
+                                                       .text = text,
+                                                       .length = (uint32_t)length,
+                                                       .line = line,
+                                                       .column = column,
+                                                       .end_column = column + (int)(s->at - from)};
 }
 
 static void count_newline(Scan *s) {
@@ -163,9 +167,9 @@ void jox_source_free(JoxSource *source) {
     jox_free(source->path);
 }
 
-JoxToken *jox_source_find(JoxSource *source, int line, const char *name) {
-    JoxToken *any = NULL;
-    size_t low = 0, high = source->token_count, length = strlen(name);
+/* Returns the number of the first token on a line, or on the first line after it that has any. */
+static size_t find_line(const JoxSource *source, int line) {
+    size_t low = 0, high = source->token_count;
     while (low < high) {
         size_t middle = (low + high) / 2;
         if (source->tokens[middle].line < line)
@@ -173,11 +177,30 @@ JoxToken *jox_source_find(JoxSource *source, int line, const char *name) {
         else
             high = middle;
     }
-    for (; low < source->token_count && source->tokens[low].line == line; low++) {
-        JoxToken *t = &source->tokens[low];
-        if (t->length != length || memcmp(t->text, name, length) != 0)
+    return low;
+}
+
+JoxToken *jox_source_find_called(JoxSource *source, int line, const char *name) {
+    JoxToken *last = NULL;
+    for (size_t n = find_line(source, line);
+         n < source->token_count && source->tokens[n].line == line; n++) {
+        JoxToken *t = &source->tokens[n];
+        if (t->used && !t->called && jox_token_is(t, name))
+            last = t;
+    }
+    if (last)
+        last->called = true;
+    return last;
+}
+
+JoxToken *jox_source_find(JoxSource *source, int line, const char *name) {
+    JoxToken *any = NULL;
+    for (size_t n = find_line(source, line);
+         n < source->token_count && source->tokens[n].line == line; n++) {
+        JoxToken *t = &source->tokens[n];
+        if (!jox_token_says(t, name))
             continue;
-        bool key = low + 1 < source->token_count &&
+        bool key = n + 1 < source->token_count &&
                    jox_token_is(t + 1, "="); /* a key of a table, not a use of the word */
         if (!t->used && !key) {
             t->used = true;
