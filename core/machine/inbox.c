@@ -40,6 +40,8 @@ const JoxMessage *jox_message_take(JoxMachineRun *run, uint32_t agent, uint32_t 
     const JoxMessage *message = jox_message_find(run, agent, name);
     if (message)
         run->state->waiting[message - run->state->waiting].used = 1;
+    if (message && run->watched_count)
+        jox_watch_used_message(run, message, NULL, NULL);
     return message;
 }
 

@@ -173,9 +173,17 @@ double jox_message_value(const JoxMessage *message, uint32_t name, bool somebody
 void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell, uint32_t agent);
 /* Delivers what was told since the last step, and drops what was used. */
 void jox_messages_deliver(JoxMachineRun *run);
-/* Marks the messages as used on which condition `when` of an agent rests; returns whether any is.
- */
-bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, int32_t when, uint32_t agent);
+/* Marks the messages as used on which the condition of an item of an agent's state rests; returns
+   whether any is. */
+bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *item,
+                      uint32_t agent);
+/* watched_messages.c: record for watched agents a message that comes, is dropped, or is used by an
+   item, NULL: by a function; and the signals that are heard in this step. */
+void jox_watch_message(const JoxMachineRun *run, const JoxMessage *message);
+void jox_watch_lost_message(const JoxMachineRun *run, const JoxMessage *message);
+void jox_watch_used_message(const JoxMachineRun *run, const JoxMessage *message,
+                            const JoxMachine *machine, const JoxTransition *item);
+void jox_watch_calls(const JoxMachineRun *run);
 
 /* best_of.c: returns the candidate with the greatest score among those that the agent sees and that
    match the target; of equal ones agents before bodies, by ascending id. */

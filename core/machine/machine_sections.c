@@ -129,6 +129,7 @@ void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
     for (uint32_t m = 0; m < set->count; m++)
         list_count_sections(&state->counts[m], s);
     JOX_SECTION_ARRAY(s, "calls", state->calls, state->call_count, state->call_capacity);
+    JOX_SECTION_ARRAY(s, "tallies", state->tallies, state->tally_count, state->tally_capacity);
     JOX_SECTION(s, "messages_lost", state->messages_lost);
     JOX_SECTION(s, "messages_unasked", state->messages_unasked);
     JOX_SECTION(s, "messages_to_nobody", state->messages_to_nobody);

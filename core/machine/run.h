@@ -83,6 +83,14 @@ typedef struct JoxNameCall {
     float x, y;        /* m */
 } JoxNameCall;
 
+/* How often messages of a name were told, and what became of them; and the last that came to its
+   receiver. */
+typedef struct JoxMessageTally {
+    uint64_t count, to_nobody, unasked, lost; /* that came to an agent which asks for them; see
+                                                 messages_to_nobody and the like */
+    uint32_t sent, from, to, unused;          /* tick; ids; 0: sections hold no padding bytes */
+} JoxMessageTally;
+
 /* A body that an agent picks up or lets go. */
 typedef struct JoxGrip {
     uint32_t object, agent_id;
@@ -135,6 +143,25 @@ typedef struct JoxWatched {
         uint32_t tick;
         double drawn; /* the chance was won if it was greater */
     } rolls[JOX_MOST_TRANSITIONS];
+    uint32_t begun; /* tick at which watching began */
+    /* Per name, the last message that came since then. */
+    struct JoxCame {
+        uint32_t name, count; /* number of the name; messages that came */
+        uint32_t sent, from;  /* tick; id */
+        enum { JOX_CAME_WAITS, JOX_CAME_USED, JOX_CAME_LOST } fate;
+        uint32_t tick; /* of its fate */
+        char by[96];   /* what used it, as "its transition to It (tag.lua:12)" */
+    } * came;
+    uint32_t came_count;
+    size_t came_capacity;
+    /* Per name, the last call of a signal, the nearest of several in a step; and where the agent
+       was. */
+    struct JoxOverheard {
+        uint32_t name, tick, agent_id; /* as in JoxNameCall */
+        float x, y, own_x, own_y;      /* m */
+    } * overheard;
+    uint32_t overheard_count;
+    size_t overheard_capacity;
 } JoxWatched;
 
 /* A parameter that a person set while the world ran. */
@@ -215,6 +242,9 @@ typedef struct JoxMachineState {
     JoxNameCall *calls; /* statistics, by number of the name, as far as names were called */
     uint32_t call_count;
     size_t call_capacity;
+    JoxMessageTally *tallies; /* statistics, by number of the name, as far as names were told */
+    uint32_t tally_count;
+    size_t tally_capacity;
     /* Statistics: messages dropped because too many waited; that the receiver's machine never asks
        for; that had no receiver. */
     uint64_t messages_lost, messages_unasked, messages_to_nobody;
@@ -417,6 +447,8 @@ const JoxMessage *jox_message_find(const JoxMachineRun *run, uint32_t agent, uin
 const JoxMessage *jox_message_take(JoxMachineRun *run, uint32_t agent, uint32_t name);
 /* Sends a message of a function; false if there are too many. */
 bool jox_message_send(JoxMachineRun *run, const JoxMessage *message);
+/* Counts a message of this name that has no receiver. */
+void jox_message_to_nobody(JoxMachineRun *run, uint32_t name);
 /* Gives a signal (by number) that all agents hear in the next think, wherever they are. */
 void jox_machines_announce(JoxMachineRun *run, uint32_t name);
 /* Returns the place that an agent heads for by a distance field in its state and has not reached;

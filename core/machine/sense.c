@@ -53,6 +53,8 @@ static void count_call(const JoxMachineRun *run, uint32_t name, uint32_t agent_i
 void jox_machines_listen(JoxMachineRun *run) {
     JoxMachineState *state = run->state;
     jox_signals_peek(run);
+    if (run->watched_count)
+        jox_watch_calls(run);
     for (uint32_t n = 0; n < state->called_count; n++) {
         const JoxSignal *called = &state->called[n];
         count_call(run, called->name, called->agent_id, (JoxV2){called->x, called->y});

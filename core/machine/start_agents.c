@@ -283,11 +283,11 @@ void jox_machines_free(JoxMachineRun *run) {
         jox_free(set->names[n]);
     jox_free(set->names);
     jox_free(set->name_table);
-    void *const owned[] = {
-        state->sent,   state->waiting,    run->lost_names,    state->calls,
-        state->called, state->announced,  state->pending,     state->edits,
-        state->thrown, run->taken,        run->kicks,         run->grips,
-        run->push_on,  run->push_nearest, run->push_toward_x, run->push_toward_y};
+    void *const owned[] = {state->sent,       state->waiting, run->lost_names,   state->calls,
+                           state->tallies,    state->called,  state->announced,  state->pending,
+                           state->edits,      state->thrown,  run->taken,        run->kicks,
+                           run->grips,        run->push_on,   run->push_nearest, run->push_toward_x,
+                           run->push_toward_y};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
     jox_text_free(&run->trace);

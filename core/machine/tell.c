@@ -3,6 +3,7 @@
    taken. think.c delivers and uses messages, signals.c sends them; inbox.c finds those that wait.
  */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -20,6 +21,24 @@ bool jox_message_send(JoxMachineRun *run, const JoxMessage *message) {
         return false;
     add_sent(run->state, message);
     return true;
+}
+
+/* Returns the counts of messages of a name. */
+static JoxMessageTally *find_counts(const JoxMachineRun *run, uint32_t name) {
+    JoxMachineState *state = run->state;
+    if (name >= state->tally_count) {
+        const uint32_t count = run->set->name_count;
+        JOX_RESERVE(state->tallies, state->tally_capacity, count);
+        memset(state->tallies + state->tally_count, 0,
+               (count - state->tally_count) * sizeof *state->tallies);
+        state->tally_count = count;
+    }
+    return &state->tallies[name];
+}
+
+void jox_message_to_nobody(JoxMachineRun *run, uint32_t name) {
+    run->state->messages_to_nobody++;
+    find_counts(run, name)->to_nobody++;
 }
 
 /* Returns the message that an agent tells, without a receiver. */
@@ -55,7 +74,7 @@ void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell
     }
     const uint32_t j = jox_who_agent(run, jox_target_who(run, i, tell->to));
     if (j == JOX_NO_INDEX) {
-        run->state->messages_to_nobody++;
+        jox_message_to_nobody(run, message.name);
         return;
     }
     message.to = run->agents->id[j];
@@ -76,13 +95,20 @@ static bool asks_for(const JoxMachine *machine, uint32_t name) {
 static bool is_deliverable(JoxMachineRun *run, const JoxMessage *message) {
     const uint32_t i = jox_agents_find(run->agents, message->to);
     if (i == JOX_NO_INDEX) {
-        run->state->messages_to_nobody++;
+        jox_message_to_nobody(run, message->name);
         return false;
     }
     if (run->agents->machine[i] != JOX_NO_MACHINE &&
-        asks_for(jox_machine_of(run, i), message->name))
+        asks_for(jox_machine_of(run, i), message->name)) {
+        JoxMessageTally *told = find_counts(run, message->name);
+        *told = (JoxMessageTally){told->count + 1, told->to_nobody, told->unasked, told->lost,
+                                  message->sent,   message->from,   message->to,   0};
+        if (run->watched_count)
+            jox_watch_message(run, message);
         return true;
+    }
     run->state->messages_unasked++;
+    find_counts(run, message->name)->unasked++;
     return false;
 }
 
@@ -96,6 +122,9 @@ static int compare_receivers(const void *a, const void *b, const void *context) 
 static void tell_lost(JoxMachineRun *run, const JoxMessage *lost) {
     JoxMachineState *state = run->state;
     state->messages_lost++;
+    find_counts(run, lost->name)->lost++;
+    if (run->watched_count)
+        jox_watch_lost_message(run, lost);
     for (uint32_t n = 0; n < run->lost_name_count; n++)
         if (run->lost_names[n] == lost->name)
             return;
@@ -179,9 +208,10 @@ static uint32_t find_rest(const JoxMachine *machine, const JoxInstruction *in, c
     return 0;
 }
 
-bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, int32_t when, uint32_t i) {
+bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
+                      uint32_t i) {
     static _Thread_local JoxRegisters values;
-    const JoxExpression *expression = &machine->expressions[when];
+    const JoxExpression *expression = &machine->expressions[t->when];
     Rests rests = {0};
     uint32_t count;
     const JoxMessage *first = jox_messages_of(run, i, &count);
@@ -196,7 +226,10 @@ bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, int32_t whe
         rests[in.to] = values[in.to][0] != 0.0 ? rest : 0;
     }
     for (uint32_t m = 0; m < count; m++)
-        if (rests[0] >> m & 1)
+        if (rests[0] >> m & 1) {
             run->state->waiting[(uint32_t)(first - run->state->waiting) + m].used = 1;
+            if (run->watched_count)
+                jox_watch_used_message(run, &first[m], machine, t);
+        }
     return rests[0] != 0;
 }

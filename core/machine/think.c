@@ -220,7 +220,7 @@ static void do_item(JoxMachineRun *run, const JoxMachine *machine, const JoxTran
     jox_actions_do(run, machine, &t->does, i);
     jox_call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
     if (jox_asks_for_messages(machine, t->when))
-        jox_messages_use(run, machine, t->when, i);
+        jox_messages_use(run, machine, t, i);
 }
 
 /* Carries out the reactions that are due for one agent, in order. */

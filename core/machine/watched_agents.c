@@ -85,5 +85,7 @@ void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxA
 void jox_watched_end(JoxWatched *watched) {
     jox_text_free(&watched->why);
     jox_free(watched->wrote);
+    jox_free(watched->came);
+    jox_free(watched->overheard);
     *watched = (JoxWatched){0};
 }

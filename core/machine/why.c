@@ -276,8 +276,14 @@ static void deliver_to_copy(JoxMachineRun *run, JoxMachineLook *look) {
     copy->sent = copy_messages(copy->sent, copy->sent_count);
     copy->waiting_capacity = copy->waiting_count + 1;
     copy->sent_capacity = copy->sent_count + 1;
+    copy->tallies = jox_alloc((size_t)copy->tally_count + 1, sizeof *copy->tallies);
+    if (copy->tally_count)
+        memcpy(copy->tallies, look->state->tallies, copy->tally_count * sizeof *copy->tallies);
+    copy->tally_capacity = copy->tally_count + 1;
     run->state = copy;
+    run->watched_count = 0; /* what comes is recorded in the next step */
     jox_messages_deliver(run);
+    run->watched_count = look->watched_count;
 }
 
 void jox_machines_look(JoxMachineRun *run, JoxPool *pool, const JoxNeighbours *neighbours,
@@ -289,6 +295,7 @@ void jox_machines_look(JoxMachineRun *run, JoxPool *pool, const JoxNeighbours *n
                                .state = run->state,
                                .delivered = *run->state,
                                .lost_name_count = run->lost_name_count,
+                               .watched_count = run->watched_count,
                                .notes = run->notes.length};
     run->neighbours = neighbours;
     run->tick = tick;
@@ -303,6 +310,7 @@ void jox_machines_look(JoxMachineRun *run, JoxPool *pool, const JoxNeighbours *n
 void jox_machines_end_look(JoxMachineRun *run, JoxMachineLook *before) {
     jox_free(before->delivered.waiting);
     jox_free(before->delivered.sent);
+    jox_free(before->delivered.tallies);
     run->state = before->state;
     run->neighbours = before->neighbours;
     run->tick = before->tick;

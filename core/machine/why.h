@@ -84,6 +84,7 @@ typedef struct JoxMachineLook {
     JoxMachineState *state;
     JoxMachineState delivered; /* the state, after messages that were sent have been delivered */
     uint32_t lost_name_count;
+    uint32_t watched_count;
     size_t notes;
 } JoxMachineLook;
 /* Begins a look: makes signals, messages, states, places and queues known as the think at `tick`

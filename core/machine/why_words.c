@@ -93,68 +93,6 @@ static void say_side(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
                     left ? "left" : "right");
 }
 
-/* Says who gave a signal last, and where. */
-static void say_last_call(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach,
-                          JoxText *out) {
-    const JoxMachineState *state = run->state;
-    const JoxMachineScratch *heard = run->scratch;
-    const float perception = jox_param(run->agents, JOX_PARAM_perception, i);
-    const double wide = fmin(reach, (double)perception);
-    JoxNameCall last = name < state->call_count ? state->calls[name] : (JoxNameCall){0};
-    for (uint32_t n = 0; n < heard->heard_count; n++)
-        if (heard->heard[n].name == name) {
-            const JoxSignal *s = &heard->heard[n];
-            last = (JoxNameCall){last.count + 1, run->tick, s->agent_id, s->x, s->y};
-        }
-    if (last.count == 0) {
-        jox_text_add(out, "nobody has called it so far");
-        return;
-    }
-    const double time = last.tick * run->dt;
-    const JoxV2 at = {last.x, last.y}, from = jox_why_position(run, i);
-    const double distance = (double)jox_length(jox_sub(at, from));
-    if (last.agent_id == UINT32_MAX)
-        jox_text_printf(out, "called out to everybody at %.2f s", time);
-    else if (last.agent_id == run->agents->id[i])
-        jox_text_printf(out, "it called it itself at %.2f s, which is not heard", time);
-    else
-        jox_text_printf(out, "agent %u called it at %.2f s, %.3g m from here%s", last.agent_id,
-                        time, distance,
-                        jox_is_hidden(run, from, at, false) ? ", behind a wall" : "");
-    if (last.agent_id != UINT32_MAX && distance > wide)
-        jox_text_printf(out, "; it hears as far as %.3g m", wide);
-    else if (last.tick != run->tick)
-        jox_text_add(out, "; a signal is heard in the next step alone");
-}
-
-void jox_why_add_message(const JoxMachineRun *run, const JoxMessage *message, JoxText *out) {
-    jox_text_printf(out, "'%s' of agent %u, told at %.2f s", run->set->names[message->name],
-                    message->from, message->sent * run->dt);
-    for (uint32_t v = 0; v < message->count; v++) {
-        jox_text_printf(out, ", %s ", run->set->names[message->names[v]]);
-        if (message->somebody >> v & 1)
-            jox_who_print(run, message->values[v], out);
-        else
-            jox_text_printf(out, "%.4g", message->values[v]);
-    }
-}
-
-/* Says which message of a name waits, or which others do. */
-static void say_message(const JoxMachineRun *run, uint32_t i, uint32_t name, JoxText *out) {
-    const JoxMessage *found = jox_message_find(run, i, name);
-    uint32_t count, others = 0;
-    const JoxMessage *first = jox_messages_of(run, i, &count);
-    if (found) {
-        jox_why_add_message(run, found, out);
-        return;
-    }
-    jox_text_add(out, "no such message waits");
-    for (uint32_t m = 0; m < count; m++)
-        if (!first[m].used)
-            jox_text_printf(out, "%s'%s'",
-                            others++ ? ", " : "; others do: ", run->set->names[first[m].name]);
-}
-
 /* Says when something that is done every so many seconds is next due. */
 static void say_next(double time, double every, JoxText *out) {
     if (every > 0.0)
@@ -241,10 +179,10 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
         say_queue(run, i, &term->note);
         break;
     case JOX_OP_HEARD:
-        say_last_call(run, i, machine->names[in->name].number, a, &term->note);
+        jox_why_add_call(run, i, machine->names[in->name].number, a, &term->note);
         break;
     case JOX_OP_TOLD:
-        say_message(run, i, machine->names[in->name].number, &term->note);
+        jox_why_add_told(run, i, machine->names[in->name].number, &term->note);
         break;
     case JOX_OP_EVERY:
         say_next(jox_time_in_state(run, i), a, &term->note);

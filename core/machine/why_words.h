@@ -16,6 +16,11 @@ void jox_why_add_identity(const JoxMachineRun *run, uint32_t agent, int32_t inde
 void jox_why_add_count(const JoxMachineRun *run, uint32_t agent, int32_t index, JoxText *out);
 /* Appends what an agent or body is called: "agent 12 (in Walk)", "body 'ball'", "body 3". */
 void jox_why_add_somebody(const JoxMachineRun *run, uint32_t agent, int32_t object, JoxText *out);
+/* why_calls.c: append who called a signal last, or calls it now, when, where and how far from the
+   agent against its reach, m; and which message of a name waits, or what became of the last. */
+void jox_why_add_call(const JoxMachineRun *run, uint32_t agent, uint32_t name, double reach,
+                      JoxText *out);
+void jox_why_add_told(const JoxMachineRun *run, uint32_t agent, uint32_t name, JoxText *out);
 /* why_words.c: fills value, bound, relation, unit and note of a word on the agent's time or
    surroundings; `a` is its first input. */
 void jox_why_measure(const JoxMachineRun *run, uint32_t agent, const JoxInstruction *in, double a,

@@ -79,7 +79,7 @@ static JoxInspected *begin_inspection(JoWorld *w, uint32_t slot, uint32_t id) {
     JOX_ASSERT(all->count < JOX_MOST_INSPECTED);
     uint32_t n = all->count++;
     all->agents[n] = (JoxInspected){.slot = slot, .id = id};
-    all->watched[n] = (JoxWatched){.agent_id = id};
+    all->watched[n] = (JoxWatched){.agent_id = id, .begun = (uint32_t)w->state.tick};
     w->machines.watched = all->watched;
     w->machines.watched_count = all->count;
     return &all->agents[n];

@@ -338,7 +338,7 @@ int jox_me_tell(lua_State *L) {
     else if (!lua_isnil(L, at + 2))
         return luaL_error(L, "a message carries a table of values: { damage = 2 }");
     if (i == JOX_NO_INDEX) {
-        machines->state->messages_to_nobody++;
+        jox_message_to_nobody(machines, message.name);
         return 0;
     }
     message.to = machines->agents->id[i];
