@@ -16,7 +16,8 @@ void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, co
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    jox_diag_error(build->script->diagnostics, position, code, hint, "%s", text);
+    if (!jox_diag_lists(build->script->diagnostics, position, code, text))
+        jox_diag_error(build->script->diagnostics, position, code, hint, "%s", text);
 }
 
 int32_t jox_build_own(JoxBuild *build, const char *name) {

@@ -1,5 +1,6 @@
 /* Reads `own`, own values besides the parameters, and `public`, the memory that others may read, of
    a machine's table. Called by build.c. */
+#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -20,37 +21,69 @@ static JoxDist read_own_place(JoxBuild *b, const char *path) {
     return jox_dist_constant(place);
 }
 
-/* Reads the own value on top of the stack; pops it. */
-static void read_own_value(JoxBuild *b, const char *path, const char *name) {
+/* Reads the own value on top of the stack into *dist; pops it. */
+static void read_own_dist(JoxBuild *b, const char *path, JoxDist *dist) {
     static const JoxParameterInfo ANY = {"an own value", "", "", -1e12, 1e12, 0};
     lua_State *L = b->script->vm.L;
-    const int32_t slot = jox_build_own(b, name);
-    JoxOwnSlot *own = &b->machine->own[slot];
-    if (own->declared) { /* by a machine around this one */
-        lua_pop(L, 1);
-        return;
-    }
-    own->declared = true;
-    if (lua_type(L, -1) == LUA_TSTRING) {
-        own->is_place = true;
-        own->dist = read_own_place(b, path);
-        lua_pop(L, 1);
-        return;
-    }
-    if (lua_type(L, -1) == LUA_TBOOLEAN) {
-        own->dist = jox_dist_constant(lua_toboolean(L, -1));
+    if (lua_type(L, -1) == LUA_TSTRING || lua_type(L, -1) == LUA_TBOOLEAN) {
+        *dist = lua_type(L, -1) == LUA_TSTRING ? read_own_place(b, path)
+                                               : jox_dist_constant(lua_toboolean(L, -1));
         lua_pop(L, 1);
         return;
     }
     bool is_dist;
-    JoxDist dist;
-    const JoxValue value = jox_read_value(b, path, &ANY, &is_dist, &dist);
-    if (is_dist || value.kind == JOX_VALUE_CONST)
-        b->machine->own[slot].dist = is_dist ? dist : jox_dist_constant(value.number);
-    else if (value.kind != JOX_VALUE_UNSET)
+    const JoxValue value = jox_read_value(b, path, &ANY, &is_dist, dist);
+    if (!is_dist && value.kind == JOX_VALUE_CONST)
+        *dist = jox_dist_constant(value.number);
+    else if (!is_dist && value.kind != JOX_VALUE_UNSET)
         jox_build_error(b, jox_read_at(b, path), "bad-value",
                         "What changes belongs in memory, or into the expression itself",
                         "an own value is drawn once: a number, a distribution or a place");
+}
+
+/* Returns whether the machine that is read is `nest`, or runs within it. */
+static bool is_within(const JoxBuild *b, uint32_t nest) {
+    uint32_t n = b->nest;
+    while (n != nest && n != 0)
+        n = b->nested[n].parent;
+    return n == nest;
+}
+
+/* Warns of an own value that another machine, not around this one, declares otherwise. */
+static void compare_declared(JoxBuild *b, const char *path, const JoxOwnSlot *own, bool is_place,
+                             const JoxDist *dist) {
+    char first[256], all[256], text[256];
+    if (is_within(b, own->nest) || (is_place == own->is_place && jox_dist_same(dist, &own->dist)))
+        return;
+    jox_read_join(all, b->nested[own->nest].path, "own");
+    jox_read_join(first, all, own->name);
+    const JoxPosition was = jox_read_at(b, first), at = jox_read_at(b, path);
+    snprintf(text, sizeof text,
+             "own.%.60s is declared otherwise at %.100s:%d:%d, by a machine of another state, and "
+             "that holds",
+             own->name, was.file ? was.file : "", was.line, was.column);
+    if (!jox_diag_lists(b->script->diagnostics, at, "doubled-own", text))
+        jox_diag_warn(b->script->diagnostics, at, "doubled-own",
+                      "Give one of them another name, or declare it in the machine around both",
+                      "%s", text);
+}
+
+/* Reads the own value on top of the stack; pops it. */
+static void read_own_value(JoxBuild *b, const char *path, const char *name) {
+    lua_State *L = b->script->vm.L;
+    const int32_t slot = jox_build_own(b, name);
+    const bool is_place = lua_type(L, -1) == LUA_TSTRING;
+    JoxDist dist = jox_dist_constant(0.0);
+    read_own_dist(b, path, &dist);
+    JoxOwnSlot *own = &b->machine->own[slot];
+    if (own->declared) { /* by a machine before this one, or around it */
+        compare_declared(b, path, own, is_place, &dist);
+        return;
+    }
+    own->declared = true;
+    own->nest = b->nest;
+    own->is_place |= is_place;
+    own->dist = dist;
 }
 
 /* Writes the names in a table to `names`, ascending, as tables have no order; returns how many. */

@@ -1,16 +1,29 @@
 /* Warns of parts of a machine that have no effect: states that cannot be reached or left,
-   transitions that never fire, distances beyond perception. The machine runs all the same. Called
-   by build.c. */
+   transitions that never fire, distances beyond perception, fields of `me` that memory hides. The
+   machine runs all the same. Called by build.c. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
+#include "lua/language/vocabulary.h"
 #include "lua/read_table.h"
+
+/* Adds a warning, or an error, unless another use of the same machine has given it. */
+static void add_finding(JoxBuild *b, JoxSeverity severity, JoxPosition at, const char *code,
+                        const char *hint, const char *text) {
+    if (!jox_diag_lists(b->script->diagnostics, at, code, text))
+        jox_diag_add(b->script->diagnostics, severity, at, code, hint, NULL, NULL, "%s", text);
+}
 
 static void add_warning(JoxBuild *b, const char *path, const char *code, const char *hint,
                         const char *text) {
-    jox_diag_add(b->script->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path), code, hint,
-                 NULL, NULL, "%s", text);
+    add_finding(b, JOX_SEVERITY_WARNING, jox_read_at(b, path), code, hint, text);
+}
+
+/* Returns the name of a state in the machine that has it, as its file writes it. */
+static const char *get_written_name(const JoxState *state) {
+    const char *dot = state->depth ? strrchr(state->name, '.') : NULL;
+    return dot ? dot + 1 : state->name;
 }
 
 /* ---- states ---- */
@@ -65,7 +78,7 @@ static void check_reachable(JoxBuild *b) {
     for (uint32_t s = 0; s < m->state_count; s++) {
         if (reached[s] || is_told_with_outer(m, reached, s))
             continue;
-        char path[256], hint[JOX_HINT];
+        char path[256], hint[JOX_HINT], text[160];
         const char *names[64], *near = NULL;
         size_t count = 0;
         const JoxState *state = find_unreached(m, reached, s);
@@ -76,9 +89,9 @@ static void check_reachable(JoxBuild *b) {
             if (o != s)
                 names[count++] = m->states[o].name;
         near = jox_did_you_mean(state->name, names, count, hint);
-        jox_diag_add(b->script->diagnostics, near ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
-                     jox_read_at(b, path), "unreachable-state", near, NULL, NULL,
-                     "nothing leads to state '%s'", state->name);
+        snprintf(text, sizeof text, "nothing leads to state '%.100s'", get_written_name(state));
+        add_finding(b, near ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING, jox_read_at(b, path),
+                    "unreachable-state", near, text);
     }
 }
 
@@ -96,15 +109,16 @@ static void check_exits(JoxBuild *b) {
         const JoxState *state = &m->states[s];
         bool stands = state->steer_count == 1 && (state->steer[0].kind == JOX_STEER_HOLD ||
                                                   state->steer[0].kind == JOX_STEER_GATHER);
-        char path[256];
+        char path[256], text[160];
         jox_state_path(state, path);
+        snprintf(text, sizeof text, "no transition leads out of state '%.100s'",
+                 get_written_name(state));
         if (!has_way_out(state) && !state->removes && !state->become && !stands &&
             !(state->ends && state->depth == 0))
-            jox_diag_add(
-                b->script->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path), "no-way-out",
-                "Add a transition, or `removes = true`; a state with `steer = hold` may be "
-                "the end",
-                NULL, NULL, "no transition leads out of state '%s'", state->name);
+            add_warning(b, path, "no-way-out",
+                        "Add a transition, or `removes = true`; a state with `steer = hold` may be "
+                        "the end",
+                        text);
     }
 }
 
@@ -115,18 +129,20 @@ static bool is_unconditional(const JoxTransition *t) {
     return !t->stays && t->when < 0 && t->when_hook < 0 && t->chance.kind == JOX_VALUE_UNSET;
 }
 
-/* Returns whether a condition requires operation `op`: it is joined to the rest by & alone. */
-static bool requires_operation(const JoxMachine *m, int32_t expression, JoxOp op) {
-    bool found = false;
-    if (expression < 0)
-        return false;
-    const JoxExpression *e = &m->expressions[expression];
-    for (uint32_t k = 0; k < e->count; k++) {
-        if (e->code[k].op == JOX_OP_OR || e->code[k].op == JOX_OP_NOT)
-            return false;
-        found |= e->code[k].op == op;
-    }
-    return found;
+/* Returns the first operation `op` of a condition; NULL if it has none. */
+static const JoxInstruction *find_operation(const JoxMachine *m, int32_t expression, JoxOp op) {
+    const JoxExpression *e = expression < 0 ? NULL : &m->expressions[expression];
+    for (uint32_t k = 0; e && k < e->count; k++)
+        if (e->code[k].op == op)
+            return &e->code[k];
+    return NULL;
+}
+
+/* Returns operation `op` of a condition that requires it: it is joined to the rest by & alone. */
+static const JoxInstruction *find_required(const JoxMachine *m, int32_t expression, JoxOp op) {
+    return find_operation(m, expression, JOX_OP_OR) || find_operation(m, expression, JOX_OP_NOT)
+               ? NULL
+               : find_operation(m, expression, op);
 }
 
 /* Writes the path of a transition, in the table of the state that lists it. */
@@ -153,8 +169,8 @@ static void check_firing(JoxBuild *b, const JoxState *state) {
             return;
         }
         if (!state->has_lasts && state->lasts_expression < 0 &&
-            (requires_operation(m, taken->when, JOX_OP_LASTED) ||
-             requires_operation(m, taken->when, JOX_OP_OUTER_LASTED)))
+            (find_required(m, taken->when, JOX_OP_LASTED) ||
+             find_required(m, taken->when, JOX_OP_OUTER_LASTED)))
             add_warning(b, full, "never-fires", "Give the state one: lasts = 5, or write after(5)",
                         "this transition never fires: the state has no `lasts`");
         for (uint32_t o = 0; o < t; o++)
@@ -165,6 +181,69 @@ static void check_firing(JoxBuild *b, const JoxState *state) {
                             "this transition never fires: one before it has the same condition");
                 break;
             }
+    }
+}
+
+/* Returns whether an agent in a state may stand in the queue that a target means. */
+static bool may_queue(const JoxMachine *m, const JoxState *state, int16_t queue) {
+    for (uint32_t t = 0; t < state->steer_count; t++) {
+        const JoxSteerTerm *term = &state->steer[t];
+        if (term->kind != JOX_STEER_QUEUE && term->kind != JOX_STEER_FUNCTION)
+            continue;
+        if (term->kind == JOX_STEER_FUNCTION || term->target < 0 || queue < 0 ||
+            m->targets[term->target].kind != JOX_TARGET_PLACE ||
+            m->targets[queue].kind != JOX_TARGET_PLACE || term->target == queue)
+            return true;
+    }
+    return false;
+}
+
+/* Warns of transitions that wait for a queue in which the agents of the state do not stand. */
+static void check_queues(JoxBuild *b, const JoxState *state) {
+    static const struct {
+        JoxOp op;
+        const char *word;
+    } ASKS[] = {{JOX_OP_FIRST_IN, "first_in"}, {JOX_OP_JOINED, "joined"}};
+    const JoxMachine *m = b->machine;
+    char item[256], full[256], text[160];
+    for (uint32_t t = 0; t < state->transition_count; t++)
+        for (size_t k = 0; k < sizeof ASKS / sizeof *ASKS; k++) {
+            const JoxTransition *taken = &state->transitions[t];
+            const JoxInstruction *in = find_required(m, taken->when, ASKS[k].op);
+            if (!in || taken->level < state->depth || may_queue(m, state, in->place))
+                continue;
+            write_transition_path(m, state, taken, item);
+            jox_read_join(full, item, "when");
+            snprintf(text, sizeof text,
+                     "`%s` never holds here: the agent does not queue in this state", ASKS[k].word);
+            add_warning(b, full, "never-fires", "Let it: steer = queue(place)", text);
+        }
+}
+
+/* Returns whether the machine that an outer state runs can end. */
+static bool can_end(const JoxMachine *m, uint32_t outer) {
+    const uint32_t level = m->outer[outer].depth;
+    for (uint32_t s = 0; s < m->state_count; s++)
+        if (m->states[s].depth > level && m->states[s].around[level] == outer &&
+            (m->states[s].done >> level & 1))
+            return true;
+    return false;
+}
+
+/* Warns of `done` in a state that runs a machine which never ends. */
+static void check_done(JoxBuild *b, uint32_t outer) {
+    const JoxMachine *m = b->machine;
+    const JoxState *state = &m->outer[outer];
+    char item[256], full[256], text[160];
+    for (uint32_t t = 0; t < state->transition_count && !can_end(m, outer); t++) {
+        if (!find_operation(m, state->transitions[t].when, JOX_OP_DONE))
+            continue;
+        write_transition_path(m, state, &state->transitions[t], item);
+        jox_read_join(full, item, "when");
+        snprintf(text, sizeof text,
+                 "`done` never holds here: no state of the machine that '%.80s' runs ends it",
+                 get_written_name(state));
+        add_warning(b, full, "never-fires", "Mark the state in which it ends: ends = true", text);
     }
 }
 
@@ -219,11 +298,39 @@ static void check_distances(JoxBuild *b, const JoxState *state) {
     }
 }
 
+/* ---- memory ---- */
+
+/* Returns what a field of `me` means; NULL if there is none of this name. */
+static const char *find_field_meaning(const char *name) {
+    for (size_t k = 0; k < jox_me_key_count; k++)
+        if (strcmp(jox_me_keys[k].name, name) == 0)
+            return jox_me_keys[k].meaning;
+    const int p = jox_parameter_find(name);
+    return p < 0 ? NULL : jox_parameters[p].meaning;
+}
+
+/* Warns of memory with the name of a field of `me`, which functions cannot read. */
+static void check_hidden_fields(JoxBuild *b) {
+    const JoxScript *script = b->script;
+    for (uint32_t s = 0; script->hook_count && s < script->memory_count; s++) {
+        const char *name = script->memory[s].name, *meaning = find_field_meaning(name);
+        char text[200], hint[120];
+        if (!meaning)
+            continue;
+        snprintf(text, sizeof text, "in functions memory '%.60s' hides me.%.60s: %.*s", name, name,
+                 (int)strcspn(meaning, ";:."), meaning);
+        snprintf(hint, sizeof hint, "Give it another name, as my_%.60s", name);
+        add_finding(b, JOX_SEVERITY_WARNING, script->memory_at[s], "hidden-field", hint, text);
+    }
+}
+
 void jox_lint(JoxBuild *b) {
     check_reachable(b);
     check_exits(b);
+    check_hidden_fields(b);
     for (uint32_t o = 0; o < b->machine->outer_count; o++) {
         check_firing(b, &b->machine->outer[o]);
+        check_done(b, o);
         check_distances(b, &b->machine->outer[o]);
     }
     for (uint32_t s = 0; s < b->machine->state_count; s++) {
@@ -231,6 +338,7 @@ void jox_lint(JoxBuild *b) {
         char path[256];
         jox_state_path(state, path);
         check_firing(b, state);
+        check_queues(b, state);
         check_cycle(b, state, path);
         check_distances(b, state);
     }

@@ -216,6 +216,41 @@ static void collect_states(JoxBuild *b, uint32_t number) {
     lua_settop(L, top);
 }
 
+/* Returns the state within an outer one that has the whole name of a state; NULL if there is none.
+ */
+static const JoxState *find_namesake(const JoxMachine *m, const JoxState *state) {
+    for (uint32_t s = 0; s < m->state_count + m->outer_count; s++) {
+        const JoxState *other = s < m->state_count ? &m->states[s] : &m->outer[s - m->state_count];
+        if (other->depth > 0 && strcmp(other->name, state->name) == 0)
+            return other;
+    }
+    return NULL;
+}
+
+/* Reports states with a dot in their names that a state of a machine which another state runs has,
+   too. */
+static void check_dotted_names(JoxBuild *b) {
+    const JoxMachine *m = b->machine;
+    for (uint32_t s = 0; s < m->state_count; s++) {
+        const JoxState *state = &m->states[s],
+                       *other = state->depth == 0 && strchr(state->name, '.')
+                                    ? find_namesake(m, state)
+                                    : NULL;
+        char path[256], there[256];
+        if (!other)
+            continue;
+        jox_state_path(state, path);
+        jox_state_path(other, there);
+        const JoxPosition at = jox_read_at(b, there);
+        jox_build_error(b, jox_read_at(b, path), "bad-name", "Rename one of them",
+                        "'%.100s' is also the whole name of a state of the machine that '%.*s' "
+                        "runs, at %.100s:%d:%d",
+                        state->name, (int)(strrchr(other->name, '.') - other->name), other->name,
+                        at.file ? at.file : "", at.line, at.column);
+    }
+}
+
 void jox_nest_collect(JoxBuild *b, const JoxNode *machine) {
     collect_nested(b, machine, -1, 0);
+    check_dotted_names(b);
 }

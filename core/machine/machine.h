@@ -205,6 +205,7 @@ typedef struct JoxOwnSlot {
     bool kept;        /* carried over from an earlier version; this version does not
                          read it */
     bool declared;    /* in the machine's `own`: no group need set it */
+    uint32_t nest;    /* while it is built: number of the machine that declares it */
     int32_t line, column, end_column; /* first use of own.NAME in the source; 0 unknown */
     uint32_t source;                  /* index of that file in the machine's `files` */
 } JoxOwnSlot;

@@ -189,7 +189,7 @@ static const Mistake MISTAKES[] = {
     {HEAD "A = { { to = \"A\", when = done } } } }", ERROR, 2, 19, 23, "no-machine",
      "runs = machine"},
     {HEAD "A = { runs = machine { start = \"I\", states = { I = {}, J = {} } } } } }", WARNING, 2,
-     56, 57, "unreachable-state", "'A.J'"},
+     56, 57, "unreachable-state", "'J'"},
     {HEAD "A = { steer = hold },\n"
           "B = { runs = machine { start = \"I\", states = { I = {}, J = {} } } } } }",
      WARNING, 3, 1, 2, "unreachable-state", "state 'B'"},
@@ -214,6 +214,30 @@ static const Mistake MISTAKES[] = {
     {"local a, b = machine { start = \"I\", states = { I = {} } }, machine { start = \"I\", "
      "states = { I = { sped = 1 } } }\n" HEAD "A = { runs = a }, B = { runs = b } } }",
      ERROR, 1, 100, 104, "unknown-key", "state I"},
+    {"local p = machine { start = \"I\", own = { c = 1 }, states = { I = {} } }\n"
+     "local q = machine { start = \"I\", own = { c = 2 }, states = { I = {} } }\n" HEAD
+     "A = { runs = p, { to = \"B\", when = after(1) } },\nB = { runs = q } } }",
+     WARNING, 2, 42, 43, "doubled-own", "own.c is declared otherwise at t.lua:1:42"},
+    {HEAD "A = { runs = machine { start = \"I\", states = { I = {} } } },\n[\"A.I\"] = {} } }",
+     ERROR, 3, 2, 7, "bad-name", "that 'A' runs, at t.lua:2:48"},
+    {"local mine = memory { laps = 0, state = 0 }\n" HEAD
+     "A = { steer = hold, on_enter = function(me) me.laps = 1 end } } }",
+     WARNING, 1, 33, 38, "hidden-field", "hides me.state: name of its state"},
+    {"local mine = memory { speed = 0 }\n" HEAD
+     "A = { steer = hold, on_enter = function(me) me.speed = 1 end } } }",
+     WARNING, 1, 23, 28, "hidden-field", "hides me.speed"},
+    {HEAD
+     "A = { runs = machine { start = \"I\", states = { I = {} } }, { to = \"B\", when = done } "
+     "},\nB = { steer = hold } } }",
+     WARNING, 2, 72, 76, "never-fires", "that 'A' runs ends it"},
+    {HEAD
+     "A = { runs = sequence { { runs = machine { start = \"I\", states = { I = {} } } } } } } }",
+     WARNING, 2, 25, 26, "never-fires", "step 1"},
+    {HEAD "A = { runs = sequence { { steer = hold, when = joined \"q\" } } } } }", WARNING, 2, 41,
+     45, "never-fires", "does not queue"},
+    {HEAD "A = { steer = queue \"p\", { to = \"B\", when = first_in \"q\" } },\n"
+          "B = { steer = hold } } }",
+     WARNING, 2, 38, 42, "never-fires", "does not queue"},
     /* words of people who know each other */
     {HEAD "A = { steer = seek(other) } } }", ERROR, 2, 20, 25, "bad-value", "best(\"people\""},
     {"local b = best(\"p\", best(\"q\", other.x).x)\n" HEAD "A = { face = b } } }", ERROR, 1, 21,
@@ -294,8 +318,32 @@ static void an_error_is_shown_in_full(void **state) {
     jox_lua_free(lua);
 }
 
+/* An error in a machine that two states run is reported once, and leaves room for others. */
+static void an_error_of_a_shared_machine_comes_once(void **state) {
+    (void)state;
+    static const char SHEET[] =
+        "local p = machine { start = \"I\", states = { I = { sped = 1 }, J = { { to = \"K\" } } } "
+        "}\n" HEAD "A = { runs = p, { to = \"B\", when = after(1) } },\nB = { runs = p } } }";
+    static const char UNREACHED[] =
+        "local p = machine { start = \"I\", states = { I = { steer = hold }, J = { steer = hold } "
+        "} }\n" HEAD "A = { runs = p, { to = \"B\", when = after(1) } },\nB = { runs = p } } }";
+    JoxDiagnostics diagnostics = {0};
+    JoxLua *lua = jox_lua_create(NULL);
+    assert_null(jox_lua_load_text(lua, "t.lua", SHEET, strlen(SHEET), NULL, &diagnostics));
+    assert_int_equal(diagnostics.errors, 2);
+    assert_int_equal(diagnostics.count, 2);
+    jox_diag_free(&diagnostics);
+    diagnostics = (JoxDiagnostics){0};
+    jox_machine_free(
+        jox_lua_load_text(lua, "t.lua", UNREACHED, strlen(UNREACHED), NULL, &diagnostics));
+    assert_int_equal(diagnostics.warnings, 1);
+    jox_diag_free(&diagnostics);
+    jox_lua_free(lua);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(each_kind_of_mistake_has_its_place),
+                                       cmocka_unit_test(an_error_of_a_shared_machine_comes_once),
                                        cmocka_unit_test(an_error_is_shown_in_full)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

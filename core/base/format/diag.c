@@ -32,9 +32,8 @@ static bool is_same_file(const char *a, const char *b) {
     return a == b || (a && b && jox_path_same(a, b));
 }
 
-/* Whether the list has this diagnostic: a file may be loaded several times. */
-static bool is_listed_already(const JoxDiagnostics *d, JoxPosition position, const char *code,
-                              const char *message) {
+bool jox_diag_lists(const JoxDiagnostics *d, JoxPosition position, const char *code,
+                    const char *message) {
     for (size_t i = 0; i < d->count; i++) {
         const JoxDiagnostic *item = &d->items[i];
         if (item->line == position.line && item->column == position.column &&
@@ -190,7 +189,7 @@ void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
     for (size_t i = 0; i < from->count; i++) {
         JoxDiagnostic *item = &from->items[i];
         JoxPosition position = {item->file, item->line, item->column, item->end_column};
-        if (is_listed_already(to, position, item->code, item->message))
+        if (jox_diag_lists(to, position, item->code, item->message))
             continue;
         const size_t before = to->count;
         jox_diag_add(to, item->severity, position, item->code, item->hint, item->context,

@@ -44,6 +44,10 @@ JoxPosition jox_position_in(const char *file, const char *text, size_t offset);
 /* Whether one more would be kept; if not, callers can skip computing its hint. */
 bool jox_diag_has_room(const JoxDiagnostics *diagnostics, JoxSeverity severity);
 
+/* Whether the list has this diagnostic: a file may be loaded, and a machine used, several times. */
+bool jox_diag_lists(const JoxDiagnostics *diagnostics, JoxPosition position, const char *code,
+                    const char *message);
+
 /* Appends a diagnostic. `hint`, `context` and `source` may be NULL. All texts but `code` are
  * copied. */
 void jox_diag_add(JoxDiagnostics *diagnostics, JoxSeverity severity, JoxPosition position,

@@ -242,6 +242,7 @@ typedef struct JoxScript {
     JoxMemorySlot *memory; /* declared by memory{} */
     uint32_t memory_count;
     size_t memory_capacity;
+    JoxPosition memory_at[JOX_MOST_SET]; /* where each is declared */
     JoxMachine *built;         /* under construction, kept here so that a failure can free it */
     const JoxMachine *machine; /* machine of the running function */
     int me;                    /* registry reference of `me`, which functions are passed */

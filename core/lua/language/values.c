@@ -127,7 +127,7 @@ static int make_memory(lua_State *L) {
     while (lua_next(L, 1)) {
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
         const int kind = read_memory_kind(L);
-        if (lua_type(L, -2) != LUA_TSTRING || kind < 0 || script->memory_count >= 64)
+        if (lua_type(L, -2) != LUA_TSTRING || kind < 0 || script->memory_count >= JOX_MOST_SET)
             return jox_word_error(L, name, "bad-memory",
                                   "Numbers, true or false, `nobody` and list(8) can be remembered",
                                   "memory '%s' cannot be %s%s", name,
@@ -158,9 +158,12 @@ static int make_memory(lua_State *L) {
                               .initial = value};
         uint32_t at =
             script->memory_count++; /* inserted in order of names, as tables have no order */
-        for (; at > 0 && strcmp(script->memory[at - 1].name, name) > 0; at--)
+        for (; at > 0 && strcmp(script->memory[at - 1].name, name) > 0; at--) {
             script->memory[at] = script->memory[at - 1];
+            script->memory_at[at] = script->memory_at[at - 1];
+        }
         script->memory[at] = slot;
+        script->memory_at[at] = jox_word_position(L, name);
         lua_pop(L, 1);
     }
     luaL_getmetatable(L, "jostle memory");
