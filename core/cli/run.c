@@ -67,7 +67,9 @@ static const CliOption OPTIONS[] = {
      "of each seed into DIR/seed-N",
      CLI_TO(Run, data), .writes = "folder"},
     {"summary", "FILE",
-     "write the run's figures as JSON; '-' is standard output. \"density_max\" is the greatest "
+     "write the run's figures as JSON; '-' is standard output. \"states\" has the people in each "
+     "state, \"outer_states\" those in all states within one that runs a machine. \"density_max\" "
+     "is the greatest "
      "density of any place and time, people per m2 by a Gaussian of R = 1 m within the walls, "
      "sampled every 0.5 s, as in all maps and tables; \"clearance_s\" is the time at which the "
      "last person left, null if anybody is still inside",

@@ -30,6 +30,25 @@ static const JoxMachine *find_agent_machine(const JoScene *scene, uint32_t i) {
     return machine == JOX_NO_MACHINE ? NULL : machines->set->items[machine];
 }
 
+/* Adds what the agent carries or holds on to, and who hold on to it, where anybody does. */
+static void add_holds(const JoWorld *world, uint32_t i, JoxJson *json) {
+    const JoxAgents *a = &world->state.agents;
+    const double who = jox_who_is_held(&world->machines, i);
+    JoxText text = {0};
+    if (who > 0.0) {
+        jox_who_print(&world->machines, who, &text);
+        jox_json_string(json, "holds", text.data);
+        jox_text_free(&text);
+    }
+    if (a->held[i] == 0)
+        return;
+    jox_json_array(json, "held_by");
+    for (uint32_t j = 0; j < a->count; j++)
+        if (a->grasped[j] == a->id[i] + 1)
+            jox_json_whole(json, NULL, a->id[j]);
+    jox_json_end(json);
+}
+
 /* Adds an agent's torso: breadth and depth, m; where its chest points, degrees anticlockwise from
    +x; how fast it turns, degrees/s. null of a disc. */
 static void add_torso(const JoWorld *world, uint32_t i, JoxJson *json) {
@@ -68,6 +87,7 @@ static void add_inspected_agent(const JoScene *scene, uint32_t i, JoxJson *json)
     add_rounded(json, "radius", (double)jox_param(a, JOX_PARAM_radius, i));
     add_rounded(json, "mass", (double)jox_param(a, JOX_PARAM_mass, i));
     add_torso(world, i, json);
+    add_holds(world, i, json);
     if (a->fallen[i] > 0.0f)
         add_rounded(json, "fallen", (double)a->fallen[i]); /* s */
     jox_json_end(json);
@@ -169,7 +189,7 @@ static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
     for (uint32_t s = 0; machine && s < machine->own_count; s++) {
         const JoxOwnSlot *slot = &machine->own[s];
         double value = jox_own(a, i, s);
-        if (!*slot->name || jox_parameter_find(slot->name) >= 0)
+        if (!*slot->name || jox_parameter_find(slot->name) >= 0 || slot->general)
             continue;
         bool place = slot->is_place && value >= 0.0 && value < world->model.place_count;
         if (place && world->model.places[(uint32_t)value].name)

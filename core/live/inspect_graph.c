@@ -35,10 +35,13 @@ static SetBy find_setter(const JoScene *scene, const JoxMachine *machine, const 
     char path[256], kind[160] = "defaults";
     JoxWritten written = {0};
     const JoxValue *value = &machine->defaults[p];
+    const JoxState *setter = NULL;
     bool found = false;
     if (state && state->param[p].kind != JOX_VALUE_UNSET) {
+        setter = jox_parameter_setter(machine, state, p);
         value = &state->param[p];
-        snprintf(kind, sizeof kind, "state %.120s", state->name);
+        if (setter) /* else the defaults of a machine that an outer state runs */
+            snprintf(kind, sizeof kind, "state %.120s", setter->name);
         snprintf(path, sizeof path, "states.%.120s.%s", state->name, jox_parameters[p].name);
     } else {
         snprintf(path, sizeof path, "defaults.%s", jox_parameters[p].name);
@@ -46,8 +49,10 @@ static SetBy find_setter(const JoScene *scene, const JoxMachine *machine, const 
     by.line = value->line;
     if (value->line == JOX_LINE_LIVE) {
         jox_text_add(&by.where, "program or page");
+        if (setter && setter != state)
+            jox_text_printf(&by.where, ", %s", kind);
     } else if (value->line > 0) {
-        found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
+        found = jox_lua_written_or_built(scene->lua, machine, path, &scene->scope, &written);
         if (!found) /* the value was computed by a function, so its path is not in the text */
             written =
                 (JoxWritten){.file = jox_machine_file(machine, value->source), .line = value->line};
@@ -78,23 +83,75 @@ static void free_setter(SetBy *by) {
 
 /* ---- the graph ---- */
 
+/* Adds a parameter, an index of jox_parameters, as `state` has it, or the machine's defaults where
+   that is NULL. The caller ends the object. */
+static void begin_parameter(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                            int p, JoxJson *json) {
+    const JoxParameterInfo *info = &jox_parameters[p];
+    SetBy by = find_setter(scene, machine, state, p);
+    jox_json_object(json, NULL);
+    jox_json_string(json, "name", info->name);
+    jox_json_number(json, "value", by.number);
+    jox_json_string(json, "text", by.text.data ? by.text.data : "");
+    jox_json_string(json, "set", by.where.data);
+    jox_json_number(json, "least", info->least);
+    jox_json_number(json, "most", info->greatest);
+    jox_json_string(json, "unit", info->unit);
+    free_setter(&by);
+}
+
 static void add_parameter_list(const JoScene *scene, const JoxMachine *machine,
                                const JoxState *state, JoxJson *json, const char *key) {
     jox_json_array(json, key);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
-        const JoxParameterInfo *info = &jox_parameters[p];
-        SetBy by = find_setter(scene, machine, state, p);
-        jox_json_object(json, NULL);
-        jox_json_string(json, "name", info->name);
-        jox_json_number(json, "value", by.number);
-        jox_json_string(json, "text", by.text.data ? by.text.data : "");
-        jox_json_string(json, "set", by.where.data);
-        jox_json_number(json, "least", info->least);
-        jox_json_number(json, "most", info->greatest);
-        jox_json_string(json, "unit", info->unit);
+        begin_parameter(scene, machine, state, p, json);
         jox_json_end(json);
-        free_setter(&by);
     }
+    jox_json_end(json);
+}
+
+/* Returns whether a state sets a parameter itself, or an outer state within the one on `level`
+   does. */
+static bool sets_apart(const JoxMachine *machine, const JoxState *state, uint32_t level, int p) {
+    const JoxState *setter = jox_parameter_setter(machine, state, p);
+    return setter && setter->depth > level;
+}
+
+/* Adds a parameter of an outer state, as the states within it have it that do not set it
+   themselves, and the names of those that do ("apart"). */
+static void add_outer_parameter(const JoScene *scene, const JoxMachine *machine, uint32_t outer,
+                                int p, JoxJson *json) {
+    const uint32_t level = machine->outer[outer].depth;
+    const JoxState *shown = NULL;
+    for (uint32_t s = 0; s < machine->state_count && !shown; s++)
+        if (jox_state_is_within(&machine->states[s], level, outer) &&
+            !sets_apart(machine, &machine->states[s], level, p))
+            shown = &machine->states[s];
+    begin_parameter(scene, machine, shown ? shown : &machine->outer[outer], p, json);
+    jox_json_array(json, "apart");
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (jox_state_is_within(&machine->states[s], level, outer) &&
+            sets_apart(machine, &machine->states[s], level, p))
+            jox_json_string(json, NULL, machine->states[s].name);
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
+/* Adds a state that runs a machine. */
+static void add_outer_state(const JoScene *scene, const JoxMachine *machine, uint32_t outer,
+                            JoxJson *json) {
+    jox_json_object(json, NULL);
+    jox_json_string(json, "name", machine->outer[outer].name);
+    jox_json_integer(json, "line", machine->outer[outer].line);
+    jox_json_array(json, "within");
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (jox_state_is_within(&machine->states[s], machine->outer[outer].depth, outer))
+            jox_json_whole(json, NULL, s);
+    jox_json_end(json);
+    jox_json_array(json, "parameters");
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        add_outer_parameter(scene, machine, outer, p, json);
+    jox_json_end(json);
     jox_json_end(json);
 }
 
@@ -102,7 +159,7 @@ static void add_parameter_list(const JoScene *scene, const JoxMachine *machine,
 static void add_source_text(const JoScene *scene, const JoxMachine *machine, const char *path,
                             JoxJson *json, const char *key) {
     JoxWritten written;
-    bool found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
+    bool found = jox_lua_written_or_built(scene->lua, machine, path, &scene->scope, &written);
     jox_json_string(json, key, found && written.text.data ? written.text.data : "");
     jox_text_free(&written.text);
 }
@@ -130,6 +187,10 @@ static void add_machine_transition(const JoScene *scene, const JoxMachine *machi
     jox_json_string(json, "id", t->id);
     jox_json_string(json, "from", from->name);
     jox_json_string(json, "to", machine->states[t->to].name);
+    if (t->back)
+        jox_json_bool(json, "back", true); /* "to" is where it leads if no state was left before */
+    if (t->stays)
+        jox_json_bool(json, "reaction", true);
     snprintf(path, sizeof path, "states.%.120s.@%.120s.when", from->name, t->id);
     add_source_text(scene, machine, path, json, "text");
     jox_json_integer(json, "line", t->line);
@@ -153,6 +214,10 @@ static void add_machine_graph(const JoScene *scene, const JoxMachine *machine, J
     jox_json_array(json, "states");
     for (uint32_t s = 0; s < machine->state_count; s++)
         add_machine_state(scene, machine, &machine->states[s], json);
+    jox_json_end(json);
+    jox_json_array(json, "outer");
+    for (uint32_t o = 0; o < machine->outer_count; o++)
+        add_outer_state(scene, machine, o, json);
     jox_json_end(json);
     jox_json_array(json, "transitions");
     for (uint32_t s = 0; s < machine->state_count; s++)
@@ -188,25 +253,32 @@ bool jox_live_lua_line(const JoScene *scene, const char *machine, const char *st
         jox_text_add(out, error.text);
         return false;
     }
-    const JoxMachine *found = scene->world->model.machines.items[choice.machine];
+    const JoxMachine *found = scene->world->machines.set->built[choice.machine];
+    const JoxState *of = choice.state >= 0   ? &found->states[choice.state]
+                         : choice.state < -1 ? &found->outer[-2 - choice.state]
+                                             : NULL;
+    /* A state within an outer one is written by the last part of its name, in another table. */
+    const char *last = of && of->depth > 0 ? strrchr(state, '.') : NULL;
+    const char *name = last ? last + 1 : state;
+    const bool inherits = of && !(of->sets >> choice.parameter & 1);
     char path[256], key[160];
     JoxWritten written = {0};
-    snprintf(key, sizeof key, is_identifier(state) ? "%.120s" : "[\"%.120s\"]", state);
-    snprintf(path, sizeof path, "%s%.120s.%s", choice.state >= 0 ? "states." : "", state,
-             parameter);
+    snprintf(key, sizeof key, is_identifier(name) ? "%.120s" : "[\"%.120s\"]", name);
+    snprintf(path, sizeof path, "%s%.120s.%s", of ? "states." : "", state, parameter);
     jox_text_printf(out, "%s = { %s = %.9g, ... },   -- ", key, parameter, value);
-    if (jox_lua_written(scene->lua, found, path, &scene->scope, &written)) {
+    if (!inherits && jox_lua_written_or_built(scene->lua, found, path, &scene->scope, &written)) {
         jox_text_printf(out, "%s:%d", written.file, written.line);
         if (written.mod)
             jox_text_printf(out, " (mod %s)", written.mod);
         jox_text_printf(out, ", where it is %s", written.text.data);
     } else {
-        snprintf(path, sizeof path, "%s%.120s", choice.state >= 0 ? "states." : "", state);
-        bool there = jox_lua_written(scene->lua, found, path, &scene->scope, &written);
-        int line = choice.state >= 0 ? found->states[choice.state].line : 1;
-        uint32_t source = choice.state >= 0 ? found->states[choice.state].source : 0;
-        jox_text_printf(out, "%s:%d", there ? written.file : jox_machine_file(found, source),
-                        there ? written.line : line);
+        snprintf(path, sizeof path, "%s%.120s", of ? "states." : "", state);
+        bool there = jox_lua_written_or_built(scene->lua, found, path, &scene->scope, &written);
+        jox_text_printf(out, "%s:%d",
+                        there ? written.file : jox_machine_file(found, of ? of->source : 0),
+                        there ? written.line
+                        : of  ? of->line
+                              : 1);
     }
     jox_text_free(&written.text);
     return true;

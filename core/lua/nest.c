@@ -165,10 +165,13 @@ static bool has_key(lua_State *L, int table, const char *key) {
     return has;
 }
 
-/* Gives a state what it does not set and the outer state around it has. */
+/* Notes which parameters a state sets, and gives it what it does not set and the outer state around
+   it has. */
 static void inherit_parts(JoxBuild *b, JoxState *state, uint32_t nested) {
     lua_State *L = b->script->vm.L;
     const int top = lua_gettop(L);
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        state->sets |= (uint64_t)(state->param[p].kind != JOX_VALUE_UNSET) << p;
     if (state->depth == 0)
         return;
     const JoxState *outer = &b->machine->outer[state->around[state->depth - 1]];

@@ -160,6 +160,7 @@ typedef struct JoxState {
     uint32_t first_transition; /* number of its first transition, counted over all states; assigned
                                   likewise */
     JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */
+    uint64_t sets; /* parameters that it sets itself, a bit each; others in `param` are inherited */
     JoxSteerTerm steer[JOX_MOST_TERMS]; /* behind a FUNCTION: terms of the steering it extends */
     uint32_t steer_count;
     JoxTransition *transitions;
@@ -390,6 +391,13 @@ int jox_machine_entry(const JoxMachine *machine, const char *name);
 static inline const JoxState *jox_state_on_level(const JoxMachine *machine, const JoxState *state,
                                                  uint32_t level) {
     return level < state->depth ? &machine->outer[state->around[level]] : state;
+}
+/* Returns the state that sets a parameter of `state`: itself or an outer state around it; NULL if
+   defaults do. */
+const JoxState *jox_parameter_setter(const JoxMachine *machine, const JoxState *state, int p);
+/* Returns whether a state is within an outer state, whose level is given. */
+static inline bool jox_state_is_within(const JoxState *state, uint32_t level, uint32_t outer) {
+    return state->depth > level && state->around[level] == outer;
 }
 /* Returns whether a state has this name, or is within an outer state that has it. */
 bool jox_state_is_in(const JoxState *state, const char *name);

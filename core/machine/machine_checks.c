@@ -364,7 +364,9 @@ const char *jox_edits_fault(const JoxMachineRun *run) {
     for (uint32_t e = 0; e < state->edit_count; e++) {
         const JoxParameterEdit *edit = &state->edits[e];
         JOX_MUST(edit->machine < run->set->count);
-        JOX_MUST(is_index(edit->state, run->set->built[edit->machine]->state_count));
+        const JoxMachine *built = run->set->built[edit->machine];
+        JOX_MUST(is_index(edit->state, built->state_count) ||
+                 (edit->state < -1 && (uint32_t)(-2 - edit->state) < built->outer_count));
         JOX_MUST(edit->parameter >= 0 && edit->parameter < JOX_PARAM_COUNT);
         JOX_MUST(edit->value >= jox_parameters[edit->parameter].least &&
                  edit->value <= jox_parameters[edit->parameter].greatest);

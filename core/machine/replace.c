@@ -198,6 +198,14 @@ void jox_replacement_free(JoxReplacement *r) {
     jox_free(r);
 }
 
+uint32_t jox_people_within(const JoxMachine *machine, uint32_t outer, const uint32_t *people) {
+    uint32_t all = 0;
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (jox_state_is_within(&machine->states[s], machine->outer[outer].depth, outer))
+            all += people[s];
+    return all;
+}
+
 void jox_machines_people(const JoxMachineRun *run, uint32_t index, uint32_t *people) {
     const JoxAgents *a = run->agents;
     memset(people, 0, run->set->items[index]->state_count * sizeof *people);

@@ -167,7 +167,8 @@ typedef struct JoxWatched {
 /* A parameter that a person set while the world ran. */
 typedef struct JoxParameterEdit {
     uint32_t machine;
-    int32_t state; /* index of the state; -1: the machine's defaults */
+    int32_t state; /* index of the state; -1: the machine's defaults; -2 - index of an outer
+                      state */
     int32_t parameter;
     uint32_t unused; /* 0: sections hold no padding bytes */
     double value;
@@ -394,9 +395,12 @@ void jox_machines_become(JoxMachineRun *run, uint32_t agent, uint32_t machine);
 void jox_machines_set_state(JoxMachineRun *run, uint32_t agent, uint16_t state);
 /* Gives the agent an own value, as its group in the scene could have done. */
 void jox_machines_set_own(JoxMachineRun *run, uint32_t agent, uint32_t slot, double value);
-/* Sets a parameter of one state (-1: of the defaults) to a number within its range, for all agents
-   that are or will be in it, until the machine is replaced. A default also sets the own value of
-   that name, except of agents to which the scene gave theirs. */
+/* Returns the number of people in all states within an outer state, by those in each state. */
+uint32_t jox_people_within(const JoxMachine *machine, uint32_t outer, const uint32_t *people);
+/* Sets a parameter of one state (-1: of the defaults; -2 - index: of an outer state) to a number
+   within its range, for all agents that are or will be in it, until the machine is replaced. States
+   within an outer state that set the parameter themselves keep their value. A default also sets the
+   own value of that name, except of agents to which the scene gave theirs. */
 void jox_machines_set_parameter(JoxMachineRun *run, uint32_t machine, int32_t state, int parameter,
                                 double value);
 /* Returns the number of a name that machines share; adds new names. */

@@ -26,6 +26,13 @@ int jox_machine_entry(const JoxMachine *machine, const char *name) {
     return outer < 0 ? state : machine->outer[outer].start;
 }
 
+const JoxState *jox_parameter_setter(const JoxMachine *machine, const JoxState *state, int p) {
+    for (uint32_t l = state->depth + 1u; l-- > 0;)
+        if (jox_state_on_level(machine, state, l)->sets >> p & 1)
+            return jox_state_on_level(machine, state, l);
+    return NULL;
+}
+
 bool jox_state_is_in(const JoxState *state, const char *name) {
     return state->depth > 0 ? jox_name_is_within(state->name, name)
                             : strcmp(state->name, name) == 0;

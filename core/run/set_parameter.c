@@ -42,13 +42,16 @@ static bool find_machine_named(const JoxMachineRun *machines, const char *name,
 
 static bool find_state_named(const JoxMachine *machine, const char *name, JoxParameterChoice *out,
                              JoError *error) {
-    out->state = jox_machine_state(machine, name);
-    if (out->state >= 0 || strcmp(name, "defaults") == 0)
+    const int outer = jox_machine_outer(machine, name);
+    out->state = outer < 0 ? jox_machine_state(machine, name) : -2 - outer;
+    if (out->state != -1 || strcmp(name, "defaults") == 0)
         return true;
     const char *names[MOST_NAMES] = {"defaults"};
     uint32_t count = 1;
     for (uint32_t s = 0; s < machine->state_count && count < MOST_NAMES; s++)
         names[count++] = machine->states[s].name;
+    for (uint32_t o = 0; o < machine->outer_count && count < MOST_NAMES; o++)
+        names[count++] = machine->outer[o].name;
     const char *now = jox_machine_renamed(machine, JOX_PART_STATE, name);
     if (now) {
         jox_error(error, JO_INPUT, "'%.60s' of %.60s is called '%.60s' now", name, machine->name,

@@ -7,7 +7,7 @@
 /* A parameter of a machine's state. */
 typedef struct JoxParameterChoice {
     uint32_t machine;
-    int32_t state; /* -1: the machine's defaults */
+    int32_t state; /* -1: the machine's defaults; -2 - index of an outer state */
     int parameter;
 } JoxParameterChoice;
 

@@ -7,6 +7,7 @@ import sys
 import time
 
 import following
+import nested
 import reach
 import sight
 import steady
@@ -638,7 +639,7 @@ events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, torsos, fallen, edits, settings, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, torsos, fallen, edits, settings, *nested.TESTS, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

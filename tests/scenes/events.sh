@@ -111,3 +111,19 @@ END
 "$JOSTLE" run "$work/tally.yaml" >"$work/out" 2>&1
 tr '\n' ' ' <"$work/out" | grep -qE "there 2, in B [0-5], most [345], gone 0\."; verdict "scores count agents and take the greatest value" $?
 grep -q "no behaviour of the scene has a memory 'stepped'. Did you mean 'steps'?" "$work/out"; verdict "an unknown memory is refused with the nearest name" $?
+
+# States that run machines: how many people are in all states within.
+"$JOSTLE" run tests/data/nested.yaml --for 3 --quiet --summary "$work/nested.json"
+python3 - "$work/nested.json" <<'END'
+import json, sys
+summary = json.load(open(sys.argv[1]))
+inner, outer = summary["states"], summary["outer_states"]
+assert sorted(outer) == ["guard", "warden"] and sorted(outer["warden"]) == ["Day", "Day.4 run", "Night", "Night.Round"], outer
+for machine, sums in outer.items():
+    for name, people in sums.items():
+        assert people == sum(n for state, n in inner[machine].items() if state.startswith(name + ".")), (machine, name)
+assert outer["guard"]["Guard"] > 0
+END
+verdict "the summary sums the people within states that run machines" $?
+"$JOSTLE" run tests/data/nested.yaml --for 1.5 2>&1 | tr '\n' ' ' | grep -qE "guard Greet [0-9]+, guard Guard [0-9]+ \(End [0-9]+, Look [0-9]+, Walk [0-9]+\), guard Rest [0-9]+, warden Night 20 \(Round 20 \(Look [0-9]+, Walk [0-9]+\)\), patrol End 10\."
+verdict "  and so do the last lines" $?

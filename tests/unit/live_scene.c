@@ -1,4 +1,5 @@
 /* The scene message has all parts of a running scene, and its version changes with them. */
+#include "live/inspect.h"
 #include "live_bytes.h"
 
 static void scene_message_has_all_parts_of_tawaf(void **state) {
@@ -46,6 +47,11 @@ static void scene_message_has_all_parts_of_tawaf(void **state) {
     assert_non_null(strstr(text.data, "\"parameters\": true"));
     jox_text_free(&text);
     jo_scene_free(scene);
+}
+
+static void check_part(const JoxText *text, const char *part) {
+    if (!strstr(text->data, part))
+        fail_msg("the message lacks %s", part);
 }
 
 static void scene_message_of_bodies_and_a_player(void **state) {
@@ -167,12 +173,34 @@ static void version_changes_with_bodies_but_not_with_gates(void **state) {
     jo_scene_free(scene);
 }
 
+static void scene_message_has_states_that_run_machines(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_file("tests/data/nested.yaml", NULL, 0);
+    JoxText text = {0};
+    assert_true(jo_scene_input(scene, "set guard Guard.Look push 5", NULL));
+    assert_true(jo_scene_input(scene, "set guard Guard perception 3", NULL));
+    jox_live_scene(scene, &text);
+    check_part(&text, "{\"name\": \"Guard\", \"line\": 10, \"within\": [1, 2, 3]");
+    check_part(&text, "\"unit\": \"N\", \"apart\": [\"Guard.Look\"]");
+    check_part(&text, "\"set\": \"state Guard tests/data/nested/guard.lua:10\"");
+    check_part(&text, "\"set\": \"defaults tests/data/nested/patrol.lua:6\"");
+    check_part(&text, "\"set\": \"program or page, state Guard\"");
+    check_part(&text, "\"name\": \"Guard.Walk\", \"line\": 9, \"steer\": \"seek \\\"east\\\"\"");
+    check_part(&text, "\"to\": \"Guard.Walk\", \"back\": true");
+    text.length = 0;
+    assert_true(jox_live_lua_line(scene, "guard", "Guard.Walk", "push", 4, &text));
+    assert_string_equal(text.data, "Walk = { push = 4, ... },   -- tests/data/nested/patrol.lua:9");
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_message_has_all_parts_of_tawaf),
         cmocka_unit_test(scene_message_of_bodies_and_a_player),
         cmocka_unit_test(scene_message_escapes_names),
         cmocka_unit_test(version_changes_with_bodies_but_not_with_gates),
+        cmocka_unit_test(scene_message_has_states_that_run_machines),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

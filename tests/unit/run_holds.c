@@ -1,6 +1,7 @@
 /* Tests of intended contact between people: approaching, taking hold, pulling, slipping. */
 #include <math.h>
 
+#include "jostle_tools.h"
 #include "unit/scene_loader.h"
 
 #define APART(x)                                                                                   \
@@ -99,6 +100,13 @@ static void hold_pulls_both_agents_alike(void **state) {
     jo_scene_free(p.scene);
 }
 
+static void check_inspected(const Pair *p, uint32_t i, const char *part) {
+    char *json = jo_scene_inspect(p->scene, p->a->slot[i]);
+    if (!json || !strstr(json, part))
+        fail_msg("%s lacks %s", json, part);
+    jo_free(json);
+}
+
 /* A grip of 1 N cannot hold a walking agent: at a gap of 1 m the hold is lost. */
 static void weak_hold_slips(void **state) {
     (void)state;
@@ -109,6 +117,8 @@ static void weak_hold_slips(void **state) {
                                          "steer = seek \"end\""));
     step_pair(&p, 6);
     assert_string_equal(read_pair_state(&p, p.one), "Has");
+    check_inspected(&p, p.one, "\"holds\": \"agent 1\"");
+    check_inspected(&p, p.other, "\"held_by\": [0]");
     step_pair(&p, 40);
     assert_string_equal(read_pair_state(&p, p.one), "Free");
     assert_int_equal(p.a->grasped[p.one], 0);

@@ -1,6 +1,14 @@
 /* Tests of reloads of machines whose states run machines: people stay where they are, with their
  * clocks and the states to go back to. */
+#include "jostle_tools.h"
+#include "unit/assert_near.h"
 #include "unit/scene_loader.h"
+
+static void apply_line(JoScene *scene, const char *line) {
+    JoError error;
+    if (!jo_scene_input(scene, line, &error))
+        fail_msg("%s", error.text);
+}
 
 #define ONE "jostle: 1\ngroups: {p: {behaviour: own.lua, at: [[0, 0]]}}\n"
 /* A machine whose state `outer` runs one with the states `first` and B. */
@@ -103,12 +111,58 @@ static void people_put_into_a_state_enter_all_levels(void **state) {
     jo_scene_free(scene);
 }
 
+static void check_parameter(const JoScene *scene, const char *name, double value) {
+    const int p = jox_parameter_find(name);
+    assert_near(jox_parameter_value((JoxParameter)p, jox_param(&scene->world->state.agents, p, 0)),
+                value, 1e-6);
+}
+
+static void input_sets_parameters_of_outer_states(void **state) {
+    (void)state;
+    static const char MACHINE[] =
+        "local mine = memory { log = 0 }\n" MACHINE_START "\"Guard\", states = {\n"
+        "Guard = { push = 20, { to = \"Stop\", when = after(1) },\n"
+        "  runs = machine { start = \"W\", defaults = { perception = 4 }, states = {\n"
+        "    W = { { to = \"B\", when = after(0.4) } },\n"
+        "    B = { speed = 0.9 } } } },\n"
+        "Stop = {} } }\n";
+    JoScene *scene = load_scene_text(ONE, MACHINE);
+    JoError error;
+    run_to(scene, 2, "Guard.W");
+    check_parameter(scene, "push", 20);
+    apply_line(scene, "set m Guard push 33");
+    apply_line(scene, "set m Guard perception 3"); /* the inner machine's defaults come after it */
+    apply_line(scene, "set m Guard speed 0.5");
+    apply_line(scene, "set m Guard.W horizon 0.7"); /* set within first, it stays */
+    apply_line(scene, "set m Guard horizon 0.9");
+    check_parameter(scene, "push", 33);
+    check_parameter(scene, "perception", 3);
+    check_parameter(scene, "speed", 0.5);
+    check_parameter(scene, "horizon", 0.7);
+    run_to(scene, 9, "Guard.B");
+    check_parameter(scene, "push", 33);
+    check_parameter(scene, "speed", 0.9); /* sets it itself */
+    check_parameter(scene, "horizon", 0.9);
+    char *json = jo_scene_inspect(scene, 0);
+    assert_non_null(strstr(json, "\"set\": \"program or page\""));
+    jo_free(json);
+    assert_false(jo_scene_input(scene, "set m Gard push 1", &error));
+    assert_non_null(strstr(error.text, "Did you mean 'Guard'?"));
+    run_to(scene, 12, "Stop");
+    check_parameter(scene, "push", 0);
+    assert_true(reload_behaviour(scene, 0, MACHINE)); /* ends what was set */
+    put_into(scene, "Guard");
+    check_parameter(scene, "push", 20);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(people_stay_in_inner_states_with_all_clocks),
         cmocka_unit_test(outer_and_inner_states_are_renamed_together),
         cmocka_unit_test(inner_machine_renames_its_own_states),
         cmocka_unit_test(state_that_begins_to_run_a_machine_goes_on_at_its_start),
-        cmocka_unit_test(people_put_into_a_state_enter_all_levels)};
+        cmocka_unit_test(people_put_into_a_state_enter_all_levels),
+        cmocka_unit_test(input_sets_parameters_of_outer_states)};
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

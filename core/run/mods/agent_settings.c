@@ -177,7 +177,8 @@ static void add_declared_value(Search *search, const JoxValue *value, const char
     search->where = where;
     if (value->line == JOX_LINE_LIVE) {
         add_unplaced(search, JO_SET_PROGRAM, where);
-    } else if (value->line > 0 && !jox_lua_written(lua, search->machine, path, scope, &written)) {
+    } else if (value->line > 0 &&
+               !jox_lua_written_or_built(lua, search->machine, path, scope, &written)) {
         /* computed by a function, so that no line of the file has it */
         written = (JoxWritten){.file = jox_machine_file(search->machine, value->source),
                                .line = value->line};
@@ -198,6 +199,12 @@ static void add_parameter(Search *search, int p) {
     char path[256], where[160];
     snprintf(path, sizeof path, "defaults.%s", name);
     add_declared_value(search, inherited, path, "defaults");
+    /* The default of a machine that an outer state runs is drawn, too: a group sets it likewise. */
+    const bool general =
+        !inherits && slot && search->machine->own[value->index].general == (uint32_t)p + 1;
+    snprintf(path, sizeof path, "states.%.120s.%s", search->state->name, name);
+    if (general)
+        add_declared_value(search, set, path, "defaults");
     const bool drawn =
         inherited->kind == JOX_VALUE_OWN && (uint32_t)inherited->index < a->own_count;
     const bool given =
@@ -216,9 +223,9 @@ static void add_parameter(Search *search, int p) {
         add_unplaced(search, JO_SET_UNSEEN, "");
     if (!apart)
         add_last_write(search, wrote, name);
-    if (!inherits) {
-        snprintf(path, sizeof path, "states.%.120s.%s", search->state->name, name);
-        snprintf(where, sizeof where, "state %.120s", search->state->name);
+    if (!inherits && !general) {
+        const JoxState *by = jox_parameter_setter(search->machine, search->state, p);
+        snprintf(where, sizeof where, by ? "state %.120s" : "defaults", by ? by->name : "");
         add_declared_value(search, set, path, where);
     }
     if (apart && wrote)

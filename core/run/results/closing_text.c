@@ -1,6 +1,7 @@
 /* Writes the results of a run as one paragraph, for readers of the last lines on a terminal. Each
    function below appends the sentences of one subject, or nothing. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/format/plurals.h"
@@ -41,28 +42,59 @@ static void say_people(const JoScene *scene, JoxText *out) {
         jox_text_noun(out, inside, "person is inside|people are inside");
 }
 
+/* Appends how many people of a machine are inside by state, those within an outer state in brackets
+   behind it: "Guard 16 (Look 6, Walk 10), Rest 4". `before` is what comes first, and returned is
+   what comes before the next state. */
+static const char *say_machine_states(const JoScene *scene, uint32_t m, const char *before,
+                                      JoxText *out) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    const JoxMachine *machine = machines->set->items[m];
+    uint32_t *people = jox_alloc((size_t)machine->state_count + 1, sizeof *people);
+    uint16_t open[JOX_MOST_LEVELS];
+    uint32_t levels = 0;
+    char number[JOX_NOUN];
+    jox_machines_people(machines, m, people);
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        const JoxState *state = &machine->states[s];
+        uint32_t same = 0;
+        if (people[s] == 0)
+            continue;
+        while (same < levels && same < state->depth && open[same] == state->around[same])
+            same++;
+        for (; levels > same; levels--)
+            jox_text_add(out, ")");
+        for (; levels <= state->depth; levels++) {
+            const JoxState *on = jox_state_on_level(machine, state, levels);
+            const bool outer = levels < state->depth;
+            const char *dot = levels > 0 ? strrchr(on->name, '.') : NULL;
+            jox_text_add(out, before);
+            if (levels == 0 && machines->set->count > 1)
+                jox_text_printf(out, "%.60s ", machine->name);
+            jox_text_printf(
+                out, "%.60s %s%s", dot ? dot + 1 : on->name,
+                jox_number_text(number,
+                                outer ? jox_people_within(machine, state->around[levels], people)
+                                      : people[s]),
+                outer ? " (" : "");
+            before = outer ? "" : ", ";
+            if (outer)
+                open[levels] = state->around[levels];
+        }
+        levels = state->depth;
+    }
+    for (; levels > 0; levels--)
+        jox_text_add(out, ")");
+    jox_free(people);
+    return before;
+}
+
 /* Appends how many people are inside, by machine and state. */
 static void say_states(const JoScene *scene, JoxText *out) {
-    const JoxMachineRun *machines = &scene->world->machines;
-    const JoxAgents *a = &scene->world->state.agents;
-    char number[JOX_NOUN];
     const char *before = ": ";
-    if (a->count == 0)
+    if (scene->world->state.agents.count == 0)
         return;
-    for (uint32_t m = 0; m < machines->set->count; m++)
-        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
-            uint32_t people = 0;
-            for (uint32_t i = 0; i < a->count; i++)
-                people += a->machine[i] == m && a->state[i] == s;
-            if (people == 0)
-                continue;
-            jox_text_add(out, before);
-            if (machines->set->count > 1)
-                jox_text_printf(out, "%.60s ", machines->set->items[m]->name);
-            jox_text_printf(out, "%.60s %s", machines->set->items[m]->states[s].name,
-                            jox_number_text(number, people));
-            before = ", ";
-        }
+    for (uint32_t m = 0; m < scene->world->machines.set->count; m++)
+        before = say_machine_states(scene, m, before, out);
     jox_text_add(out, ".");
 }
 

@@ -28,20 +28,30 @@ JoStats jo_scene_stats(const JoScene *scene) {
     return jo_world_stats(scene->world);
 }
 
+/* Adds people by machine and state in "states"; in "outer_states" those in all states within each
+   state that runs a machine, of the machines that have such states. */
 static void add_states(JoxJson *json, const JoWorld *world) {
     const JoxMachineRun *machines = &world->machines;
-    jox_json_object(json, "states");
-    for (uint32_t m = 0; m < machines->set->count; m++) {
-        jox_json_object(json, machines->set->items[m]->name);
-        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
-            uint32_t people = 0;
-            for (uint32_t i = 0; i < world->state.agents.count; i++)
-                people += world->state.agents.machine[i] == m && world->state.agents.state[i] == s;
-            jox_json_whole(json, machines->set->items[m]->states[s].name, people);
+    uint32_t *people = NULL;
+    size_t capacity = 0;
+    for (int outer = 0; outer < 2; outer++) {
+        jox_json_object(json, outer ? "outer_states" : "states");
+        for (uint32_t m = 0; m < machines->set->count; m++) {
+            const JoxMachine *machine = machines->set->items[m];
+            if (outer && machine->outer_count == 0)
+                continue;
+            JOX_RESERVE(people, capacity, machine->state_count + 1);
+            jox_machines_people(machines, m, people);
+            jox_json_object(json, machine->name);
+            for (uint32_t s = 0; s < machine->state_count && !outer; s++)
+                jox_json_whole(json, machine->states[s].name, people[s]);
+            for (uint32_t o = 0; o < machine->outer_count && outer; o++)
+                jox_json_whole(json, machine->outer[o].name, jox_people_within(machine, o, people));
+            jox_json_end(json);
         }
         jox_json_end(json);
     }
-    jox_json_end(json);
+    jox_free(people);
 }
 
 static void add_transition_count(void *context, const char *from, const char *to, uint64_t taken) {

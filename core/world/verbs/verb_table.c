@@ -55,7 +55,8 @@ const JoxVerb jox_input_verbs[] = {
       {"VALUE", JOX_WORD_NUMBER, -1e9, 1e9, ""}}, 4, 4,
      "set walker Walk speed 1.2",
      "sets a parameter of a state (or of `defaults`) of a machine, for all agents that are or come "
-     "in this state, until the behaviour is reloaded", "parameters", NULL},
+     "in this state, until the behaviour is reloaded; of a state that runs a machine for the states "
+     "within it, too, that do not set it themselves", "parameters", NULL},
     [JOX_INPUT_BEGAN] = {"began",
      {CALLED("SEED"), {"DT", JOX_WORD_NUMBER, 0.001, 0.2, "s"}}, 2, 2, "began 1 0.05",
      "seed and time step of the run that was logged", NULL, NULL},

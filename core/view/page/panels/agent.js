@@ -106,6 +106,8 @@ export class AgentPage {
             ["speed", amount(speed, "m/s")],
             ["radius, mass", `${figure(agent.radius)} m, ${figure(agent.mass)} kg`],
             ...torsoRows(agent.torso),
+            ...(agent.holds ? [["holds", agent.holds]] : []),
+            ...(agent.held_by ? [["held by", `agent ${agent.held_by.join(", ")}`]] : []),
             ...(agent.fallen ? [["lies since its fall", `for ${amount(agent.fallen, "s")}`]] : []),
             ["compression", amount(message.compression, "N/m")],
             ["load from one side", amount(message.load, "N")],

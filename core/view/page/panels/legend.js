@@ -51,11 +51,25 @@ export class Legend {
         const names = this.by === "group" ? (this.scene?.groups ?? []).map((g) => g.name)
             : COLOURS[this.by].names ?? (this.scene?.states ?? []).map((s) => (several ? `${this.scene.machines[s.machine]?.name} ${s.name}` : s.name));
         this.counts = names.map(() => el("span", { className: "faint" }));
+        this.sums = [];
         return el("ul", { "aria-label": `People by ${COLOURS[this.by].name}` }, names.map((name, i) => {
             const swatch = el("span", { className: "swatch" });
             swatch.style.background = css(this.classColour(i));
-            return el("li", {}, swatch, name, " ", this.counts[i]);
+            return [this.by === "state" ? this.outerRows(i, several) : null, el("li", {}, swatch, name, " ", this.counts[i])];
         }));
+    }
+
+    /** Rows of the states that run a machine whose first state is the i-th of all states: they count all within them. */
+    outerRows(i, several) {
+        const states = this.scene?.states ?? [], machine = states[i]?.machine;
+        const first = states.findIndex((s) => s.machine === machine);
+        const rows = (this.scene?.machines?.[machine]?.outer ?? []).filter((outer) => first + outer.within[0] === i);
+        return rows.map((outer) => {
+            const count = el("span", { className: "faint" });
+            const row = el("li", { className: "sum" }, several ? `${this.scene.machines[machine].name} ${outer.name}` : outer.name, " ", count);
+            this.sums.push({ machine, within: outer.within, count, row });
+            return row;
+        });
     }
 
     classColour(i) {
@@ -91,6 +105,11 @@ export class Legend {
     take(status) {
         if (this.by !== "state" || !this.counts) return;
         // Counts are by machine; the legend has the global list of states.
+        for (const { machine, within, count, row } of this.sums) {
+            const n = within.reduce((sum, s) => sum + (status.states?.[machine]?.[s] ?? 0), 0);
+            say(count, figure(n));
+            row.hidden = this.counts.length > MANY && !n;
+        }
         const at = {};
         (this.scene.states ?? []).forEach((state, i) => {
             const k = at[state.machine] ?? 0;

@@ -40,7 +40,7 @@ export class MachinePage {
             this.graph(machine),
             el("h2", {}, "Transitions"),
             el("ul", { className: "moves" }, machine.transitions.map((t, i) => el("li", {}, this.rates[i],
-                el("strong", {}, `${t.from} → ${t.to}`), " ", el("code", {}, t.text ?? ""),
+                el("strong", {}, t.reaction ? `${t.from}, reaction` : `${t.from} → ${t.back ? `back, or ${t.to}` : t.to}`), " ", el("code", {}, t.text ?? ""),
                 el("span", { className: "faint" }, chance(t), t.line ? ` line ${t.line}` : "")))));
         if (this.status) this.take(this.status);
     }

@@ -64,20 +64,20 @@ export class ParametersPage {
         const machine = this.machines?.[this.machine];
         const mods = settingsPart(this.mods ?? [], this.allowed, (...words) => this.page.connection.input("setting", ...words.map(quote)));
         if (!machine) return void fill(this.node, mods, el("p", { className: "faint" }, "This session has no state machines."));
-        const states = machine.defaults ? [...machine.states, { name: "defaults", parameters: machine.defaults }] : machine.states;
+        const states = [...machine.states, ...machine.outer ?? [], ...machine.defaults ? [{ name: "defaults", parameters: machine.defaults }] : []];
         this.state = Math.min(this.state, states.length - 1);
-        const choose = (list, at, change) => {
+        const choose = (list, at, change, order = list.map((_, i) => i)) => {
             const node = el("select", { onchange: () => change(Number(node.value)) },
-                list.map((item, i) => el("option", { value: String(i), selected: i === at }, item.name)));
+                order.map((i) => el("option", { value: String(i), selected: i === at }, list[i].within ? `${list[i].name}, with all within it` : list[i].name)));
             return node;
         };
         const state = states[this.state];
         this.paste = el("div", { className: "paste", hidden: true });
         fill(this.node, mods, el("div", { className: "row" },
             el("label", {}, "Machine", choose(this.machines, this.machine, (i) => this.show(i, 0))),
-            el("label", {}, "State", choose(states, this.state, (i) => this.show(this.machine, i)))),
+            el("label", {}, "State", choose(states, this.state, (i) => this.show(this.machine, i), inOrder(states)))),
         el("p", { className: "faint" }, this.allowed
-            ? "A change holds for everybody in this state, now and later, until the file is saved again."
+            ? `A change holds for everybody in ${state.within ? "the states within it" : "this state"}, now and later, until the file is saved again.`
             : "This scene does not let the page change parameters."),
         this.paste, this.list(machine, state));
         this.focus(focus);
@@ -111,6 +111,7 @@ export class ParametersPage {
         const text = value === null || value === undefined ? p.text ?? "" : "";
         const part = el("div", { className: "parameter", "data-parameter": p.name }, el("div", { className: "row" }, el("strong", {}, p.name),
             text ? el("code", {}, text) : null, from));
+        if (p.apart?.length) part.append(el("p", { className: "faint" }, `${p.apart.join(", ")} ${p.apart.length > 1 ? "set their own" : "sets its own"}`));
         if (!this.allowed) {
             if (!text) part.firstChild.append(`${figure(value)}${unit}`);
             return part;
@@ -163,6 +164,12 @@ export class ParametersPage {
         fill(this.paste, el("div", { className: "row" }, "To keep it, write in the file:", copy, copied), code);
         this.paste.scrollIntoView({ block: "nearest" });
     }
+}
+
+/** Indices of states in the order of a list: those that run a machine come before the states within them. */
+function inOrder(states) {
+    const first = (i) => states[i].within?.[0] ?? i;
+    return states.map((_, i) => i).sort((a, b) => first(a) - first(b) || (states[b].within?.length ?? 0) - (states[a].within?.length ?? 0));
 }
 
 /** A word of an input line; one with blanks stands in quotes. */
