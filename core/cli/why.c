@@ -26,7 +26,10 @@ static const CliOption OPTIONS[] = {
     {"state", "NAME",
      "ask about the people in this state; if nobody is in it, about those who could go there",
      CLI_TO(Why, asked.state)},
-    {"to", "NAME", "show the transitions to this state alone, of those who could go there",
+    {"to", "NAME",
+     "show the transitions to this state alone, of those who could go there; with --agent, or "
+     "those "
+     "to the next state on the shortest way there",
      CLI_TO(Why, asked.to)},
     {"at", "S", "ask after S simulated seconds", "the scene's duration, or the checkpoint",
      CLI_TO(Why, at), CLI_GIVEN(Why, has_at), CLI_RANGE(0, 1e7)},
@@ -115,13 +118,14 @@ static int explain_scene(Why *why) {
 
 /* Returns what is wrong with the options together; NULL: nothing. */
 static const char *find_why_misuse(const Why *why, const CliList *plain) {
-    const bool many = why->asked.group || why->asked.state || why->asked.to;
+    const bool many = why->asked.group || why->asked.state;
     return why->from && plain->count ? "--from goes without SCENE: the checkpoint has its scene"
            : why->from && (why->of_scene || why->def.has_seed || why->def.has_dt)
                ? "--from goes without options of a scene: the checkpoint has them"
            : !why->from && plain->count == 0 ? "no scene given"
-           : why->has_agent && many          ? "--agent excludes --group, --state and --to"
-           : !why->has_agent && !many
+           : why->has_agent && many
+               ? "--agent asks about one agent: it goes with --to, not with --group or --state"
+           : !why->has_agent && !many && !why->asked.to
                ? "say about whom: --agent ID, --group NAME, --state NAME or --to NAME"
                : NULL;
 }
@@ -152,7 +156,7 @@ static int run_why(int argc, char **argv) {
 const CliCommand cli_why = {
     .name = "why",
     .what = "explain why agents stay in their states",
-    .usage = "SCENE --agent ID [--at S] [options]\n"
+    .usage = "SCENE --agent ID [--to NAME] [--at S] [options]\n"
              "SCENE [--group NAME] [--state NAME] [--to NAME] [--at S] [options]\n"
              "--from CHECKPOINT ...",
     .about =

@@ -58,7 +58,8 @@ typedef struct JoWhyDef {
     const char *group; /* agents of this group; NULL: of all */
     const char *state; /* agents in this state; if nobody is, `to` that state; NULL: in any */
     const char *to;    /* agents whose states lead to this one, and the transitions that do; if no
-                          state with agents does, all of them; NULL: all transitions */
+                          state with agents does, all of them; of one agent, the transitions to it,
+                          or to the next state on the shortest way there; NULL: all transitions */
     bool json;         /* answer as a JSON object, else as lines for people */
     uint32_t cookie;
 } JoWhyDef;

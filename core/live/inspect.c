@@ -233,7 +233,7 @@ static void add_why(JoScene *scene, uint32_t i, JoxJson *json) {
         return;
     }
     jox_world_look(scene->world, &look);
-    jox_why_agent(scene, &look, i, &why);
+    jox_why_agent(scene, &look, i, NULL, &why);
     jox_json_object(json, "why");
     jox_why_agent_json(scene, &why, json);
     jox_json_end(json);

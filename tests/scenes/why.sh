@@ -28,7 +28,11 @@ grep -q 'no *heard("bell") *nobody has called it so far' "$work/out"; verdict " 
 grep -q 'yes *after(5) *30 s' "$work/out"; verdict "  a term that holds, with its value" $?
 grep -q 'no *near(teacher, 2) *the only one is agent 6 (in Stand), 60 m away, beyond its perception of 4 m' "$work/out"; verdict "  a target that is not there" $?
 expect "people of a state are counted by term" 0 "0 of 6  heard" "$JOSTLE" why "$school" --state Lesson --at 30 --quiet
-expect "  also at another time" 0 "4 people are in Lesson" "$JOSTLE" why "$school" --state Lesson --at 1 --quiet
+expect "of an agent, the transitions to a state alone" 0 "no   heard" "$JOSTLE" why "$school" --agent 0 --to Break --at 30 --quiet
+! grep -q -e '-> Hide' "$work/out"; verdict "  without the others" $?
+expect "  or the shortest way there" 0 "The shortest way to Break is Walk -> Lesson -> Break; its transitions to Lesson:" "$JOSTLE" why "$school" --agent 4 --to Break --at 2 --quiet
+expect "  or that there is none" 0 "No transitions lead from Lesson to Stand, which is a state of another behaviour." "$JOSTLE" why "$school" --agent 0 --to Stand --at 30 --quiet
+expect "people of a state are counted by term at another time, too" 0 "4 people are in Lesson" "$JOSTLE" why "$school" --state Lesson --at 1 --quiet
 expect "  a state that nobody is in: who could go there" 0 "nobody in Hide; who could go to Hide:" "$JOSTLE" why "$school" --state Hide --at 30 --quiet
 expect "  the same of those in a state" 0 "6 people are in Lesson" "$JOSTLE" why "$school" --state Lesson --to Break --quiet
 ! grep -q "Hide" "$work/out"; verdict "    without the other transitions" $?
@@ -55,7 +59,7 @@ verdict "from a checkpoint (of $at s) the answer is that from the beginning" $?
 expect "  before its time it is refused" 2 "after the 2 s asked about" "$JOSTLE" why --from "$work/kept" --agent 0 --at 2
 expect "  a scene beside it is refused" 2 "--from goes without SCENE" "$JOSTLE" why "$school" --from "$work/kept" --agent 0
 expect "without agent, group or state it is refused" 2 "say about whom: --agent ID, --group NAME, --state NAME or --to NAME" "$JOSTLE" why "$school"
-expect "  and with too many" 2 "--agent excludes --group, --state and --to" "$JOSTLE" why "$school" --agent 1 --group pupils
+expect "  and with too many" 2 "--agent asks about one agent: it goes with --to, not with --group or --state" "$JOSTLE" why "$school" --agent 1 --group pupils
 expect "an agent that is not there is refused" 2 "there is no agent 7 at 30.00 s: 7 came in so far, the last is agent 6" "$JOSTLE" why "$school" --agent 7 --quiet
 expect "  a state, with the nearest one" 2 "has no state 'Lessn'. Did you mean 'Lesson'?" "$JOSTLE" why "$school" --state Lessn --quiet
 expect "  a group" 2 "has no group 'pupil'. Did you mean 'pupils'?" "$JOSTLE" why "$school" --group pupil --quiet

@@ -240,6 +240,12 @@ static void add_agent_json(Asked *asked, const JoxWhyAgent *why) {
         }
         jox_json_end(json);
     }
+    if (why->to)
+        jox_json_array(json, "way");
+    for (uint32_t n = 0; n < why->way_count; n++)
+        jox_json_string(json, NULL, why->machine->states[why->way[n]].name);
+    if (why->to)
+        jox_json_end(json);
     jox_why_agent_json(scene, why, json);
     jox_json_end(json);
 }
@@ -263,7 +269,9 @@ static bool answer_for_one(Asked *asked, JoError *error) {
                   id, now);
         return false;
     }
-    jox_why_agent(asked->scene, &asked->look, i, &why);
+    if (!check_state(asked, asked->def->to, error))
+        return false;
+    jox_why_agent(asked->scene, &asked->look, i, asked->def->to, &why);
     if (asked->def->json)
         add_agent_json(asked, &why);
     else

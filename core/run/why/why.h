@@ -18,10 +18,20 @@ typedef struct JoxWhyAgent {
     const JoxWatched *watched; /* record of its past; NULL: it is not watched */
     JoxWhyTransition transitions[JOX_MOST_TRANSITIONS]; /* in the order of the state */
     uint32_t order[JOX_MOST_TRANSITIONS];               /* nearest to firing first */
+    /* States on the shortest way from its own to a state that is asked for; way_count 0: none is
+       asked for, or no way leads there. Transitions to way[1] alone are shown. */
+    const char *to; /* state that is asked for; NULL: none */
+    uint16_t *way;
+    uint32_t way_count;
 } JoxWhyAgent;
 
-/* Explains an agent with a machine, within a look. Free it by jox_why_agent_free. */
-void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWhyAgent *out);
+/* Explains an agent with a machine, within a look; `to`: the transitions to this state, or into
+   this outer state, or to the next state on the shortest way there; NULL: all. Free it by
+   jox_why_agent_free. */
+void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, const char *to,
+                   JoxWhyAgent *out);
+/* Returns whether a transition of the agent's state is among those that are asked for. */
+bool jox_why_is_asked(const JoxWhyAgent *why, uint32_t transition);
 void jox_why_agent_free(JoxWhyAgent *why);
 /* Returns how many items of a state are transitions, and no reactions. */
 uint32_t jox_why_count_leading(const JoxState *state);

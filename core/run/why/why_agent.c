@@ -34,7 +34,57 @@ uint32_t jox_why_count_leading(const JoxState *state) {
     return count;
 }
 
-void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWhyAgent *out) {
+/* Finds the shortest way of transitions from the agent's state to the one that is asked for. */
+static void find_way(JoxWhyAgent *why) {
+    const JoxMachine *m = why->machine;
+    const uint16_t begin = (uint16_t)(why->state - m->states);
+    uint16_t *from = jox_alloc(m->state_count, sizeof *from);
+    uint16_t *reached = jox_alloc(m->state_count, sizeof *reached);
+    bool *known = jox_alloc(m->state_count, sizeof *known);
+    uint32_t count = 1, at = 0;
+    bool found = false;
+    reached[0] = begin;
+    known[begin] = true;
+    for (; at < count && !found; at++) {
+        const JoxState *state = &m->states[reached[at]];
+        for (uint32_t k = 0; k < state->transition_count && !found; k++) {
+            const JoxTransition *t = &state->transitions[k];
+            const bool itself = at == 0 && !t->stays;
+            const uint16_t to = itself ? why->transitions[k].to : t->to;
+            if (t->stays || (t->back && !itself) || known[to])
+                continue;
+            known[to] = true;
+            from[to] = reached[at];
+            reached[count++] = to;
+            found = jox_state_is_in(&m->states[to], why->to);
+        }
+    }
+    if (found) {
+        uint32_t steps = 1;
+        for (uint16_t s = reached[count - 1]; s != begin; s = from[s])
+            steps++;
+        why->way = jox_alloc(steps, sizeof *why->way);
+        why->way_count = steps;
+        for (uint16_t s = reached[count - 1]; steps-- > 0; s = from[s])
+            why->way[steps] = s;
+    }
+    jox_free(from);
+    jox_free(reached);
+    jox_free(known);
+}
+
+bool jox_why_is_asked(const JoxWhyAgent *why, uint32_t transition) {
+    const JoxMachine *m = why->machine;
+    const uint16_t to = why->transitions[transition].to;
+    if (why->way_count < 2)
+        return true;
+    if (why->state->transitions[transition].stays)
+        return false;
+    return why->way_count == 2 ? jox_state_is_in(&m->states[to], why->to) : to == why->way[1];
+}
+
+void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, const char *to,
+                   JoxWhyAgent *out) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
     const double dt = world->model.def.dt;
@@ -45,6 +95,7 @@ void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWh
                          .machine = machine,
                          .state = &machine->states[a->state[agent]],
                          .since = a->entered[agent] * dt,
+                         .to = to,
                          .now = (double)world->state.tick * dt};
     for (uint32_t n = 0; n < world->machines.watched_count; n++)
         if (world->machines.watched[n].agent_id == a->id[agent])
@@ -55,11 +106,14 @@ void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, JoxWh
         gaps[k] = out->transitions[k].gap;
     }
     sort_by_gap(out->state, out->order, gaps);
+    if (to && !jox_state_is_in(out->state, to))
+        find_way(out);
 }
 
 void jox_why_agent_free(JoxWhyAgent *why) {
     for (uint32_t k = 0; k < why->state->transition_count; k++)
         jox_why_free(&why->transitions[k]);
+    jox_free(why->way);
 }
 
 /* ---- many agents in one state ---- */

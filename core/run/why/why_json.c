@@ -85,6 +85,8 @@ void jox_why_agent_json(const JoScene *scene, const JoxWhyAgent *why, JoxJson *j
         const JoxWhyTransition *t = &why->transitions[index];
         const JoxTransition *written = &why->state->transitions[index];
         JoxText text = {0};
+        if (!jox_why_is_asked(why, index))
+            continue;
         jox_json_object(json, NULL);
         add_transition_members(why->machine, written, t, NULL, json);
         jox_json_bool(json, "fires", t->fires);

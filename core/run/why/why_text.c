@@ -218,6 +218,31 @@ static void print_last_transition(const JoScene *scene, const JoxWhyAgent *why, 
     jox_text_add(out, "\n");
 }
 
+/* Appends how the agent comes to the state that is asked for. */
+static void print_way(const JoxWhyAgent *why, JoxText *out) {
+    if (!why->to)
+        return;
+    if (jox_state_is_in(why->state, why->to)) {
+        jox_text_printf(out, "It is in %s already.\n", why->to);
+        return;
+    }
+    if (why->way_count == 0) {
+        jox_text_printf(out, "No transitions lead from %s to %s%s.\n", why->state->name, why->to,
+                        jox_machine_entry(why->machine, why->to) < 0
+                            ? ", which is a state of another behaviour"
+                            : "");
+        return;
+    }
+    if (why->way_count == 2) {
+        jox_text_printf(out, "Of its transitions, those to %s:\n", why->to);
+        return;
+    }
+    jox_text_printf(out, "The shortest way to %s is ", why->to);
+    for (uint32_t n = 0; n < why->way_count; n++)
+        jox_text_printf(out, "%s%s", n ? " -> " : "", why->machine->states[why->way[n]].name);
+    jox_text_printf(out, "; its transitions to %s:\n", why->machine->states[why->way[1]].name);
+}
+
 void jox_why_agent_text(const JoScene *scene, const JoxWhyAgent *why, JoxText *out) {
     const uint32_t count = why->state->transition_count;
     print_agent_head(scene, why, out);
@@ -233,12 +258,14 @@ void jox_why_agent_text(const JoScene *scene, const JoxWhyAgent *why, JoxText *o
     else if (first < count)
         jox_text_printf(out, "It goes to %s in the next step:\n",
                         why->machine->states[why->transitions[first].to].name);
-    else
+    else if (why->way_count < 2)
         jox_text_add(out, leading == 1 ? "It stays, as its transition does not fire:\n"
                                        : "It stays, as no transition fires; the nearest to firing "
                                          "comes first:\n");
+    print_way(why, out);
     for (uint32_t k = 0; k < count; k++)
-        print_transition(scene, why, why->order[k], why->order[k] == first, out);
+        if (jox_why_is_asked(why, why->order[k]))
+            print_transition(scene, why, why->order[k], why->order[k] == first, out);
 }
 
 /* ---- many agents ---- */
