@@ -175,9 +175,9 @@ static void messages_and_reactions_are_explained(void **state) {
                 "message: 'note' of agent 1, told at 0.50 s, about agent 0, pages 2", "It stays",
                 "-> Hide", "one term is missing", "told(\"note\").pages > 3", "2, needs > 3",
                 "yes  told(\"note\")", "'note' of agent 1", "-> Break", "told(\"bell\")",
-                "no such message waits; others do: 'note'", "-> Break", "mine.friend.x > 90",
-                "yes  exists(mine.friend)", "mine.friend is agent 1", "reaction",
-                "0.55 s in the state, next at 1 s");
+                "no such message waits: nobody has told one so far; others do: 'note'", "-> Break",
+                "mine.friend.x > 90", "yes  exists(mine.friend)", "mine.friend is agent 1",
+                "reaction", "0.55 s in the state, next at 1 s");
     jo_free(text);
     jo_scene_free(scene);
 }
