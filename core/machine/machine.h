@@ -405,6 +405,9 @@ bool jox_state_is_in(const JoxState *state, const char *name);
 bool jox_state_answers(const JoxState *state, const char *name);
 /* Returns the name of the state to which a transition leads; "back" if the agent's past decides. */
 const char *jox_transition_leads_to(const JoxMachine *machine, const JoxTransition *t);
+/* Returns whether a state is a step of a sequence: one of those beside it has a number as its name,
+   "2 wait". */
+bool jox_state_is_step(const JoxMachine *machine, const JoxState *state);
 /* Returns the first state within an outer state, by its index. */
 const JoxState *jox_first_state_within(const JoxMachine *machine, uint32_t outer);
 /* Writes the path of a state's table: "states.Guard.runs.states.Walk". */

@@ -361,7 +361,7 @@ static void carry_counts(const JoxReplacement *r, const JoxMachine *old, JoxMach
                 k++;
             if (to && k < to->transition_count)
                 is->taken[to->first_transition + k] += taken;
-            else if (taken)
+            else if (taken && !t->stays) /* reactions are counted by this version alone */
                 jox_counts_add_before(was, from->name, jox_transition_leads_to(old, t), taken);
         }
     }

@@ -52,6 +52,22 @@ const char *jox_transition_leads_to(const JoxMachine *machine, const JoxTransiti
     return t->back ? "back" : machine->states[t->to].name;
 }
 
+bool jox_state_is_step(const JoxMachine *machine, const JoxState *state) {
+    if (state->depth == 0)
+        return false;
+    const uint16_t outer = state->around[state->depth - 1];
+    const size_t around = strlen(machine->outer[outer].name) + 1;
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        const JoxState *beside = &machine->states[s];
+        if (beside->depth != state->depth || beside->around[state->depth - 1] != outer)
+            continue;
+        const size_t digits = strspn(beside->name + around, "0123456789");
+        if (digits > 0 && beside->name[around + digits] == ' ')
+            return true;
+    }
+    return false;
+}
+
 const JoxState *jox_first_state_within(const JoxMachine *machine, uint32_t outer) {
     const uint32_t level = machine->outer[outer].depth;
     uint32_t s = 0;

@@ -95,11 +95,14 @@ void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit 
     for (uint32_t s = 0; s < machine->state_count; s++) {
         const JoxState *from = &machine->states[s];
         for (uint32_t k = 0; k < from->transition_count; k++) {
+            if (from->transitions[k].stays)
+                continue;
             const char *to = jox_transition_leads_to(machine, &from->transitions[k]);
             uint64_t sum = find_old_count(counts, from->name, to);
             bool first = true;
             for (uint32_t o = 0; o < from->transition_count; o++)
-                if (from->transitions[o].to == from->transitions[k].to &&
+                if (!from->transitions[o].stays &&
+                    from->transitions[o].to == from->transitions[k].to &&
                     from->transitions[o].back == from->transitions[k].back) {
                     first &= o >= k;
                     sum += counts->taken[from->first_transition + o];

@@ -104,8 +104,8 @@ static void say_next(double time, double every, JoxText *out) {
 static void say_end(const JoxMachine *machine, const JoxState *state, uint32_t level,
                     JoxText *out) {
     if (level < state->depth)
-        jox_text_printf(out, "what %s runs is in %s", machine->outer[state->around[level]].name,
-                        state->name);
+        jox_text_printf(out, "what %s runs goes on, in %s",
+                        machine->outer[state->around[level]].name, state->name);
 }
 
 static void say_queue(const JoxMachineRun *run, uint32_t i, JoxText *out) {

@@ -103,24 +103,6 @@ static bool is_own_item(const JoxState *state, const JoxTransition *t) {
     return t->level == state->depth;
 }
 
-/* Returns whether a state is a step of a sequence: one of those beside it has a number as its name,
-   "2 wait". */
-static bool is_step(const JoxMachine *m, const JoxState *state) {
-    if (state->depth == 0)
-        return false;
-    const uint16_t outer = state->around[state->depth - 1];
-    const size_t around = strlen(m->outer[outer].name) + 1;
-    for (uint32_t s = 0; s < m->state_count; s++) {
-        const JoxState *beside = &m->states[s];
-        if (beside->depth != state->depth || beside->around[state->depth - 1] != outer)
-            continue;
-        const size_t digits = strspn(beside->name + around, "0123456789");
-        if (digits > 0 && beside->name[around + digits] == ' ')
-            return true;
-    }
-    return false;
-}
-
 /* Adds condition, chance and actions of item `k` of a state: of a transition with its number among
    several, of a reaction with "if". */
 static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
@@ -138,7 +120,7 @@ static void add_item_lines(Graph *g, const JoxState *from, uint32_t k) {
         snprintf(prefix, sizeof prefix, "%u. ", number);
     g->margin = t->stays ? "&#160;&#160;&#160;" : "";
     const bool over = !t->stays && (t->when >= 0 || t->when_hook >= 0) && t->level == from->depth &&
-                      is_step(g->machine, from);
+                      jox_state_is_step(g->machine, from);
     const bool written = !over && add_transition_key(g, from, t, prefix, "when");
     const bool every = !over && add_transition_key(g, from, t,
                                                    written    ? "every "

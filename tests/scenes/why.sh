@@ -128,3 +128,16 @@ verdict "a breakpoint on an outer state is met when that is entered" $?
 guard --break 'agent 0 leaves Guard' --quiet | grep -q "agent 0 went from Guard.* to Wait, when after(9)"; verdict "  and left" $?
 guard --break 'agent 0 enters Guard.Look' --quiet | grep -q "t = 3.0.* went from Guard.Go to Guard.Look"; verdict "  and on a state within it" $?
 guard | grep -qF "Never fired, though people were in the state and left it: Guard -> Rest."; verdict "a transition of an outer state that never fired is named once" $?
+# Reactions are no changes of state: neither a cycle nor a transition of the summary; a step that waits for ever is named.
+cat >"$work/school/react.lua" <<'LUA'
+local mine = memory { n = 0 }
+return machine { name = "react", start = "Walk", states = {
+  Walk = { steer = hold, { every = 0.05, set = { n = mine.n + 1 } }, { when = mine.n:above(9999), set = { n = 0 } }, { to = "Rest", when = now.x:above(0.5) } },
+  Rest = { runs = sequence { wait(1), { steer = hold, when = now.x:above(500) }, wait(2) }, { to = "Walk", when = done }, { to = "Walk", when = now.y:above(900) } } } }
+LUA
+react() { "$JOSTLE" run "$school" --set groups.pupils.behaviour=react.lua "$@" 2>&1 | tr '\n' ' '; }
+react >"$work/out"; grep -qF "a reaction of state 'Walk' was never done in 30 s, though somebody was always in 'Walk'" "$work/out"; verdict "a reaction that was never done is called one" $?
+! grep -q "went round\|from 'Walk' to 'Walk'" "$work/out"; verdict "  and those that are done make no cycle" $?
+react --quiet --summary - | grep -q 'Walk>Walk'; [ $? = 1 ]; verdict "  nor a transition of the summary" $?
+grep -qF 'Nobody left Rest.2 hold (where the sequence waits, 3 people in it, since 1 s): `jostle why SCENE --state "Rest.2 hold"`' "$work/out"; verdict "a step in which a sequence waits for ever is named" $?
+grep -qF 'Rest -> Walk (line 4), Rest -> Walk (line 4)' "$work/out"; verdict "  transitions to one state are told apart by their lines" $?

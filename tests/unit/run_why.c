@@ -199,8 +199,8 @@ static void nested_machines_are_explained(void **state) {
     step_scene(scene, 60);
     char *text = ask_agent(scene, 0);
     CHECK_ORDER(text, "in state Guard.Look for 2.00 s, since 1.00 s", "-> Tea", "no   done",
-                "what Guard runs is in Guard.Look", "-> Nap", "now.x > 4", "yes  after(2)", "3 s",
-                "-> Guard.Go", "now.x > 90", "-> Rest", "2 terms are missing", "after(3.5)",
+                "what Guard runs goes on, in Guard.Look", "-> Nap", "now.x > 4", "yes  after(2)",
+                "3 s", "-> Guard.Go", "now.x > 90", "-> Rest", "2 terms are missing", "after(3.5)",
                 "3 s, needs >= 3.5 s");
     jo_free(text);
     text = ask_agent(scene, 2);

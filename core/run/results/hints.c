@@ -40,13 +40,13 @@ static const JoxStateCounts *state_counts(const Examined *j, const JoxState *sta
     return &j->counts->states[state - j->machine->states];
 }
 
-/* Returns how often agents entered a state by a transition. */
+/* Returns how often agents went into a state by a transition. */
 static uint64_t count_entered(const Examined *j, uint32_t state) {
     const JoxMachine *m = j->machine;
     uint64_t times = 0;
     for (uint32_t s = 0; s < m->state_count; s++)
         for (uint32_t t = 0; t < m->states[s].transition_count; t++)
-            if (m->states[s].transitions[t].to == state)
+            if (m->states[s].transitions[t].to == state && !m->states[s].transitions[t].stays)
                 times += count_taken(j, &m->states[s], t);
     return times;
 }
@@ -132,6 +132,10 @@ static int16_t find_goal(const JoxMachine *m, const JoxState *state, const JoxTr
     return -1;
 }
 
+static const char WAITS[] =
+    "`jostle why`, or the live page (--view), says what it waits for; take it out if it is not "
+    "needed";
+
 static void examine_transition(Examined *j, const JoxState *from, const JoxTransition *t) {
     const char *to = j->machine->states[t->to].name;
     const int16_t goal = find_goal(j->machine, from, t);
@@ -150,6 +154,14 @@ static void examine_transition(Examined *j, const JoxState *from, const JoxTrans
             &text);
         return;
     }
+    if (t->stays) {
+        jox_text_printf(&text,
+                        "a reaction of state '%s' was never done in %.0f s, though somebody was "
+                        "always in '%s'",
+                        from->name, j->seconds, from->name);
+        add_hint(j, JO_HINT_TRANSITION, from, t, WAITS, &text);
+        return;
+    }
     const bool entered = count_entered(j, t->to) > 0 || j->counts->states[t->to].spent > 0;
     if (entered)
         jox_text_printf(
@@ -162,11 +174,7 @@ static void examine_transition(Examined *j, const JoxState *from, const JoxTrans
                         "nobody was ever in state '%s': in %.0f s the transition to it was never "
                         "taken, though somebody was always in '%s'",
                         to, j->seconds, from->name);
-    add_hint(
-        j, entered ? JO_HINT_TRANSITION : JO_HINT_STATE, from, t,
-        "`jostle why`, or the live page (--view), says what it waits for; take it out if it is not "
-        "needed",
-        &text);
+    add_hint(j, entered ? JO_HINT_TRANSITION : JO_HINT_STATE, from, t, WAITS, &text);
 }
 
 /* Returns whether sinks removed people, maybe before a transition saw them arrive. */
@@ -203,7 +211,7 @@ static int32_t find_main_transition(const Examined *j, uint32_t state) {
     uint64_t left = 0, most = 0;
     int32_t main = -1;
     for (uint32_t t = 0; t < from->transition_count; t++) {
-        const uint64_t taken = count_taken(j, from, t);
+        const uint64_t taken = from->transitions[t].stays ? 0 : count_taken(j, from, t);
         left += taken;
         if (taken > most) {
             most = taken;

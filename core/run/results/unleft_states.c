@@ -171,6 +171,16 @@ static uint32_t visit_never_fired(const JoScene *scene, NeverVisit *visit, void 
     return number;
 }
 
+/* Returns whether another transition that a state lists leads to the same state. */
+static bool shares_ends(const JoxMachine *machine, const JoxState *from, const JoxTransition *t) {
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < from->transition_count; k++)
+        count += !from->transitions[k].stays && from->transitions[k].level == t->level &&
+                 strcmp(jox_transition_leads_to(machine, &from->transitions[k]),
+                        jox_transition_leads_to(machine, t)) == 0;
+    return count > 1;
+}
+
 static void say_never_fired(void *context, const JoxMachine *machine, const JoxState *from,
                             const JoxTransition *t, uint32_t number) {
     if (number >= MOST_TRANSITIONS)
@@ -179,8 +189,9 @@ static void say_never_fired(void *context, const JoxMachine *machine, const JoxS
     if (t->stays)
         jox_text_printf(context, " (reaction of line %d)", t->line);
     else
-        jox_text_printf(context, " -> %.60s",
-                        t->back ? "back" : jox_transition_leads_to(machine, t));
+        jox_text_printf(context, " -> %.60s", jox_transition_leads_to(machine, t));
+    if (!t->stays && shares_ends(machine, from, t))
+        jox_text_printf(context, " (line %d)", t->line);
 }
 
 void jox_run_say_unleft(const JoScene *scene, JoxText *out) {
@@ -189,12 +200,16 @@ void jox_run_say_unleft(const JoScene *scene, JoxText *out) {
     Stay *list = list_unleft(scene, &count);
     for (uint32_t n = 0; n < count && n < MOST_STATES; n++)
         jox_text_printf(
-            out, "%s%.60s (%s, since %.0f s)", n ? ", " : " Nobody left ", list[n].state->name,
+            out, "%s%.60s (%s%s, since %.0f s)", n ? ", " : " Nobody left ", list[n].state->name,
+            jox_state_is_step(list[n].machine, list[n].state) ? "where the sequence waits, " : "",
             jox_noun(people, list[n].people, "person in it|people in it"), list[n].since);
     if (count > MOST_STATES)
         jox_text_printf(out, " and %u more states", count - MOST_STATES);
     if (count)
-        jox_text_printf(out, ": `jostle why SCENE --state %.60s` says what they wait for.",
+        jox_text_printf(out,
+                        strchr(list[0].state->name, ' ')
+                            ? ": `jostle why SCENE --state \"%.60s\"` says what they wait for."
+                            : ": `jostle why SCENE --state %.60s` says what they wait for.",
                         list[0].state->name);
     jox_free(list);
     JoxText never = {0};
