@@ -226,8 +226,16 @@ static bool save_break(const Run *run, JoScene *scene, JoError *error) {
     return good;
 }
 
+/* Says why no breakpoint was met, which is trouble for the exit status. */
+static void print_unmet(Run *run, JoScene *scene) {
+    char *text = jo_scene_unmet(scene);
+    fputs(text ? text : "", stderr);
+    jo_free(text);
+    run->troubled = true;
+}
+
 /* Makes the steps of the run, up to a breakpoint. */
-static bool make_steps(const Run *run, JoScene *scene, uint64_t steps, JoError *error) {
+static bool make_steps(Run *run, JoScene *scene, uint64_t steps, JoError *error) {
     bool ok = true, broke = false;
     for (uint64_t i = 0; ok && !broke && i < steps && !cli_signal; i++) {
         ok = jo_scene_step(scene, error);
@@ -236,7 +244,7 @@ static bool make_steps(const Run *run, JoScene *scene, uint64_t steps, JoError *
     if (broke)
         fputs(jo_scene_broke(scene), stderr);
     else if (ok && run->breaks.count && !cli_signal)
-        fprintf(stderr, "no breakpoint was met in %g s\n", jo_world_time(jo_scene_world(scene)));
+        print_unmet(run, scene);
     return ok && (!broke || !run->folder || save_break(run, scene, error));
 }
 
@@ -442,7 +450,8 @@ const CliCommand cli_run = {
     .notes = "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), "
              "walls keep people from their goal, or a function of a behaviour failed in a tenth of "
              "its calls or more, or 100 times within a second, which suspends it, and was not "
-             "corrected and reloaded (the run still goes on to its end), 2 wrong usage, 3 bad "
+             "corrected and reloaded, or no breakpoint was met (the run still goes on to its end), "
+             "2 wrong usage, 3 bad "
              "input, also a mod that is asked for and is missing or does not load; 129, 130 and "
              "143: SIGHUP, SIGINT or SIGTERM ended it early, also with --view; its files and "
              "figures are whole up to there. A second signal ends it at once",

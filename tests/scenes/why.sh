@@ -106,7 +106,10 @@ apart() { (cd "$work/school" && "$OLDPWD/$JOSTLE" run school.yaml --set groups.p
 verdict "a breakpoint ends the run when an agent enters a state, and says why" $?
 [ "$(apart --break 'pupils enters Lesson' | grep -c 'went from Walk')" = 3 ]; verdict "  of a group, all who do so in the step" $?
 [ "$(apart --break 'pupils enters Walk' | grep -c 'came in, into Walk')" = 6 ]; verdict "  also those who come in" $?
-[ "$(apart --break 'anybody enters Hide')" = "no breakpoint was met in 30 s" ]; verdict "  and says when it was not met" $?
+expect "a breakpoint that is not met is told, with a status" 1 "breakpoint 'anybody enters Hide' was not met in 30 s" "$JOSTLE" run "$school" --set groups.pupils.behaviour=apart.lua --quiet --break 'anybody enters Hide'
+expect "  of an agent that never came" 1 "breakpoint 'agent 999 enters Hide' was not met in 30 s: agent 999 never came in, the last who did is agent 6" "$JOSTLE" run "$school" --set groups.pupils.behaviour=apart.lua --quiet --break 'agent 999 enters Hide'
+expect "  of one whose behaviour has no such state" 1 "the behaviour pupil of agent 0 has no such state" "$JOSTLE" run "$school" --set groups.pupils.behaviour=apart.lua --quiet --break 'agent 0 enters Stand'
+expect "  of one that waits" 1 "agent 1 is in Lesson; \`jostle why SCENE --agent 1 --to Hide\` says more" "$JOSTLE" run "$school" --set groups.pupils.behaviour=apart.lua --quiet --break 'agent 1 enters Hide'
 (cd "$work" && "$OLDPWD/$JOSTLE" run school/school.yaml --break 'agent 0 leaves Walk' --checkpoint-dir broken --quiet 2>&1) | grep -q "the state at 6.05 s is in broken"
 verdict "  and leaves a checkpoint" $?
 expect "    to look at" 0 "6.05 s: agent 0 of group pupils (machine pupil) has been in state Lesson" "$JOSTLE" why --from "$work/broken" --agent 0

@@ -22,7 +22,8 @@ typedef struct Breakpoint {
     uint32_t agent; /* id */
     int32_t group;  /* index; -1: any */
     BreakVerb verb;
-    char *name; /* of the state or signal */
+    char *name;   /* of the state or signal */
+    bool was_met; /* so far */
 } Breakpoint;
 
 enum { MOST_LINES = 8 };
@@ -78,7 +79,7 @@ static void note_deed(Breakpoints *b, const JoScene *scene, uint32_t id, const J
             continue;
         if (!b->met)
             b->agent = id;
-        b->met = true;
+        b->met = b->items[n].was_met = true;
         if (b->lines++ >= MOST_LINES)
             continue;
         jox_text_printf(&b->said, "t = %.2f s: breakpoint '%.120s': agent %u",
@@ -187,6 +188,49 @@ const char *jo_scene_broke(const JoScene *scene) {
     return b && b->met ? b->said.data : NULL;
 }
 
+/* Appends why a breakpoint on an agent was not met, as far as is known. */
+static void say_why_unmet(const JoScene *scene, const Breakpoint *one, JoxText *out) {
+    const JoxAgents *a = &scene->world->state.agents;
+    const uint32_t i = one->agent < a->next_id ? jox_agents_find(a, one->agent) : JOX_NO_INDEX;
+    const JoxState *state = i == JOX_NO_INDEX ? NULL : present_state(&scene->world->machines, i);
+    if (one->agent >= a->next_id && a->next_id == 0)
+        jox_text_add(out, ": nobody came in");
+    else if (one->agent >= a->next_id)
+        jox_text_printf(out, ": agent %u never came in, the last who did is agent %u", one->agent,
+                        a->next_id - 1);
+    else if (i == JOX_NO_INDEX)
+        jox_text_printf(out, ": agent %u has left", one->agent);
+    else if (!state)
+        jox_text_printf(out, ": agent %u has no behaviour", one->agent);
+    else if (one->verb != BREAK_CALLS &&
+             jox_machine_entry(scene->world->machines.set->items[a->machine[i]], one->name) < 0)
+        jox_text_printf(out, ": the behaviour %s of agent %u has no such state",
+                        scene->world->machines.set->items[a->machine[i]]->name, one->agent);
+    else if (one->verb == BREAK_ENTERS)
+        jox_text_printf(out, ": agent %u is in %s; `jostle why SCENE --agent %u --to %s` says more",
+                        one->agent, state->name, one->agent, one->name);
+    else
+        jox_text_printf(out, ": agent %u is in %s", one->agent, state->name);
+}
+
+char *jo_scene_unmet(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
+    const Breakpoints *b = jox_run_find_listener(scene, &BREAKPOINTS);
+    JoxText out = {0};
+    for (uint32_t n = 0; b && n < b->count; n++) {
+        if (b->items[n].was_met)
+            continue;
+        jox_text_printf(&out, "breakpoint '%.120s' was not met in %g s", b->items[n].text,
+                        jo_world_time(scene->world));
+        if (b->items[n].has_agent)
+            say_why_unmet(scene, &b->items[n], &out);
+        jox_text_add(&out, "\n");
+    }
+    return jox_disown(out.data);
+}
+
 /* ---- reading ---- */
 
 /* Reports a name that is not known, with the most similar of those that are. */
@@ -211,6 +255,9 @@ static bool check_break_name(const JoScene *scene, const Breakpoint *one, JoErro
         for (uint32_t s = 0; one->verb != BREAK_CALLS && s < machine->state_count && count < 512;
              s++)
             names[count++] = machine->states[s].name;
+        for (uint32_t o = 0; one->verb != BREAK_CALLS && o < machine->outer_count && count < 512;
+             o++)
+            names[count++] = machine->outer[o].name;
         for (uint32_t n = 0; one->verb == BREAK_CALLS && n < machine->name_count && count < 512;
              n++) {
             if (!(machine->names[n].uses & (JOX_NAME_SIGNALLED | JOX_NAME_HEARD)))
