@@ -24,24 +24,31 @@ const JoxMessage *jox_messages_of(const JoxMachineRun *run, uint32_t agent, uint
     return state->waiting + first;
 }
 
-const JoxMessage *jox_message_find(const JoxMachineRun *run, uint32_t agent, uint32_t name) {
+/* Returns the oldest message of a name that waits for the agent and has none of these uses. */
+static JoxMessage *find_unless(const JoxMachineRun *run, uint32_t agent, uint32_t name,
+                               uint32_t uses) {
     const JoxMachineState *state = run->state;
     if (state->waiting_count == 0)
         return NULL;
     const uint32_t id = run->agents->id[agent];
     for (uint32_t m = find_first_of(state, id);
          m < state->waiting_count && state->waiting[m].to == id; m++)
-        if (state->waiting[m].name == name && !state->waiting[m].used)
+        if (state->waiting[m].name == name && !(state->waiting[m].used & uses))
             return &state->waiting[m];
     return NULL;
 }
 
+const JoxMessage *jox_message_find(const JoxMachineRun *run, uint32_t agent, uint32_t name) {
+    return find_unless(run, agent, name, JOX_MESSAGE_USED);
+}
+
 const JoxMessage *jox_message_take(JoxMachineRun *run, uint32_t agent, uint32_t name) {
-    const JoxMessage *message = jox_message_find(run, agent, name);
-    if (message)
-        run->state->waiting[message - run->state->waiting].used = 1;
-    if (message && run->watched_count)
+    JoxMessage *message = find_unless(run, agent, name, JOX_MESSAGE_USED | JOX_MESSAGE_BY_FUNCTION);
+    if (!message)
+        return NULL;
+    if (!message->used && run->watched_count)
         jox_watch_used_message(run, message, NULL, NULL);
+    message->used |= run->thinks ? JOX_MESSAGE_BY_FUNCTION : JOX_MESSAGE_USED;
     return message;
 }
 

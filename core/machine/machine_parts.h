@@ -173,10 +173,13 @@ double jox_message_value(const JoxMessage *message, uint32_t name, bool somebody
 void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell, uint32_t agent);
 /* Delivers what was told since the last step, and drops what was used. */
 void jox_messages_deliver(JoxMachineRun *run);
-/* Marks the messages as used on which the condition of an item of an agent's state rests; returns
-   whether any is. */
-bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *item,
+/* Marks the messages as used on which the condition of an item of an agent's state rests. */
+void jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *item,
                       uint32_t agent);
+/* Drops messages for an agent that neither its new machine nor one that it may become asks for. */
+void jox_messages_recheck(JoxMachineRun *run, uint32_t agent);
+/* Makes messages that were used in the stage think invisible from now on. */
+void jox_messages_settle(JoxMachineRun *run);
 /* watched_messages.c: record for watched agents a message that comes, is dropped, or is used by an
    item, NULL: by a function; and the signals that are heard in this step. */
 void jox_watch_message(const JoxMachineRun *run, const JoxMessage *message);

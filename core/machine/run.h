@@ -57,12 +57,20 @@ typedef struct JoxSignal {
    in a step. */
 enum { JOX_MOST_WAITING = 16, JOX_MOST_SENT = 1000000 };
 
+/* What became of a message. One that items or functions use in the stage think is seen by all items
+   of the agent until the stage ends, and removed before the next step. */
+typedef enum JoxMessageUse {
+    JOX_MESSAGE_USED = 1,        /* it is used up */
+    JOX_MESSAGE_BY_ITEM = 2,     /* an item that was carried out in this step rests on it */
+    JOX_MESSAGE_BY_FUNCTION = 4, /* a function took it in this step */
+} JoxMessageUse;
+
 /* A message from one agent to another. */
 typedef struct JoxMessage {
     uint32_t to, from;                /* ids */
     uint32_t name;                    /* number of the name in the set */
     uint32_t sent;                    /* tick */
-    uint32_t used;                    /* 1: it is removed before the next step */
+    uint32_t used;                    /* bits of JoxMessageUse; 0: it waits */
     uint32_t count;                   /* of values */
     uint32_t somebody;                /* bits of the values that mean somebody */
     uint32_t unused;                  /* 0: sections hold no padding bytes */
@@ -336,6 +344,7 @@ typedef struct JoxMachineRun {
     uint32_t lost_name_count;
     size_t lost_name_capacity;
 
+    bool thinks;                       /* in the stage think */
     bool spawning;                     /* inside jox_machines_spawn, when nothing can be sensed */
     struct JoxMachineScratch *scratch; /* made on first use */
 } JoxMachineRun;

@@ -248,6 +248,7 @@ void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
     draw_values(run, i, next, own, memory);
     jox_clear_unused_slots(a, i, next);
     a->given[i] = given;
+    jox_messages_recheck(run, i);
     jox_machines_enter(run, i, next->start);
 }
 

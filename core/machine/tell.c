@@ -2,6 +2,7 @@
    its receiver from the next one on, until an item of its state that rests on it by `told` is
    taken. think.c delivers and uses messages, signals.c sends them; inbox.c finds those that wait.
  */
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -83,7 +84,7 @@ void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell
 
 /* ---- delivery ---- */
 
-/* Returns whether the machine of an agent asks for messages of this name. */
+/* Returns whether a machine asks for messages of this name. */
 static bool asks_for(const JoxMachine *machine, uint32_t name) {
     for (uint32_t n = 0; n < machine->name_count; n++)
         if (machine->names[n].number == name && (machine->names[n].uses & JOX_NAME_TOLD))
@@ -91,7 +92,41 @@ static bool asks_for(const JoxMachine *machine, uint32_t name) {
     return machine->hears_functions;
 }
 
-/* Returns whether a message has a receiver that asks for it; counts it if not. */
+/* Returns whether a machine, or one that its agents may become, asks for messages of this name. */
+static bool may_ask_for(const JoxMachineSet *set, uint32_t machine, uint32_t name) {
+    static_assert(JOX_MOST_MACHINES <= 64, "a bit for each machine");
+    uint64_t reached = (uint64_t)1 << machine, looked = 0;
+    while (reached != looked)
+        for (uint32_t m = 0; m < set->count; m++) {
+            if (!((reached & ~looked) >> m & 1))
+                continue;
+            if (asks_for(set->items[m], name))
+                return true;
+            looked |= (uint64_t)1 << m;
+            for (uint32_t s = 0; s < set->items[m]->state_count; s++)
+                if (set->items[m]->states[s].become_machine >= 0)
+                    reached |= (uint64_t)1 << set->items[m]->states[s].become_machine;
+        }
+    return false;
+}
+
+static void count_unasked(JoxMachineRun *run, uint32_t name) {
+    run->state->messages_unasked++;
+    find_counts(run, name)->unasked++;
+}
+
+void jox_messages_recheck(JoxMachineRun *run, uint32_t i) {
+    uint32_t count;
+    const JoxMessage *first = jox_messages_of(run, i, &count);
+    for (uint32_t m = 0; m < count; m++) {
+        if (first[m].used || may_ask_for(run->set, run->agents->machine[i], first[m].name))
+            continue;
+        count_unasked(run, first[m].name);
+        run->state->waiting[(uint32_t)(first - run->state->waiting) + m].used = JOX_MESSAGE_USED;
+    }
+}
+
+/* Returns whether a message has a receiver that asks for it, or may come to; counts it if not. */
 static bool is_deliverable(JoxMachineRun *run, const JoxMessage *message) {
     const uint32_t i = jox_agents_find(run->agents, message->to);
     if (i == JOX_NO_INDEX) {
@@ -99,7 +134,7 @@ static bool is_deliverable(JoxMachineRun *run, const JoxMessage *message) {
         return false;
     }
     if (run->agents->machine[i] != JOX_NO_MACHINE &&
-        asks_for(jox_machine_of(run, i), message->name)) {
+        may_ask_for(run->set, run->agents->machine[i], message->name)) {
         JoxMessageTally *told = find_counts(run, message->name);
         *told = (JoxMessageTally){told->count + 1, told->to_nobody, told->unasked, told->lost,
                                   message->sent,   message->from,   message->to,   0};
@@ -107,8 +142,7 @@ static bool is_deliverable(JoxMachineRun *run, const JoxMessage *message) {
             jox_watch_message(run, message);
         return true;
     }
-    run->state->messages_unasked++;
-    find_counts(run, message->name)->unasked++;
+    count_unasked(run, message->name);
     return false;
 }
 
@@ -203,21 +237,19 @@ static uint32_t find_rest(const JoxMachine *machine, const JoxInstruction *in, c
     if (in->op == JOX_OP_OR)
         return values[in->a][0] != 0.0 ? rests[in->a] : rests[in->b];
     for (uint32_t m = 0; in->op == JOX_OP_TOLD && m < count; m++)
-        if (first[m].name == machine->names[in->name].number && !first[m].used)
+        if (first[m].name == machine->names[in->name].number && !(first[m].used & JOX_MESSAGE_USED))
             return 1u << m;
     return 0;
 }
 
-bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
+void jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
                       uint32_t i) {
     static _Thread_local JoxRegisters values;
     const JoxExpression *expression = &machine->expressions[t->when];
     Rests rests = {0};
     uint32_t count;
     const JoxMessage *first = jox_messages_of(run, i, &count);
-    if (count == 0)
-        return false;
-    for (uint32_t k = 0; k < expression->count; k++) {
+    for (uint32_t k = 0; count > 0 && k < expression->count; k++) {
         JoxInstruction in = expression->code[k];
         in.skip = 0;
         const JoxExpression one = {&in, 1};
@@ -227,9 +259,16 @@ bool jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTr
     }
     for (uint32_t m = 0; m < count; m++)
         if (rests[0] >> m & 1) {
-            run->state->waiting[(uint32_t)(first - run->state->waiting) + m].used = 1;
-            if (run->watched_count)
+            if (!first[m].used && run->watched_count)
                 jox_watch_used_message(run, &first[m], machine, t);
+            run->state->waiting[(uint32_t)(first - run->state->waiting) + m].used |=
+                JOX_MESSAGE_BY_ITEM;
         }
-    return rests[0] != 0;
+}
+
+void jox_messages_settle(JoxMachineRun *run) {
+    JoxMachineState *state = run->state;
+    for (uint32_t m = 0; m < state->waiting_count; m++)
+        if (state->waiting[m].used)
+            state->waiting[m].used = JOX_MESSAGE_USED;
 }

@@ -206,21 +206,37 @@ static void list_fired(JoxMachineRun *run) {
     }
 }
 
-/* Returns whether an item is still due that rests on messages, of which earlier items of the agent
-   may have used some in this step. */
-static bool is_still_due(const JoxMachineRun *run, const JoxMachine *machine,
-                         const JoxTransition *t, uint32_t i) {
-    const JoxValue when = {.kind = JOX_VALUE_EXPRESSION, .index = t->when};
-    return !jox_asks_for_messages(machine, t->when) || jox_value(run, machine, &when, i) != 0.0;
+/* Uses the messages on which the items rest that an agent is to carry out. */
+static void use_messages_of(JoxMachineRun *run, uint32_t i) {
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const JoxState *state = &machine->states[run->agents->state[i]];
+    const uint32_t reacts = machine->reacts ? run->scratch->reacts[i] : 0;
+    for (uint32_t k = 0; k < state->transition_count; k++) {
+        const JoxTransition *t = &state->transitions[k];
+        const bool due = reacts >> k & 1 || run->scratch->fired[i] == (int16_t)k;
+        if (due && jox_asks_for_messages(machine, t->when))
+            jox_messages_use(run, machine, t, i);
+    }
 }
 
-/* Does what an item of the agent's state says, and uses the messages that it rests on. */
+/* Uses the messages on which items rest, before these change what conditions read. The messages
+   remain visible until the stage ends: all items of a step rest on the same ones. */
+static void use_messages(JoxMachineRun *run) {
+    const JoxMessage *waiting = run->state->waiting;
+    for (uint32_t m = 0; m < run->state->waiting_count; m++) {
+        const uint32_t i = m > 0 && waiting[m - 1].to == waiting[m].to
+                               ? JOX_NO_INDEX
+                               : jox_agents_find(run->agents, waiting[m].to);
+        if (i != JOX_NO_INDEX && run->agents->machine[i] != JOX_NO_MACHINE)
+            use_messages_of(run, i);
+    }
+}
+
+/* Does what an item of the agent's state says. */
 static void do_item(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
                     uint32_t i) {
     jox_actions_do(run, machine, &t->does, i);
     jox_call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
-    if (jox_asks_for_messages(machine, t->when))
-        jox_messages_use(run, machine, t, i);
 }
 
 /* Carries out the reactions that are due for one agent, in order. */
@@ -230,7 +246,7 @@ static void react(JoxMachineRun *run, uint32_t i) {
     const JoxState *state = &machine->states[a->state[i]];
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
-        if (!(run->scratch->reacts[i] >> k & 1) || !is_still_due(run, machine, t, i))
+        if (!(run->scratch->reacts[i] >> k & 1))
             continue;
         const JoxTaken taken = {a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)k};
         run->state->counts[a->machine[i]].taken[state->first_transition + k]++;
@@ -268,8 +284,6 @@ static void take_transitions(JoxMachineRun *run) {
         const JoxState *from = &machine->states[a->state[i]];
         JOX_ASSERT((uint32_t)s->fired[i] < from->transition_count && run->taken_count <= n);
         const JoxTransition *t = &from->transitions[s->fired[i]];
-        if (!is_still_due(run, machine, t, i))
-            continue;
         run->state->counts[a->machine[i]].taken[from->first_transition + (uint32_t)s->fired[i]]++;
         const uint16_t to = jox_destination(run, t, i);
         run->taken[run->taken_count++] =
@@ -348,6 +362,7 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
         jox_arrivals_note(run);
         jox_sightings_note(run);
         complete_entries(run);
+        run->thinks = true;
         Think think = {run};
         if (run->agents->count) /* -1: no transition */
             memset(run->scratch->fired, 0xff, run->agents->count * sizeof *run->scratch->fired);
@@ -358,8 +373,11 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
         evaluate_function_conditions(run);
         if (run->traces)
             jox_trace_waiting(run);
+        use_messages(run);
         carry_out_reactions(run);
         take_transitions(run);
+        jox_messages_settle(run);
+        run->thinks = false;
         JOX_CHECK(jox_taken_check(run));
         if (views)
             run->bracket(run->call_context, false);

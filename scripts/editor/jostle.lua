@@ -363,7 +363,7 @@ function Target:contains(item) end
 ---@field neighbours jostle.View[] views of the agents that it sees, nearest first: those within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. A view shows the agent as it was before the step; memory that is set in it changes after the step; memory that its machine lacks is nil
 ---@field signal fun(name: string) gives a signal: me.signal("alarm")
 ---@field tell fun(whom: jostle.View, name: string, values?: table<string, number|jostle.View>) tells somebody a message, as `tell` does: me.tell(me.prey, "shot", { damage = 2 })
----@field told fun(name: string): jostle.Told|nil the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up
+---@field told fun(name: string): jostle.Told|nil the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up when the functions and items of this step are done; further calls get the next one
 ---@field holding jostle.View|nil the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them
 ---@field striker jostle.View|nil who kicked or threw the body that hits it, else that body; nil: none
 ---@field speed number wanted speed, m/s; 0 to 20, default 1.3
@@ -551,7 +551,7 @@ function sees(target) end
 ---@return jostle.Condition
 function heard(name, metres) end
 
---- `told(name)`: a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; told(name).VALUE a value that it carries, a number, or a target where one is wanted (0, or nobody, if it carries the other). It waits until an item is taken whose `when` rests on it; of several the oldest is meant. At most 16 messages wait for an agent; then the oldest goes, and the run says so
+--- `told(name)`: a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; told(name).VALUE a value that it carries, a number, or a target where one is wanted (0, or nobody, if it carries the other). It waits until an item is taken whose `when` rests on it; of several the oldest is meant. All items of a step that hold rest on the same message, and on entering the next state it can still be read; then it is used up. It waits over states, and over `become`, in which nothing asks for it, and does not grow old: tell a time with it to ask for its age. At most 16 messages wait for an agent; then the oldest goes, and the run says so
 ---@param name string
 ---@return jostle.Message
 function told(name) end

@@ -165,6 +165,43 @@ test("messages wait in order, and of more than 16 the oldest goes", function()
   equal(deaf.last, 18)
 end)
 
+test("all items of a step that hold rest on the same message, which is used up by them", function()
+  local asker = [[return machine { name = "asker", start = "A", defaults = { perception = 9 }, states = {
+    A = { steer = hold, { to = "B", when = after(0.5), tell = { nearest "servers", "ask", number = 1 } } },
+    B = { steer = hold, { to = "C", when = after(0.1), tell = { nearest "servers", "ask", number = 2 } } },
+    C = { steer = hold } } }]]
+  local server = [[local mine = memory {
+      busy = false, first = 0, second = 0, third = 0, entered = 0, taken = 0, left = 0 }
+    local ask = told "ask"
+    return machine { name = "server", start = "Open", defaults = { perception = 9 }, states = {
+      Open = { steer = hold,
+        { when = ask & ~mine.busy, set = { busy = true, first = mine.first + ask.number } },
+        { when = ask, set = { second = mine.second + ask.number }, on_take = function(me)
+            me.taken = me.taken + me.told("ask").number
+            me.left = me.told "ask" and 1 or 0
+          end },
+        { when = ask & ~mine.busy, set = { third = mine.third + ask.number } },
+        { to = "Shut", when = ask } },
+      Shut = { steer = hold, set = { entered = ask.number }, { to = "Last", when = ask & after(1) } },
+      Last = { steer = hold, set = { busy = false, entered = 10 * mine.entered + ask.number } } } }]]
+  local s = scene { groups = { asker = { behaviour = asker, at = { { 0, 0 } } },
+    server = { behaviour = server, at = { { 2, 0 } }, tags = { "servers" } } } }
+  s:run(0.56)
+  s:run(0.06)
+  local one = s:agents("server")[1]
+  equal(one.state, "Shut")
+  equal(one.first, 1)
+  equal(one.second, 1)
+  equal(one.third, 1)
+  equal(one.taken, 1)
+  equal(one.left, 0)
+  equal(one.entered, 1)
+  s:run(2)
+  one = s:agents("server")[1]
+  equal(one.state, "Last") -- by the second message
+  equal(one.entered, 12)
+end)
+
 test("left counts who went from a place, wherever the agent is", function()
   local leaver = [[return machine { name = "leaver", start = "Go", states = {
     Go = { steer = seek(own.way), { to = "Gone", when = inside(own.way) } }, Gone = { removes = true } } }]]

@@ -106,6 +106,15 @@ pays "other.earned = other.earned + 5"
 expect "lost changes of another agent's memory are reported" 0 "buyer.lua:3: 'earned' of agent 2 is changed by several in step 0" "$JOSTLE" run "$work/till.yaml"
 pays "other.told = not other.told or true"
 "$JOSTLE" run "$work/till.yaml" 2>&1 | grep -q "is changed by several"; [ $? = 1 ]; verdict "  not if all set the same value" $?
+cat >"$work/caller.lua" <<'END'
+return machine { name = "caller", start = "A", states = {
+  A = { steer = hold, { to = "B", when = after(0.1), tell = { neighbours "anyone", "late" } } },
+  B = { steer = hold, { when = told "late" & after(9) }, { to = "C", when = after(0.5) } },
+  C = { become = "quiet" } } }
+END
+echo 'return machine { name = "quiet", start = "A", states = { A = { steer = hold } } }' >"$work/quiet.lua"
+printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: caller.lua, at: [[0, 0], [1, 0]]}}\n' >"$work/late.yaml"
+expect "messages that wait when an agent becomes a machine that never asks for them are counted" 0 '"messages_unasked": 2' "$JOSTLE" run "$work/late.yaml" --quiet --summary -
 expect "--profile-lua lists the cost of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
 expect "reference prints behaviours by default" 0 "### Conditions" "$JOSTLE" reference behaviours
 expect "reference refuses an unknown page" 2 "there is no page 'plants'; there are behaviours, scenes" "$JOSTLE" reference plants

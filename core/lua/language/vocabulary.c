@@ -68,7 +68,9 @@ const JoxWord jox_words[] = {
     {"told", "s", CONDITION, JOX_OP_TOLD, 0, "told(name)", "",
      "a message of this name waits for the agent (see `tell`). told(name).sender is who told it, a target; "
      "told(name).VALUE a value that it carries, a number, or a target where one is wanted (0, or nobody, if it carries the other). It waits until an item "
-     "is taken whose `when` rests on it; of several the oldest is meant. At most 16 messages wait for an agent; then the oldest goes, and the run says so", "told \"shot\""},
+     "is taken whose `when` rests on it; of several the oldest is meant. All items of a step that hold rest on the same message, "
+     "and on entering the next state it can still be read; then it is used up. It waits over states, and over `become`, in which nothing "
+     "asks for it, and does not grow old: tell a time with it to ask for its age. At most 16 messages wait for an agent; then the oldest goes, and the run says so", "told \"shot\""},
     {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
      "a gate at the place, or within 0.5 m of it, is closed, and the agent sees it: within "
      "perception, with no other wall between. Bodies between do not matter", "shut \"mid\""},
@@ -390,7 +392,7 @@ const JoxMeKey jox_me_keys[] = {
     {"neighbours", "list", "", "views of the agents that it sees, nearest first: those within perception, with no wall and no tall body between; its `neighbours` nearest, and in a crowd of at most 64 all of them. A view shows the agent as it was before the step; memory that is set in it changes after the step; memory that its machine lacks is nil"},
     {"signal", "function(name)", "", "gives a signal: me.signal(\"alarm\")"},
     {"tell", "function(whom, name, values)", "", "tells somebody a message, as `tell` does: me.tell(me.prey, \"shot\", { damage = 2 })"},
-    {"told", "function(name)", "", "the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up"},
+    {"told", "function(name)", "", "the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up when the functions and items of this step are done; further calls get the next one"},
     {"holding", "view", "", "the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them"},
     {"striker", "view", "", "who kicked or threw the body that hits it, else that body; nil: none"},
     {"in_sight", "true or false", "", "of a view: the agent sees it now. Of one whom it remembers and does not see, only `id` is known"},
