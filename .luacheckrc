@@ -71,6 +71,7 @@ std = {
     "wander",
     "formation",
     "gather",
+    "spread_over",
     "spread",
     "evade",
     "hold",

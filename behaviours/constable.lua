@@ -16,7 +16,7 @@ return machine {
       { to = "Hold",   when = same(holding, mine.suspect) },
       { to = "Search", when = ~sees(mine.suspect) } },
 
-    Search = { steer = seek(last_seen(mine.suspect)), speed = 2.5,
+    Search = { steer = field(last_seen(mine.suspect)), speed = 2.5,
       { to = "Chase", when = sees(mine.suspect) },
       { to = "Beat",  when = after(10) | near(last_seen(mine.suspect), 1) | ~exists(mine.suspect) } },
 

@@ -348,8 +348,9 @@ static void add_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t st
         JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
         JoxCounter counter = {
             .target = jox_build_target(b, node->target), .value = (int32_t)slot, .state = state};
-        counter.angle = jox_build_hidden(b, JOX_IDENTITY_ANGLE, (int32_t)slot, JOX_MEMORY_NUMBER);
-        counter.begun = jox_build_hidden(b, JOX_IDENTITY_BEGUN, (int32_t)slot, JOX_MEMORY_NUMBER);
+        const char *name = m->memory[slot].name;
+        counter.angle = jox_build_hidden(b, JOX_IDENTITY_ANGLE, name, JOX_MEMORY_NUMBER);
+        counter.begun = jox_build_hidden(b, JOX_IDENTITY_BEGUN, name, JOX_MEMORY_NUMBER);
         m->counters[m->counter_count++] = counter;
     } else if (!node || node->kind != JOX_NODE_ERROR) {
         jox_build_error(b, jox_read_at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",

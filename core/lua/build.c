@@ -103,7 +103,7 @@ static void add_items(JoxBuild *b, int32_t list) {
     const JoxMemorySlot slot = b->machine->memory[list];
     for (uint32_t k = 0; k < slot.capacity; k++) {
         const char role[] = {*JOX_IDENTITY_ITEM, (char)('a' + k), 0};
-        const int32_t item = jox_build_hidden(b, role, list,
+        const int32_t item = jox_build_hidden(b, role, slot.name,
                                               slot.kind == JOX_MEMORY_PEOPLE ? JOX_MEMORY_SOMEBODY
                                                                              : JOX_MEMORY_NUMBER);
         if (k == 0)

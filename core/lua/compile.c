@@ -55,13 +55,32 @@ int32_t jox_build_memory(JoxBuild *build, const char *name) {
     return (int32_t)m->memory_count++;
 }
 
-int32_t jox_build_hidden(JoxBuild *build, const char *role, int32_t of, JoxMemoryKind kind) {
+int32_t jox_build_hidden(JoxBuild *build, const char *role, const char *of, JoxMemoryKind kind) {
     JoxText identity = {0};
-    jox_text_printf(&identity, "%s%s", role, build->machine->memory[of].name);
+    jox_text_printf(&identity, "%s%s", role, of);
     const int32_t slot = jox_build_memory(build, "");
     build->machine->memory[slot].identity = identity.data;
     build->machine->memory[slot].kind = kind;
     return slot;
+}
+
+uint32_t jox_build_lead(JoxBuild *build, const JoxState *state, const JoxTarget *target) {
+    const JoxMachine *m = build->machine;
+    uint32_t number = 0;
+    if (jox_target_kind_is_place(target->kind) && target->kind != JOX_TARGET_MEMORY)
+        return 0;
+    for (uint32_t t = 0; t < state->steer_count; t++)
+        number += state->steer[t].lead > 0;
+    const char name[] = {(char)('a' + number), 0}, identity[] = {*JOX_IDENTITY_LEAD, *name, 0};
+    for (uint32_t slot = 0; slot < m->memory_count; slot++)
+        if (!strcmp(jox_memory_identity(&m->memory[slot]), identity))
+            return 1 + slot; /* a state's first, second way and so on share theirs with others' */
+    const int32_t first = jox_build_hidden(build, JOX_IDENTITY_LEAD, name, JOX_MEMORY_NUMBER);
+    for (char k = '1'; k < '0' + JOX_LEAD_SLOTS; k++) {
+        const char other[] = {*name, k, 0};
+        jox_build_hidden(build, JOX_IDENTITY_LEAD, other, JOX_MEMORY_NUMBER);
+    }
+    return 1 + (uint32_t)first;
 }
 
 int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
@@ -135,10 +154,11 @@ static int32_t add_sighting(JoxBuild *build, int32_t memory) {
         if (m->sightings[s].memory == memory)
             return (int32_t)s;
     JOX_RESERVE(m->sightings, build->sighting_capacity, m->sighting_count + 1);
+    char *const name = m->memory[memory].name; /* outlives the array of slots */
     const JoxSighting sighting = {
-        memory, jox_build_hidden(build, JOX_IDENTITY_SEEN, memory, JOX_MEMORY_SOMEBODY),
-        jox_build_hidden(build, JOX_IDENTITY_SEEN_X, memory, JOX_MEMORY_NUMBER),
-        jox_build_hidden(build, JOX_IDENTITY_SEEN_Y, memory, JOX_MEMORY_NUMBER)};
+        memory, jox_build_hidden(build, JOX_IDENTITY_SEEN, name, JOX_MEMORY_SOMEBODY),
+        jox_build_hidden(build, JOX_IDENTITY_SEEN_X, name, JOX_MEMORY_NUMBER),
+        jox_build_hidden(build, JOX_IDENTITY_SEEN_Y, name, JOX_MEMORY_NUMBER)};
     m->sightings[m->sighting_count] = sighting;
     return (int32_t)m->sighting_count++;
 }

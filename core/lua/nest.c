@@ -266,8 +266,8 @@ static void add_came_from(JoxBuild *b, JoxState *state) {
     for (uint32_t t = 0; t < state->transition_count; t++)
         if (state->transitions[t].back && state->transitions[t].level == state->depth &&
             !state->came_from)
-            state->came_from =
-                jox_nest_slot(b, JOX_IDENTITY_CAME_FROM, state->name, JOX_MEMORY_STATE);
+            state->came_from = 1 + (uint32_t)jox_build_hidden(b, JOX_IDENTITY_CAME_FROM,
+                                                              state->name, JOX_MEMORY_STATE);
 }
 
 /* ---- reading ---- */

@@ -72,15 +72,6 @@ static const JoxNode *find_machine(JoxBuild *b, const JoxState *state, uint32_t 
     return NULL;
 }
 
-uint32_t jox_nest_slot(JoxBuild *b, const char *role, const char *name, JoxMemoryKind kind) {
-    JoxText identity = {0};
-    jox_text_printf(&identity, "%s%s", role, name);
-    const int32_t slot = jox_build_memory(b, "");
-    b->machine->memory[slot].identity = identity.data;
-    b->machine->memory[slot].kind = kind;
-    return 1 + (uint32_t)slot;
-}
-
 /* Adds an outer state, and its clock. */
 static void add_outer_state(JoxBuild *b, JoxState state, uint32_t nested) {
     JoxMachine *m = b->machine;
@@ -91,8 +82,10 @@ static void add_outer_state(JoxBuild *b, JoxState state, uint32_t nested) {
     m->outer[m->outer_count++] = state;
     const char number[] = {(char)('0' + level), 0};
     if (!m->clock[level]) {
-        m->clock[level] = jox_nest_slot(b, JOX_IDENTITY_CLOCK, number, JOX_MEMORY_NUMBER);
-        m->lasting[level] = jox_nest_slot(b, JOX_IDENTITY_LASTS, number, JOX_MEMORY_NUMBER);
+        m->clock[level] =
+            1 + (uint32_t)jox_build_hidden(b, JOX_IDENTITY_CLOCK, number, JOX_MEMORY_NUMBER);
+        m->lasting[level] =
+            1 + (uint32_t)jox_build_hidden(b, JOX_IDENTITY_LASTS, number, JOX_MEMORY_NUMBER);
     }
 }
 

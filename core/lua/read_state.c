@@ -59,6 +59,8 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
         JoxSteerTerm *term = &state->steer[state->steer_count++];
         *term = t->term;
         term->target = t->target ? jox_build_target(b, t->target) : -1;
+        if (term->kind == JOX_STEER_FIELD && term->target >= 0)
+            term->lead = jox_build_lead(b, state, &b->machine->targets[term->target]);
         term->weight = read_weight(b, t->weight, jox_read_at(b, full));
         term->drift[0] = read_weight(b, t->a, jox_read_at(b, full));
         term->drift[1] = read_weight(b, t->b, jox_read_at(b, full));

@@ -51,8 +51,11 @@ int32_t jox_build_own(JoxBuild *build, const char *name);
 int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node);
 /* Returns the slot of memory, added on first use; a name of "" adds a new one. */
 int32_t jox_build_memory(JoxBuild *build, const char *name);
-/* Adds a hidden slot of memory for slot `of`; `role` is the prefix of its identity. Returns it. */
-int32_t jox_build_hidden(JoxBuild *build, const char *role, int32_t of, JoxMemoryKind kind);
+/* Adds a hidden slot of memory, with the identity `role` and the name of what it is for. Returns
+   it. */
+int32_t jox_build_hidden(JoxBuild *build, const char *role, const char *of, JoxMemoryKind kind);
+/* Returns JoxSteerTerm.lead of the next term of a state, with this target. */
+uint32_t jox_build_lead(JoxBuild *build, const JoxState *state, const JoxTarget *target);
 /* Compiles an expression; returns its index, or -1 with an error at `position`. */
 int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition position);
 /* Reports an error in the machine. */
@@ -103,8 +106,6 @@ const JoxNested *jox_nest_enclosing(const JoxBuild *build, const char *path, con
 void jox_nest_name(const JoxBuild *build, uint32_t nested, const char *name, char whole[256]);
 /* Returns the own slot of a parameter's default in the present scope, or -1. */
 int32_t jox_nest_own(const JoxBuild *build, const char *name);
-/* Adds a slot of hidden memory; returns 1 + its index. */
-uint32_t jox_nest_slot(JoxBuild *build, const char *role, const char *name, JoxMemoryKind kind);
 /* Gives every parameter an own value of its name. In defaults.c. */
 void jox_read_parameter_values(JoxBuild *build);
 /* Reads `defaults` of the machine's table at `index` and `path`. In defaults.c. */

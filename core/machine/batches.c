@@ -65,6 +65,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->row);
     jox_free(s->entries);
     jox_gatherings_free(s);
+    jox_free(s->leads);
     jox_free(s->list);
     jox_free(s->spare);
     jox_free(s->heard);

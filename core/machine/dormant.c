@@ -107,7 +107,7 @@ void jox_dormant_keep(const JoxMachine *old, JoxMachine *next) {
 /* Returns whether the slot is memory of the behaviour's author, not a hidden one or a post. */
 static bool is_named_by_author(const JoxMemorySlot *slot) {
     const char *identity = jox_memory_identity(slot);
-    return *identity > *JOX_IDENTITY_LASTS && strcmp(identity, "home x") != 0 &&
+    return *identity > *JOX_IDENTITY_LEAD && strcmp(identity, "home x") != 0 &&
            strcmp(identity, "home y") != 0;
 }
 

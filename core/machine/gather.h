@@ -11,6 +11,7 @@ typedef struct JoxGathering {
     uint32_t agent, id;
     int32_t place;
     float front;   /* direction of the place's front, degrees */
+    bool spreads;  /* over the whole place */
     uint32_t part; /* part of the ground; 0: the agent is still on its way to it */
     uint32_t turn;
     bool outside; /* outside the place */
@@ -21,6 +22,8 @@ typedef struct JoxGathering {
     float way;  /* m: length of the way to the spot */
     JoxV2 next; /* m: next point of the way */
 } JoxGathering;
+
+enum { JOX_WHOLE_FLOOR = -1 }; /* in place of a place: the box of all walls and fixed bodies */
 
 /* The ground in and around a place. Kept from step to step; depends on the model, the walls and
    fixed bodies alone. */
@@ -35,6 +38,7 @@ typedef struct JoxGatherGround {
 typedef struct JoxGatherPlace {
     int32_t place;
     float front; /* direction of the front, degrees */
+    bool spreads;
     uint32_t part;
     uint64_t from; /* hash of the ground's inputs */
     uint32_t need; /* number of spots that were needed; 0: not laid yet */
@@ -44,10 +48,11 @@ typedef struct JoxGatherPlace {
     JoxLattice spots;
 } JoxGatherPlace;
 
-/* gather_ground.c: returns the ground of a place, laid anew if walls or fixed bodies changed. */
+/* gather_ground.c: returns the ground of a place, laid anew if walls or fixed bodies changed. The
+   whole floor has no cells where there are neither. */
 JoxGatherGround *jox_gather_ground(JoxMachineRun *run, int32_t place);
 /* Returns the spots of a part for `need` agents: at a comfortable spacing if there is room for all
-   of them, else closer, but not below `least`, m. */
+   of them, or over the whole part if they spread; else closer, but not below `least`, m. */
 JoxGatherPlace *jox_gather_place(JoxMachineRun *run, const JoxGathering *entry, uint32_t need,
                                  float least);
 

@@ -1,5 +1,7 @@
-/* The ground of places in which agents wait, and the spots on it, both kept from step to step.
-   Called by steering/gather.c. */
+/* The ground of places in which agents wait, and of the whole floor, and the spots on it, kept from
+   step to step. Called by steering/gather.c and steering/lead.c. */
+
+#include <math.h>
 
 #include "base/hash.h"
 #include "base/mem.h"
@@ -10,10 +12,13 @@
 static const float COMFORTABLE = 0.9f; /* m: spacing of spots while there is room: 1.4 people per
                                           m2 */
 static const float CLOSER = 0.98f;     /* ratio of the spacings of a level and the one before */
-enum { LEVELS = 29 };                  /* the closest is 0.51 m: 4.4 people per m2 */
+static const float CLOSEST = 0.511f;   /* m: 4.4 people per m2 */
+static const float WIDEST = 12.0f;     /* m: spacing of the fewest agents who spread over a place */
 static const float CLEAR = 0.25f;      /* m: distance of spots from walls */
 static const float ABOUT = 3.0f;       /* m: width of the ground around a place that belongs to
                                           it */
+/* Most cells of the ground of a place, and of the whole floor, which then measures 410 m square. */
+static const float PLACE_CELLS = 262144.0f, FLOOR_CELLS = 2097152.0f;
 
 const JoxSteerTerm *jox_gather_term(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
@@ -22,9 +27,32 @@ const JoxSteerTerm *jox_gather_term(const JoxState *state) {
     return NULL;
 }
 
-/* Hashes the inputs of a place's ground: its polygon, the walls, and fixed bodies near it. */
-static uint64_t hash_ground(const JoxMachineRun *run, int32_t index) {
-    const JoxPlace *place = &run->places[index];
+static void include_disc(JoxV2 *low, JoxV2 *high, JoxV2 p, float radius) {
+    *low = jox_v2(jox_minf(low->x, p.x - radius), jox_minf(low->y, p.y - radius));
+    *high = jox_v2(jox_maxf(high->x, p.x + radius), jox_maxf(high->y, p.y + radius));
+}
+
+/* Returns the box around all walls and fixed bodies, as a place; without points if there are none.
+   `corners`: room for its points. */
+static JoxPlace find_floor_box(const JoxMachineRun *run, JoxV2 corners[4]) {
+    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    for (uint32_t v = 0; run->walls && v < run->walls->count; v++)
+        include_disc(&low, &high, run->walls->vertices[v].point, ABOUT);
+    for (uint32_t row = 0; run->objects && row < run->objects->count; row++) {
+        const JoxObject *o = &run->objects->rows[row];
+        if (jox_standable_is_fixed(o))
+            include_disc(&low, &high, jox_v2(o->position.x, o->position.y),
+                         ABOUT + (o->footprint_count ? o->disc : o->round));
+    }
+    corners[0] = low;
+    corners[1] = jox_v2(high.x, low.y);
+    corners[2] = high;
+    corners[3] = jox_v2(low.x, high.y);
+    return (JoxPlace){.points = corners, .count = low.x < high.x ? 4 : 0, .low = low, .high = high};
+}
+
+/* Hashes the inputs of a ground: its polygon, the walls, and fixed bodies on it. */
+static uint64_t hash_ground(const JoxMachineRun *run, const JoxPlace *place) {
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, place->points, place->count * sizeof *place->points);
     jox_hash_add(&hash, &run->walls_version, sizeof run->walls_version);
@@ -46,7 +74,6 @@ static uint64_t hash_ground(const JoxMachineRun *run, int32_t index) {
 
 JoxGatherGround *jox_gather_ground(JoxMachineRun *run, int32_t index) {
     JoxMachineScratch *s = run->scratch;
-    const JoxPlace *place = &run->places[index];
     uint32_t k = 0;
     while (k < s->ground_count && s->gather_grounds[k].place != index)
         k++;
@@ -57,39 +84,40 @@ JoxGatherGround *jox_gather_ground(JoxMachineRun *run, int32_t index) {
     JoxGatherGround *ground = &s->gather_grounds[k];
     if (ground->checked)
         return ground;
-    const uint64_t from = hash_ground(run, index);
-    if (!ground->cells.part || ground->from != from)
-        jox_standable_lay(&ground->cells, place, ABOUT, run->walls, run->wall_images, run->objects);
+    const bool whole = index == JOX_WHOLE_FLOOR;
+    JoxV2 corners[4];
+    const JoxPlace place = whole ? find_floor_box(run, corners) : run->places[index];
+    const uint64_t from = hash_ground(run, &place);
+    if (place.count && (!ground->cells.part || ground->from != from))
+        jox_standable_lay(&ground->cells, &place, whole ? 0.0f : ABOUT,
+                          whole ? FLOOR_CELLS : PLACE_CELLS, run->walls, run->wall_images,
+                          run->objects);
     ground->from = from;
     ground->checked = true;
     return ground;
 }
 
-static float find_spacing(uint32_t level) {
-    float spacing = COMFORTABLE;
-    for (uint32_t k = 0; k < level; k++)
-        spacing *= CLOSER;
-    return spacing;
-}
-
-static void lay_spots(JoxMachineRun *run, JoxGatherPlace *g, uint32_t level) {
-    g->spacing = find_spacing(level);
+static void lay_spots(JoxMachineRun *run, JoxGatherPlace *g, float spacing) {
+    g->spacing = spacing;
     jox_lattice_lay(&g->spots, &run->places[g->place], &jox_gather_ground(run, g->place)->cells,
-                    g->part, g->ahead, g->spacing, CLEAR);
+                    g->part, g->ahead, spacing, CLEAR);
 }
 
-/* Lays spots with the widest spacing that yields `need` of them, but not closer than `least`, m. */
+/* Lays spots with the widest spacing that yields `need` of them, but not closer than `least`, m;
+   not wider than is comfortable, unless the agents spread. */
 static void lay_enough_spots(JoxMachineRun *run, JoxGatherPlace *g, uint32_t need, float least) {
-    uint32_t level = 0;
-    lay_spots(run, g, 0);
+    const float closest = jox_maxf(least, CLOSEST);
+    float spacing = COMFORTABLE;
+    lay_spots(run, g, spacing);
     const float area = (float)g->spots.count * COMFORTABLE * COMFORTABLE;
-    while (level + 1 < LEVELS && find_spacing(level + 1) >= least &&
-           area < (float)need * find_spacing(level) * find_spacing(level))
-        level++;
-    if (level > 0)
-        lay_spots(run, g, level);
-    while (g->spots.count < need && level + 1 < LEVELS && find_spacing(level + 1) >= least)
-        lay_spots(run, g, ++level);
+    if (g->spreads) /* a little wider than that of as many spots */
+        spacing = jox_clampf(1.2f * sqrtf(area / (float)need), COMFORTABLE, WIDEST);
+    while (spacing * CLOSER >= closest && area < (float)need * spacing * spacing)
+        spacing *= CLOSER;
+    if (spacing != g->spacing)
+        lay_spots(run, g, spacing);
+    for (; g->spots.count < need && spacing * CLOSER >= closest; lay_spots(run, g, spacing))
+        spacing *= CLOSER;
 }
 
 JoxGatherPlace *jox_gather_place(JoxMachineRun *run, const JoxGathering *entry, uint32_t need,
@@ -100,7 +128,8 @@ JoxGatherPlace *jox_gather_place(JoxMachineRun *run, const JoxGathering *entry, 
     uint32_t k = 0;
     while (k < s->gather_count &&
            (s->gather_places[k].place != entry->place ||
-            s->gather_places[k].front != entry->front || s->gather_places[k].part != entry->part))
+            s->gather_places[k].front != entry->front || s->gather_places[k].part != entry->part ||
+            s->gather_places[k].spreads != entry->spreads))
         k++;
     if (k == s->gather_count) {
         JOX_RESERVE(s->gather_places, s->gather_place_capacity, k + 1);
@@ -108,6 +137,7 @@ JoxGatherPlace *jox_gather_place(JoxMachineRun *run, const JoxGathering *entry, 
             (JoxGatherPlace){.place = entry->place,
                              .front = entry->front,
                              .part = entry->part,
+                             .spreads = entry->spreads,
                              .ahead = {(float)jox_cos(angle), (float)jox_sin(angle)}};
     }
     JoxGatherPlace *g = &s->gather_places[k];

@@ -56,7 +56,8 @@ typedef enum JoxSteerKind {
     JOX_STEER_FORMATION, /* to the agent's place in a row: along a line, or abreast behind another
                             agent; spacing args[0] m */
     JOX_STEER_GATHER,    /* to the agent's spot in a polygon of waiting agents, filled from its
-                            front; the front lies in direction args[0], degrees */
+                            front, which lies in direction args[0], degrees; with args[1] spread
+                            over all of it */
     JOX_STEER_PLAYER,    /* the velocity that the input log gives; stand still if it gives none */
     JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
 } JoxSteerKind;
@@ -71,12 +72,18 @@ typedef enum {
     JOX_ORBIT_RETURN
 } JoxOrbitArg;
 
+/* Slots of memory of a way round walls to what is no place: the next point of it, the one after
+   that, and the end for which it was found, x and y each, m; tick at which it was last followed. */
+enum { JOX_LEAD_NEXT, JOX_LEAD_THEN = 2, JOX_LEAD_END = 4, JOX_LEAD_TICK = 6, JOX_LEAD_SLOTS };
+
 typedef struct JoxSteerTerm {
     JoxSteerKind kind;
     int16_t target; /* -1 none */
     int32_t hook;   /* FUNCTION; -1 none */
     JoxValue weight;
     JoxValue drift[2]; /* DRIFT */
+    uint32_t lead; /* FIELD to what may be no place: 1 + the first of its JOX_LEAD_SLOTS slots of
+                      memory; else 0 */
     double args[6];
 } JoxSteerTerm;
 
@@ -233,6 +240,8 @@ typedef enum {
 #define JOX_IDENTITY_CAME_FROM "\6"
 #define JOX_IDENTITY_CLOCK "\7"
 #define JOX_IDENTITY_LASTS "\10"
+/* Prefix of the identities of hidden slots of ways (lead.c), before their number. */
+#define JOX_IDENTITY_LEAD "\11"
 #define JOX_IDENTITY_ITEM "\13"
 /* Greatest number of dormant slots of a machine, memory that no name refers to any more; beyond it
    the oldest are dropped. */

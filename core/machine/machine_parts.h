@@ -80,6 +80,10 @@ typedef struct JoxMachineScratch {
     struct JoxGatherGround *gather_grounds; /* per place */
     uint32_t ground_count;
     size_t ground_capacity;
+    /* Per agent, for each term `field` of its state that may lead to what is no place (lead.c): the
+       direction of the way, (0, 0) if that is straight. Empty if there are none. */
+    JoxV2 *leads;
+    size_t lead_capacity;
     JoxSignal *heard; /* signals of the last step, sorted by name and x */
     uint32_t heard_count;
     uint32_t *everywhere; /* names announced to everybody in the last step */
@@ -236,6 +240,11 @@ void jox_gatherings_form(JoxMachineRun *run);
 void jox_gatherings_free(JoxMachineScratch *scratch);
 /* Discards the spots of waiting areas; the next step computes them anew. */
 void jox_gatherings_forget(JoxMachineScratch *scratch);
+/* Finds the ways of terms `field` to what is no place, before the batches of prefer. */
+void jox_leads_form(JoxMachineRun *run);
+/* Returns the direction of an agent's way to such a target; straight where nothing is between. */
+JoxV2 jox_steer_lead(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                     uint32_t agent);
 /* Returns the velocity towards a point: full `speed`, less near the point. */
 JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed);
 /* Returns a velocity sideways, past the agents that come against `ahead`, the sum of the other

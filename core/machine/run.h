@@ -318,6 +318,7 @@ typedef struct JoxMachineRun {
     uint32_t grip_count;
     size_t grip_capacity;
     uint32_t without_spot; /* number of agents that wait in a place without room for them */
+    uint32_t without_way;  /* number of times that no way led to whom `field` leads */
     /* Pushing per agent, for the force stage; valid until the next think. */
     uint8_t *push_on, *push_nearest;
     float *push_toward_x, *push_toward_y; /* unit direction; (0, 0): that of the preferred

@@ -47,6 +47,8 @@ void jox_stage_prefer(const JoxPreferStage *s) {
         jox_falls_hold(step->agents);
     if (s->machines->without_spot > s->statistics->most_without_spot)
         s->statistics->most_without_spot = s->machines->without_spot;
+    if (s->machines->without_way > s->statistics->most_without_way)
+        s->statistics->most_without_way = s->machines->without_way;
     if (!s->literal)
         jox_nav_walk(s->nav, step);
 }

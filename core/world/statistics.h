@@ -86,6 +86,7 @@ typedef struct JoxStatistics {
     double deepest_birth;        /* m: most of these depths */
     uint64_t not_placed;         /* births without a free spot */
     uint64_t most_without_spot;  /* most agents at a time that waited for room at their goal */
+    uint64_t most_without_way;   /* most agents at a time whose target no way leads to */
     uint64_t moved_out, not_moved_out;  /* agents in new walls: moved; without a free spot */
     uint64_t people_lost, bodies_lost;  /* found by number_guard.c */
     uint64_t opened, closed, announced; /* gates, and signals to all agents */

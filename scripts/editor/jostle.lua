@@ -725,10 +725,10 @@ home = nil
 ---@return jostle.Steering
 function seek(target) end
 
---- `field(place)`: the shortest way to the place, round walls and large bodies; to a set: to the member that is nearest by that way
----@param place jostle.Place
+--- `field(target)`: the shortest way to the target, round walls and large bodies; to a set: to the member that is nearest by that way. To an agent, a body, `home` or a place last seen: round walls and fixed bodies, and straight if no way leads there
+---@param target jostle.AnyTarget
 ---@return jostle.Steering
-function field(place) end
+function field(target) end
 
 --- `away_from(target)`: straight away from the target
 ---@param target jostle.AnyTarget
@@ -814,6 +814,11 @@ function formation(target, metres) end
 ---@param degrees? number
 ---@return jostle.Steering
 function gather(place, degrees) end
+
+--- `spread_over(place)`: to the agent's spot in a crowd that spreads evenly over the whole of a polygon, round walls and fixed bodies; the fewer they are, the farther apart they stand, up to 12 m
+---@param place jostle.Place
+---@return jostle.Steering
+function spread_over(place) end
 
 --- `spread`: away from the neighbours
 ---@type jostle.Steering

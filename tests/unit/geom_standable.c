@@ -18,7 +18,7 @@ static JoxStandable lay_with_wall(const JoxV2 *points, uint32_t count) {
     JoxWalls walls = {0};
     JoxStandable ground = {0};
     jox_walls_add_polyline(&walls, points, count, false, INFINITY);
-    jox_standable_lay(&ground, &HALL, 3, &walls, NULL, NULL);
+    jox_standable_lay(&ground, &HALL, 3, 262144.0f, &walls, NULL, NULL);
     jox_walls_free(&walls);
     return ground;
 }

@@ -15,7 +15,7 @@ static const float CELL = 0.28f;   /* m */
 static const float CLEAR = 0.72f;  /* cells: least distance of free cells from walls, more than half
                                       a diagonal */
 static const float SAMPLES = 2.0f; /* tests per cell along a straight way */
-enum { MOST_CELLS = 1 << 18, WAYS = 4096, CORNERS = 12 };
+enum { WAYS = 4096, CORNERS = 12 };
 
 /* ---- cells ---- */
 
@@ -144,12 +144,12 @@ static void number_parts(JoxStandable *s, const JoxPlace *place) {
             s->part[cell] = 0;
 }
 
-void jox_standable_lay(JoxStandable *s, const JoxPlace *place, float about, const JoxWalls *walls,
-                       const JoxWalls *images, const JoxObjects *objects) {
+void jox_standable_lay(JoxStandable *s, const JoxPlace *place, float about, float most_cells,
+                       const JoxWalls *walls, const JoxWalls *images, const JoxObjects *objects) {
     const JoxV2 low = jox_sub(place->low, jox_v2(about, about));
     const JoxV2 high = jox_add(place->high, jox_v2(about, about));
     const float width = high.x - low.x, height = high.y - low.y;
-    s->cell = jox_maxf(CELL, 1.01f * sqrtf(width * height / (float)MOST_CELLS));
+    s->cell = jox_maxf(CELL, 1.01f * sqrtf(width * height / most_cells));
     s->low = low;
     s->columns = (uint32_t)(width / s->cell) + 1;
     s->rows = (uint32_t)(height / s->cell) + 1;
@@ -219,7 +219,7 @@ uint32_t jox_standable_part(const JoxStandable *s, uint32_t cell) {
 /* ---- ways ---- */
 
 /* Returns whether the straight line between two cell centres passes over free cells alone. */
-static bool is_straight(const JoxStandable *s, uint32_t from, uint32_t to) {
+static bool passes_freely(const JoxStandable *s, uint32_t from, uint32_t to) {
     const float x = (float)(from % s->columns) + 0.5f, y = (float)(from / s->columns) + 0.5f;
     const float dx = (float)(to % s->columns) + 0.5f - x, dy = (float)(to / s->columns) + 0.5f - y;
     const uint32_t steps = (uint32_t)(SAMPLES * jox_maxf(fabsf(dx), fabsf(dy))) + 1;
@@ -230,6 +230,11 @@ static bool is_straight(const JoxStandable *s, uint32_t from, uint32_t to) {
             return false;
     }
     return true;
+}
+
+bool jox_standable_is_straight(const JoxStandable *s, JoxV2 p, JoxV2 q) {
+    const uint32_t a = jox_standable_cell(s, p), b = jox_standable_cell(s, q);
+    return a != JOX_NO_CELL && b != JOX_NO_CELL && (s->edge_count == 0 || passes_freely(s, a, b));
 }
 
 /* Returns a lower bound of the length of a way between two cells, in cells. */
@@ -300,7 +305,7 @@ static const JoxStandableWay *find_way(JoxStandable *s, uint32_t from, uint32_t 
         return way;
     search_way(s, from, to);
     uint32_t next = s->nodes[to].before;
-    while (s->nodes[next].before != from && next != from && !is_straight(s, from, next))
+    while (s->nodes[next].before != from && next != from && !passes_freely(s, from, next))
         next = s->nodes[next].before;
     *way = (JoxStandableWay){from, to, next, s->nodes[to].length * s->cell};
     return way;
@@ -311,7 +316,7 @@ float jox_standable_way(JoxStandable *s, JoxV2 from, JoxV2 to, JoxV2 *next) {
     *next = to;
     if (!jox_standable_part(s, a) || jox_standable_part(s, a) != jox_standable_part(s, b))
         return INFINITY;
-    if (s->edge_count == 0 || is_straight(s, a, b))
+    if (s->edge_count == 0 || passes_freely(s, a, b))
         return jox_length(jox_sub(to, from));
     const JoxStandableWay *way = find_way(s, a, b);
     *next = cell_middle(s, way->next);

@@ -48,10 +48,11 @@ typedef struct JoxStandable {
 } JoxStandable;
 
 /* Divides a polygon and its surroundings up to `about` m into cells of 0.28 m, or wider cells if
-   there would be more than 262,144. Open gates and movable bodies are ignored. `images`: of walls
-   beyond joined edges. `walls`, `images` and `objects` may be NULL. */
+   there would be more than `most_cells`. Open gates and movable bodies are ignored. `images`: of
+   walls beyond joined edges. `walls`, `images` and `objects` may be NULL. */
 void jox_standable_lay(JoxStandable *standable, const JoxPlace *place, float about,
-                       const JoxWalls *walls, const JoxWalls *images, const JoxObjects *objects);
+                       float most_cells, const JoxWalls *walls, const JoxWalls *images,
+                       const JoxObjects *objects);
 void jox_standable_free(JoxStandable *standable);
 /* Returns whether a body is fixed and within reach of people. */
 bool jox_standable_is_fixed(const JoxObject *object);
@@ -60,6 +61,8 @@ bool jox_standable_is_fixed(const JoxObject *object);
 uint32_t jox_standable_cell(const JoxStandable *standable, JoxV2 point);
 /* Returns the part of a cell; 0 for JOX_NO_CELL. */
 uint32_t jox_standable_part(const JoxStandable *standable, uint32_t cell);
+/* Returns whether the straight line between two points passes over free cells alone. */
+bool jox_standable_is_straight(const JoxStandable *standable, JoxV2 a, JoxV2 b);
 /* Returns the length of the way between two points, m, at most about 8 % too long if it is not
    straight; INFINITY: no way. `next` receives the farthest point of it that can be reached
    straight. */

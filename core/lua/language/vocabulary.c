@@ -175,9 +175,10 @@ const JoxWord jox_words[] = {
     /* steering */
     {"seek", "t", STEER, JOX_STEER_SEEK, 0, "seek(target)", "",
      "straight to the target; the agent passes over a line, and stops at a point", "seek \"post\""},
-    {"field", "p", STEER, JOX_STEER_FIELD, 0, "field(place)", "",
-     "the shortest way to the place, round walls and large bodies; to a set: to the member that "
-     "is nearest by that way", "field \"post\""},
+    {"field", "t", STEER, JOX_STEER_FIELD, 0, "field(target)", "",
+     "the shortest way to the target, round walls and large bodies; to a set: to the member that "
+     "is nearest by that way. To an agent, a body, `home` or a place last seen: round walls and fixed bodies, and "
+     "straight if no way leads there", "field(last_seen(mine.prey))"},
     {"away_from", "t", STEER, JOX_STEER_AWAY_FROM, 0, "away_from(target)", "",
      "straight away from the target", "away_from(nearest \"ball\")"},
     {"dodge", "m?d", STEER, JOX_STEER_DODGE, 0, "dodge(target [, metres])", "",
@@ -210,6 +211,9 @@ const JoxWord jox_words[] = {
      "crowd fills the polygon from its front, which lies in this direction, degrees "
      "anti-clockwise from +x; agents stand 0.9 m apart, or closer where they are many, to 0.51 m "
      "and 1.2 breadths. Agents for whom there is no room stand around it", "gather(\"yard\", 90)"},
+    {"spread_over", "p", STEER, JOX_STEER_GATHER, 1, "spread_over(place)", "",
+     "to the agent's spot in a crowd that spreads evenly over the whole of a polygon, round walls and fixed bodies; the "
+     "fewer they are, the farther apart they stand, up to 12 m", "spread_over \"yard\""},
     {"spread", NULL, STEER, JOX_STEER_SPREAD, 0, "spread", "",
      "away from the neighbours", "0.3 * spread + seek \"post\""},
     {"evade", NULL, STEER, JOX_STEER_EVADE, 0, "evade", "",

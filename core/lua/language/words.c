@@ -310,8 +310,10 @@ static JoxNode *build_word_value(lua_State *L, const JoxWord *word, JoxNode *con
             node->a = arguments[0], node->b = arguments[1];
         else
             node->target = arguments[0];
-        if (word->op == JOX_STEER_DODGE || word->op == JOX_STEER_FOLLOW ||
-            word->op == JOX_STEER_FORMATION || word->op == JOX_STEER_GATHER)
+        if (word->op == JOX_STEER_GATHER && word->arg) /* spread_over */
+            node->term.args[1] = 1.0;
+        else if (word->op == JOX_STEER_DODGE || word->op == JOX_STEER_FOLLOW ||
+                 word->op == JOX_STEER_FORMATION || word->op == JOX_STEER_GATHER)
             node->term.args[0] =
                 count > 1 ? arguments[1]->number : jox_word_number(word->name, 0)->standard;
         break;

@@ -47,6 +47,7 @@ static bool find_area(JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term, 
                           .id = a->id[i],
                           .place = index,
                           .front = (float)term->args[0],
+                          .spreads = term->args[1] != 0.0,
                           .part = jox_standable_part(cells, jox_standable_cell(cells, at)),
                           .turn = a->turn[i],
                           .outside = !jox_place_contains(run->places, (uint32_t)index, at),
@@ -61,6 +62,8 @@ static int compare_gather_turns(const void *left, const void *right, const void 
         return a->place < b->place ? -1 : 1;
     if (a->front != b->front)
         return a->front < b->front ? -1 : 1;
+    if (a->spreads != b->spreads)
+        return a->spreads ? 1 : -1;
     if (a->part != b->part)
         return a->part < b->part ? -1 : 1;
     if (a->turn != b->turn)
@@ -209,7 +212,7 @@ void jox_gatherings_form(JoxMachineRun *run) {
         const JoxGathering *g = &s->gathered[first];
         for (last = first + 1; last < count; last++)
             if (s->gathered[last].place != g->place || s->gathered[last].front != g->front ||
-                s->gathered[last].part != g->part)
+                s->gathered[last].spreads != g->spreads || s->gathered[last].part != g->part)
                 break;
         if (g->part)
             assign_spots(run, s->gathered + first, last - first);

@@ -210,6 +210,7 @@ void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
     JOX_CHECK(jox_groups_check(run));
     jox_rows_form(run);
     jox_gatherings_form(run);
+    jox_leads_form(run);
     Prefer prefer = {run, &KERNELS[jox_isa_resolve(run->isa)]};
     jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, &prefer);
     call_steering_functions(run);

@@ -151,9 +151,11 @@ static void lead_to_place(Asking *q, int32_t *places, uint32_t first) {
         lead_by_fields(q);
 }
 
-void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
-                     JoxSteer *s) {
-    int32_t places[JOX_BATCH];
+/* Directs the agents of a batch whose target is a place; the others get no way. `places`: of each
+   agent, -1 for what is no place. */
+static void lead_to_places(const JoxMachineRun *run, const JoxMachine *machine,
+                           const JoxSteerTerm *term, JoxSteer *s, int32_t *places) {
+    int32_t left[JOX_BATCH];
     Asking q; /* arrays are filled as far as they are read */
     q.run = run;
     q.term = term;
@@ -162,17 +164,30 @@ void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const 
     jox_target_places(run, machine, term->target, s->index, s->count, places);
     for (uint32_t n = 0; n < s->count; n++) {
         s->way_x[n] = s->way_y[n] = 0.0f;
-        if (!jox_weight_counts(s->by[n]))
-            places[n] = -1;
+        left[n] = jox_weight_counts(s->by[n]) ? places[n] : -1;
     }
     for (uint32_t n = 0; n < s->count; n++)
-        if (places[n] >= 0)
-            lead_to_place(&q, places, n);
+        if (left[n] >= 0)
+            lead_to_place(&q, left, n);
+}
+
+void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                     JoxSteer *s) {
+    int32_t places[JOX_BATCH];
+    lead_to_places(run, machine, term, s, places);
+    for (uint32_t n = 0; n < s->count; n++) {
+        if (places[n] >= 0 || !jox_weight_counts(s->by[n]))
+            continue;
+        const JoxV2 way = jox_steer_lead(run, machine, term, s->index[n]);
+        s->way_x[n] = way.x;
+        s->way_y[n] = way.y;
+    }
 }
 
 void jox_machines_ask_routes(JoxMachineRun *run) {
     const JoxAgents *a = run->agents;
     JoxSteer s = {.agents = run->agents, .count = 1, .by = {1.0f}};
+    int32_t place;
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] == JOX_NO_MACHINE)
             continue;
@@ -181,7 +196,7 @@ void jox_machines_ask_routes(JoxMachineRun *run) {
         s.index[0] = i;
         for (uint32_t t = 0; t < state->steer_count; t++)
             if (state->steer[t].kind == JOX_STEER_FIELD)
-                jox_steer_field(run, machine, &state->steer[t], &s);
+                lead_to_places(run, machine, &state->steer[t], &s, &place);
     }
 }
 

@@ -120,6 +120,9 @@ static void say_events(const JoScene *scene, JoxText *out) {
         {s->most_without_spot,
          "person at a time without room in the place where they waited|people at a time without "
          "room in the place where they waited"},
+        {s->most_without_way,
+         "person at a time whom no way led to their target|people at a time whom no way led to "
+         "their target"},
         {s->moved_out,
          "person moved out of the way of a wall|people moved out of the way of a wall"},
         {s->not_moved_out, "person left in the way of a wall|people left in the way of a wall"},

@@ -91,6 +91,7 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"born_in_others", s->born_in_others},
                   {"not_placed", s->not_placed},
                   {"most_without_spot", s->most_without_spot},
+                  {"most_without_way", s->most_without_way},
                   {"moved_out", s->moved_out},
                   {"not_moved_out", s->not_moved_out},
                   {"people_lost", s->people_lost},

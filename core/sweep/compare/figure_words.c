@@ -94,6 +94,7 @@ static const struct {
     {"events.not_placed", "people who were not placed", "", false},
     {"events.most_without_spot", "most people who waited at a time where there was no room", "",
      false},
+    {"events.most_without_way", "most people at a time whom no way led to their target", "", false},
     {"events.moved_out", "people moved out of the way of walls that came", "", false},
     {"events.not_moved_out", "people who stayed in the way of walls that came", "", false},
     {"events.people_lost", "people lost", "", false},
