@@ -199,6 +199,21 @@ const char *jox_file_error_text(int number) {
                                : strerror(number);
 }
 
+const char *jox_unread_text(const char *path, int number, char text[JOX_UNREAD]) {
+    const char *inside;
+    if (number == EFBIG || jox_zip_split(path, &inside) == 0 || !*inside)
+        return jox_file_error_text(number);
+    char *fault = jox_zip_fault(path);
+    if (fault)
+        snprintf(text, JOX_UNREAD, "the archive cannot be used: %s", fault);
+    else if (jox_zip_is_file(path))
+        snprintf(text, JOX_UNREAD, "it is damaged in the archive: its checksum is wrong");
+    else
+        snprintf(text, JOX_UNREAD, "the archive has no such file");
+    jox_free(fault);
+    return text;
+}
+
 bool jo_write(const char *path, const char *text, JoError *error) {
     JOX_REQUIRE(path && text, false);
     JOX_GUARD (NULL, error)

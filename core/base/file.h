@@ -31,6 +31,10 @@ FILE *jox_folder_claim(const char *path);
 bool jox_file_send(int descriptor, const void *bytes, size_t length);
 /* Returns the meaning of the errno that the functions above set, as the end of a sentence. */
 const char *jox_file_error_text(int number);
+enum { JOX_UNREAD = 300 };
+/* Returns why a file could not be read, by the error number of the attempt; of a file in a zip
+   archive what is wrong there, in `text`. */
+const char *jox_unread_text(const char *path, int number, char text[JOX_UNREAD]);
 
 /* Whether a path is a folder, or a zip archive or a folder in one (zip.h). */
 bool jox_is_folder(const char *path);

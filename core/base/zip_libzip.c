@@ -194,7 +194,11 @@ static char *read_entry(const Archive *archive, const char *name, size_t limit, 
     }
     char *text = jox_alloc((size_t)entry.size + 2, 1);
     zip_file_t *file = zip_fopen_index(archive->zip, entry.index, 0);
-    const zip_int64_t got = file ? zip_fread(file, text, entry.size + 1) : -1;
+    zip_int64_t got = file ? 0 : -1, more = 1;
+    while (got >= 0 && more > 0 && (zip_uint64_t)got <= entry.size) {
+        more = zip_fread(file, text + got, entry.size + 1 - (zip_uint64_t)got);
+        got = more < 0 ? -1 : got + more; /* the read at the end compares the checksum */
+    }
     if (file)
         zip_fclose(file);
     if (got != (zip_int64_t)entry.size) {

@@ -39,13 +39,13 @@ static void ignore_message(void *context, const char *text) {
 }
 
 /* Loads the kept scene dry from its kept texts. */
-static void load_kept_scene(Kept *kept) {
+static void load_kept_scene(Kept *kept, JoError *error) {
     JoSceneDef def = *kept->def;
     def.threads = 1;
     def.dry = true;
     def.message = ignore_message;
     const JoxOverlay *before = jox_overlay_use(&kept->files);
-    kept->scene = jo_scene_load(&def, NULL);
+    kept->scene = jo_scene_load(&def, error);
     jox_overlay_use(before);
 }
 
@@ -93,15 +93,16 @@ static void read_edited_files(Kept *kept, const CliReceived *asked) {
     for (size_t at = 0; at < asked->length && edited.behaviour_count < 1000;
          at += strlen(asked->text + at) + 1)
         paths[edited.behaviour_count++] = asked->text + at;
+    JoError error = {0};
     if (!kept->scene)
-        load_kept_scene(kept);
+        load_kept_scene(kept, &error);
     CliVetted what = {.def = kept->def,
                       .edited = &edited,
                       .scene = kept->scene,
                       .stop = kept->socket,
                       .files = &fresh};
     if (!kept->scene)
-        jox_text_add(&what.why, "the scene as it was cannot be read once more");
+        jox_text_printf(&what.why, "the scene as it was cannot be read once more: %s", error.text);
     send_answer(kept, kept->scene ? cli_read_confined(&what) : -1, &what);
     free_vetted(&what);
 }

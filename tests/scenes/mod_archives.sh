@@ -36,6 +36,18 @@ with zipfile.ZipFile(to, "w", zipfile.ZIP_DEFLATED) as z:
     exec(script)
 END
 }
+# damage FILE ENTRY: changes a byte of the content of an entry
+damage() {
+    python3 - "$@" <<'END'
+import sys, zipfile
+path, name = sys.argv[1:]
+with zipfile.ZipFile(path) as z:
+    head = z.getinfo(name).header_offset
+data = bytearray(open(path, "rb").read())
+data[head + 30 + len(name) + 4] ^= 0xff
+open(path, "wb").write(data)
+END
+}
 run=("$program" run scenes/yard.yaml --steps 1 --quiet)
 if ldd "$program" | grep -q libzip; then
     cp -R "$source" scenes/mods/alpha
@@ -79,10 +91,14 @@ if ldd "$program" | grep -q libzip; then
     pack scenes/mods/alpha.zip 'add()'
     says "alpha.zip/patches/stander.lua:2:39: unknown key 'radios'"; verdict "  unless it is wrong, which is said" $?
     echo junk >scenes/mods/alpha.zip
-    says "cannot load 'scenes/mods/alpha.zip/patches/stander.lua'"; verdict "  or no archive at all" $?
+    says "cannot load 'scenes/mods/alpha.zip/patches/stander.lua': the archive cannot be used: it is no zip archive"; verdict "  or no archive at all" $?
     patch 'radius = 0.28'
     pack scenes/mods/alpha.zip 'add()'
     says "(reload 2) is live"; verdict "  and goes on with the next one" $?
+    cp scenes/mods/alpha.zip scenes/mods/next
+    damage scenes/mods/next patches/stander.lua && mv scenes/mods/next scenes/mods/alpha.zip
+    says "cannot load 'scenes/mods/alpha.zip/patches/stander.lua': it is damaged in the archive: its checksum is wrong"; verdict "a damaged file in it is named" $?
+    says "Version 1 (reload 2) keeps running"; verdict "  and the version that runs is kept" $?
     kill -INT $pid; wait $pid
     pid=
     # Archives that are refused, whole.
@@ -104,14 +120,9 @@ if ldd "$program" | grep -q libzip; then
     expect "a cut archive" 3 "cut.zip: cannot use 'cut.zip': it is no zip archive" "${run[@]}" --mod cut.zip
     echo junk >junk.zip
     expect "no archive" 3 "junk.zip: cannot use 'junk.zip': it is no zip archive" "${run[@]}" --mod junk.zip
-    python3 - bad.zip <<'END'
-import sys
-data = bytearray(open(sys.argv[1], "rb").read())
-at = data.find(b"mod.yaml") + len("mod.yaml") + 4
-data[at] ^= 0xff
-open(sys.argv[1], "wb").write(data)
-END
-    "${run[@]}" --mod bad.zip >"$work/out" 2>&1; [ $? = 3 ]; verdict "damaged content" $?
+    pack bad.zip 'add()'
+    damage bad.zip mod.yaml
+    expect "damaged content" 3 "cannot read 'bad.zip/mod.yaml': it is damaged in the archive" "${run[@]}" --mod bad.zip
     head -c 9000000 /dev/urandom >large.zip
     expect "a huge archive" 3 "cannot use 'large.zip': it is over 8 MB" "${run[@]}" --mod large.zip
     expect "mod check says so too" 3 "cannot use the archive: it is no zip archive" "$program" mod check junk.zip

@@ -74,7 +74,7 @@ static bool refuse_env(const JoxSource *source, JoxDiagnostics *diagnostics) {
 JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t length,
                        JoxPosition from, JoxDiagnostics *diagnostics) {
     const size_t limit = vm->group->limits.source;
-    char large[64];
+    char large[64], unread[JOX_UNREAD];
     const char *wrong = NULL;
     snprintf(large, sizeof large, "the file is over %zu KB", limit >> 10);
     struct stat info;
@@ -85,7 +85,7 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
     } else if (disk && lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) {
         wrong = "symbolic links are not followed";
     } else if (!(text = jox_read_file(path, limit, &length))) {
-        wrong = errno == EFBIG ? large : jox_file_error_text(errno);
+        wrong = errno == EFBIG ? large : jox_unread_text(path, errno, unread);
     }
     if (text && length > limit)
         wrong = large;

@@ -310,12 +310,12 @@ static void include_files(JoxArena *arena, JoxYaml *root, const char *path, JoxY
 
 static JoxYaml *read_yaml_file(JoxArena *arena, const char *path, const char *text, size_t length,
                                JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from) {
-    char *own = NULL;
+    char *own = NULL, unread[JOX_UNREAD];
     const char *wrong = NULL;
     if (!text)
         text = own = jox_read_file(path, LARGEST, &length);
     if (!text)
-        wrong = errno == EFBIG ? "it is over 10 MB" : jox_file_error_text(errno);
+        wrong = errno == EFBIG ? "it is over 10 MB" : jox_unread_text(path, errno, unread);
     else if (length > LARGEST)
         wrong = "it is over 10 MB";
     if (wrong) {
