@@ -357,6 +357,14 @@ def settings(browser, _):
     browser.wait("return /must be from 0.1 to 3, not 12/.test(document.body.textContent)", "a number out of range is not refused")
     expect(browser.run(f"return {shown % 'pace'}") == 0.3, "a refused number is taken")
     browser.picture("settings")
+    browser.run("page.connection.send({do: 'pause', on: true})")
+    browser.wait("return page.bar.paused", "no pause")
+    time.sleep(0.5)
+    tick = browser.run("return page.crowd.next.tick")
+    Select(browser.find("[data-parameter='manners manner'] select")).select_by_visible_text("polite")
+    browser.wait(f"return {shown % 'manner'} === 'polite'", "a choice does not take effect while the time is stopped", patience=10)
+    late = browser.run("return document.querySelector('#page-parameters').textContent")
+    expect("not taken" not in late and browser.run("return page.crowd.next.tick") == tick, "the time went on, or the page says otherwise")
 
 
 @with_walkers
