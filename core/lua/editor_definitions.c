@@ -378,6 +378,8 @@ static void print_tests(JoxText *out) {
     jox_text_add(out,
                  "\n--- An agent of a scene, as it is now.\n---@class jostle.TestAgent\n"
                  "---@field id integer\n---@field state string\n---@field machine string\n"
+                 "---@field group string|nil\n---@field team string|integer|nil a number: of a "
+                 "party\n---@field own table<string, number|string> own values; of places the name\n"
                  "---@field x number position east, m\n---@field y number position north, m\n"
                  "---@field vx number velocity east, m/s\n---@field vy number velocity north, "
                  "m/s\n---@field now number present speed, m/s\n---@field density number\n"

@@ -42,7 +42,39 @@ static void push_list(lua_State *L, const JoxMachineRun *machines, const JoxMach
     }
 }
 
-void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
+/* Pushes a table of the agent's own values by name, but for those that set parameters: a number, or
+   the name of a place. */
+static void push_own_values(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
+    const JoxAgents *a = machines->agents;
+    const JoxMachine *m =
+        a->machine[i] == JOX_NO_MACHINE ? NULL : machines->set->items[a->machine[i]];
+    lua_newtable(L);
+    for (uint32_t s = 0; m && s < m->own_count; s++) {
+        const JoxOwnSlot *slot = &m->own[s];
+        const double value = jox_own(a, i, s);
+        if (!*slot->name || slot->general || jox_parameter_find(slot->name) >= 0)
+            continue;
+        if (slot->is_place && value >= 0.0 && value < machines->place_count)
+            lua_pushstring(L, machines->places[(uint32_t)value].name);
+        else
+            lua_pushnumber(L, value);
+        lua_setfield(L, -2, slot->name);
+    }
+}
+
+/* Pushes the team of an agent: its name, the number of a party's team, or nil. */
+static void push_team(lua_State *L, const JoxTestDriver *driver, void *scene, uint16_t team) {
+    const char *name = driver->team_name(driver->context, scene, team);
+    if (name)
+        lua_pushstring(L, name);
+    else if (team)
+        lua_pushinteger(L, team);
+    else
+        lua_pushnil(L);
+}
+
+void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene, uint32_t i) {
+    const JoxMachineRun *machines = driver->machines(driver->context, scene);
     const JoxAgents *a = machines->agents;
     lua_newtable(L);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
@@ -73,6 +105,13 @@ void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i
     }
     lua_pushinteger(L, a->id[i]);
     lua_setfield(L, -2, "id");
+    const int32_t group = a->group[i];
+    lua_pushstring(L, driver->group_name(driver->context, scene, group));
+    lua_setfield(L, -2, "group");
+    push_team(L, driver, scene, a->team[i]);
+    lua_setfield(L, -2, "team");
+    push_own_values(L, machines, i);
+    lua_setfield(L, -2, "own");
     jox_test_set_number(L, "x", a->x[i]);
     jox_test_set_number(L, "y", a->y[i]);
     jox_test_set_number(L, "vx", a->vx[i]);

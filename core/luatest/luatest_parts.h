@@ -56,6 +56,6 @@ double jox_test_speed(const JoxAgents *agents, uint32_t i);
 /* Sets a field of the table on top of the stack. */
 void jox_test_set_number(lua_State *L, const char *name, double value);
 /* Pushes a table with the state of an agent: parameters, memory, position, ... It is a copy. */
-void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i);
+void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene, uint32_t i);
 
 #endif

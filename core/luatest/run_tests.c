@@ -179,7 +179,16 @@ static bool explain_driven_scene(void *context, void *scene, const JoxTestQuesti
 
 static const char *name_driven_group(void *context, void *scene, int32_t group) {
     (void)context;
-    return group < 0 ? NULL : ((JoScene *)scene)->spec->groups[group].name;
+    const JoxSceneSpec *spec = ((JoScene *)scene)->spec;
+    return group < 0 || (uint32_t)group >= spec->group_count ? NULL : spec->groups[group].name;
+}
+
+static const char *name_driven_team(void *context, void *scene, uint16_t team) {
+    const JoScene *of = scene;
+    (void)context;
+    if (team >= JOX_FIRST_SET_TEAM)
+        return of->world->model.set_teams[team - JOX_FIRST_SET_TEAM];
+    return team > 0 && team <= of->spec->group_count ? of->spec->groups[team - 1].team : NULL;
 }
 
 /* Writes a behaviour that a test contains to a temporary file, since scenes refer to files. */
@@ -252,6 +261,7 @@ static void run_test_file(Tests *tests, const char *path) {
                                   .body = find_driven_body,
                                   .why = explain_driven_scene,
                                   .group_name = name_driven_group,
+                                  .team_name = name_driven_team,
                                   .keep = keep_behaviour,
                                   .context = &context};
     JoxDiagnostics diagnostics = {0};

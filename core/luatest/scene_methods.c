@@ -176,7 +176,7 @@ static int scene_agents(lua_State *L) {
         uint32_t i = machines->agents->by_rank[rank];
         if (group >= 0 && machines->agents->group[i] != group)
             continue;
-        jox_test_push_agent(L, machines, i);
+        jox_test_push_agent(L, driver, t->scene, i);
         lua_rawseti(L, -2, ++n);
     }
     return 1;
@@ -184,7 +184,8 @@ static int scene_agents(lua_State *L) {
 
 /* s:agent(id): the agent, or nil if it has left. */
 static int scene_agent(lua_State *L) {
-    const JoxMachineRun *machines = find_test_machines(L, check_scene_handle(L));
+    const Scene *t = check_scene_handle(L);
+    const JoxMachineRun *machines = find_test_machines(L, t);
     lua_Integer id = luaL_checkinteger(L, 2);
     uint32_t i = id < 0 || id >= machines->agents->next_id
                      ? JOX_NO_INDEX
@@ -192,7 +193,7 @@ static int scene_agent(lua_State *L) {
     if (i == JOX_NO_INDEX)
         lua_pushnil(L);
     else
-        jox_test_push_agent(L, machines, i);
+        jox_test_push_agent(L, jox_test_run_of(L)->driver, t->scene, i);
     return 1;
 }
 

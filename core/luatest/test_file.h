@@ -40,6 +40,8 @@ typedef struct JoxTestDriver {
     /* Appends the answer to a question, or what is wrong with it: then returns false. */
     bool (*why)(void *context, void *scene, const JoxTestQuestion *question, JoxText *out);
     const char *(*group_name)(void *context, void *scene, int32_t group); /* NULL for -1 */
+    /* Name of a team by its number; NULL for 0, and for teams of parties. */
+    const char *(*team_name)(void *context, void *scene, uint16_t team);
     /* Writes the text of a behaviour that a test contains to a file; returns its path, valid until
        the tests end, or NULL. */
     const char *(*keep)(void *context, const char *text, size_t length);

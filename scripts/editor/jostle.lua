@@ -982,6 +982,9 @@ settings = nil
 ---@field id integer
 ---@field state string
 ---@field machine string
+---@field group string|nil
+---@field team string|integer|nil a number: of a party
+---@field own table<string, number|string> own values; of places the name
 ---@field x number position east, m
 ---@field y number position north, m
 ---@field vx number velocity east, m/s
@@ -1037,7 +1040,7 @@ local Scene = {}
 ---@param run fun()
 function test(name, run) end
 
---- `scene(what [, options])`: loads a scene: a table with the keys of a scene's file, where `behaviour` may also be the text of a behaviour, or the path of a scene
+--- `scene(what [, options])`: loads a scene: a table with the keys of a scene's file, where `behaviour` may also be the text of a behaviour, or the path of a scene. Agents get teams, own values and memory from their group: `{ behaviour = "runner.lua", at = { { 0, 0 } }, team = "red", set = { shoe = 44 }, memory = { laps = 1 } }`
 ---@param what string|table
 ---@param options? jostle.SceneOptions
 ---@return jostle.Scene
@@ -1092,7 +1095,7 @@ function Scene:entered(state, options) end
 ---@return jostle.TestAgent[]
 function Scene:agents(group) end
 
---- `s:agent(id)`: the agent with this id; nil if it has left
+--- `s:agent(id)`: the agent with this id; nil if it has left. Fields: `state`, `machine`, `group`, `team`, `x`, `y`, `own.NAME` for own values, memory and parameters by their names
 ---@param id integer
 ---@return jostle.TestAgent|nil
 function Scene:agent(id) end

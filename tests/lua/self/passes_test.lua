@@ -71,6 +71,27 @@ test("agents are seen in order of id, as copies", function()
   equal(s:hash(), hash)
 end)
 
+test("groups give placed agents teams, own values and memory, which are seen", function()
+  local behaviour = [[local mine = memory { coins = 0 }
+    return machine { name = "shopper", version = 1, start = "Stand", own = { shoe = 40, rest = uniform(1, 2) },
+      states = {
+        Stand = { steer = hold, speed = own.shoe / 40, { to = "Join", when = near(own.room, 3) & after(1) } },
+        Join = { steer = hold, set = { team = "visitors" } } } }]]
+  local s = scene { places = { shop = { point = { 0, 0 } }, yard = { point = { 9, 0 } } }, groups = {
+    home = { behaviour = behaviour, at = { { 0, 0 } }, team = "red", set = { shoe = 44, room = "shop" }, memory = { coins = 7 } },
+    away = { behaviour = behaviour, at = { { 4, 0 } }, team = "blue", set = { room = "yard" } },
+    none = { behaviour = behaviour, at = { { 8, 4 } }, set = { room = "shop" } } } }
+  s:step()
+  local a, b, c = s:agents("home")[1], s:agents("away")[1], s:agents("none")[1]
+  equal(a.group, "home") equal(a.team, "red") equal(a.own.shoe, 44) equal(a.own.room, "shop") equal(a.coins, 7)
+  near(a.speed, 1.1, 1e-6)
+  equal(b.group, "away") equal(b.team, "blue") equal(b.own.shoe, 40) equal(b.own.room, "yard")
+  truthy(b.own.rest >= 1 and b.own.rest <= 2)
+  equal(c.team, nil)
+  s:run(1.5)
+  equal(s:agent(a.id).state, "Join") equal(s:agent(a.id).team, "visitors") equal(s:agent(b.id).team, "blue")
+end)
+
 test("bodies are seen", function()
   local s = scene(walking())
   s:run(0.5)
