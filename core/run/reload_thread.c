@@ -155,6 +155,24 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
     return false;
 }
 
+/* Says of a file of a log's entry that no part of the run reads it, and which file may be meant. */
+static void report_unread_file(const JoScene *scene, const JoxInputEntry *entry, const char *path) {
+    enum { MOST = 256 };
+    const JoxChanges *changes = &scene->reload->changes;
+    const char *names[MOST];
+    char hint[JOX_HINT];
+    size_t count = 0;
+    for (uint32_t p = 0; p < JOX_PARTS; p++)
+        for (uint32_t f = 0; f < changes->made_of[p].count && count < MOST; f++)
+            names[count++] = changes->made_of[p].paths[f];
+    const char *near = jox_did_you_mean(path, names, count, hint);
+    jox_run_say(scene,
+                "%s:%d: t = %.2f s: no behaviour or scene of this run reads '%.200s': its "
+                "text has no effect%s%s\n",
+                scene->input_path ? scene->input_path : "input", entry->line,
+                jo_world_time(scene->world), path, near ? ". " : "", near ? near : "");
+}
+
 bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *error) {
     JoxReload *r = scene->reload ? scene->reload : create_reload(scene, NULL);
     bool live = true;
@@ -173,6 +191,9 @@ bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *e
             if (jox_run_is_text_live(scene, &files->files[f]))
                 jox_changes_forget_file(&r->changes, files->files[f].path);
     }
+    for (uint32_t f = 0; f < files->number; f++)
+        if (!jox_changes_use(&r->changes, files->files[f].path))
+            report_unread_file(scene, files, files->files[f].path);
     if (!live)
         jox_error(error, JO_INPUT,
                   "the files that follow were not taken: the run goes another way");

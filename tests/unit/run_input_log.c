@@ -376,6 +376,23 @@ static void files_of_a_log_go_live(void **state) {
     jo_scene_free(scene);
 }
 
+static void file_of_a_log_that_nothing_reads_is_told(void **state) {
+    (void)state;
+    static const char LIVE[] = STANDING_AT_SPEED("0.9", "");
+    char text[4000];
+    jo_scene_free(load_scene_text(YARD_WITH_PEOPLE(20), STANDING_AT_SPEED("1.5", "")));
+    snprintf(text, sizeof text, "3 files 2\n%s/own.lua %zu\n%s\n%s/owm.lua %zu\n%s\n", test_folder,
+             sizeof LIVE - 1, LIVE, test_folder, sizeof LIVE - 1, LIVE);
+    JoScene *scene = play_log(write_test_file("unread.input", text), 1);
+    step_scene(scene, 5);
+    assert_true((float)read_wanted_speed(scene, 0) == 0.9f);
+    assert_non_null(strstr(scene_messages.data, "unread.input:1: t = 0.15 s: no behaviour or scene "
+                                                "of this run reads '"));
+    assert_non_null(strstr(scene_messages.data, "/owm.lua': its text has no effect. Did you mean"));
+    assert_null(strstr(scene_messages.data, "reads 'own.lua'"));
+    jo_scene_free(scene);
+}
+
 static void log_of_another_run_is_warned_of(void **state) {
     (void)state;
     char text[1000];
@@ -419,6 +436,7 @@ int main(void) {
         cmocka_unit_test(held_body_is_pulled_to_the_target),
         cmocka_unit_test(oldest_box_is_removed_for_a_new_one),
         cmocka_unit_test(files_of_a_log_go_live),
+        cmocka_unit_test(file_of_a_log_that_nothing_reads_is_told),
         cmocka_unit_test(log_of_another_run_is_warned_of),
         cmocka_unit_test(invalid_log_is_an_error_with_file_and_line),
     };

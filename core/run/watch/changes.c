@@ -29,6 +29,13 @@ void jox_changes_add_use(JoxChanges *changes, uint32_t part, const char *path) {
     jox_files_add(&changes->made_of[part], path);
 }
 
+bool jox_changes_use(const JoxChanges *changes, const char *path) {
+    for (uint32_t p = 0; p < JOX_PARTS; p++)
+        if (holds_path(&changes->made_of[p], path))
+            return true;
+    return false;
+}
+
 void jox_changes_add_changed_file(JoxChanges *changes, const char *path, double written) {
     JoxChangedFile *file = NULL;
     for (uint32_t f = 0; f < changes->count; f++)

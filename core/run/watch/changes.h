@@ -40,6 +40,8 @@ typedef struct JoxChanges {
 
 /* Notes that a part uses a file. */
 void jox_changes_add_use(JoxChanges *changes, uint32_t part, const char *path);
+/* Whether any part uses a file. */
+bool jox_changes_use(const JoxChanges *changes, const char *path);
 /* Notes that a file has changed, and when it was written, s since 1970. */
 void jox_changes_add_changed_file(JoxChanges *changes, const char *path, double written);
 /* Whether a part uses a file that has changed and is not live. */
