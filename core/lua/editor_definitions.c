@@ -375,16 +375,16 @@ static void print_tests(JoxText *out) {
         owner = option->owner;
         print_field(out, option->name, true, option->type, option->meaning, "");
     }
-    jox_text_add(out,
-                 "\n--- An agent of a scene, as it is now.\n---@class jostle.TestAgent\n"
-                 "---@field id integer\n---@field state string\n---@field machine string\n"
-                 "---@field group string|nil\n---@field team string|integer|nil a number: of a "
-                 "party\n---@field own table<string, number|string> own values; of places the name\n"
-                 "---@field x number position east, m\n---@field y number position north, m\n"
-                 "---@field vx number velocity east, m/s\n---@field vy number velocity north, "
-                 "m/s\n---@field now number present speed, m/s\n---@field density number\n"
-                 "---@field compression number\n---@field load number\n---@field fallen number\n"
-                 "---@field pushed number\n---@field [string] any what its memory declares\n");
+    jox_text_add(
+        out, "\n--- An agent of a scene, as it is now.\n---@class jostle.TestAgent\n"
+             "---@field id integer\n---@field state string\n---@field machine string\n"
+             "---@field group string|nil\n---@field team string|integer|nil a number: of a "
+             "party\n---@field own table<string, number|string> own values; of places the name\n"
+             "---@field x number position east, m\n---@field y number position north, m\n"
+             "---@field vx number velocity east, m/s\n---@field vy number velocity north, "
+             "m/s\n---@field now number present speed, m/s\n---@field density number\n"
+             "---@field compression number\n---@field load number\n---@field fallen number\n"
+             "---@field pushed number\n---@field [string] any what its memory declares\n");
     print_parameter_fields(out, false, "number", "");
     jox_text_add(out,
                  "\n--- A body of a scene, as it is now: m and m/s.\n---@class jostle.TestBody\n"

@@ -78,7 +78,8 @@ test("groups give placed agents teams, own values and memory, which are seen", f
         Stand = { steer = hold, speed = own.shoe / 40, { to = "Join", when = near(own.room, 3) & after(1) } },
         Join = { steer = hold, set = { team = "visitors" } } } }]]
   local s = scene { places = { shop = { point = { 0, 0 } }, yard = { point = { 9, 0 } } }, groups = {
-    home = { behaviour = behaviour, at = { { 0, 0 } }, team = "red", set = { shoe = 44, room = "shop" }, memory = { coins = 7 } },
+    home = { behaviour = behaviour, at = { { 0, 0 } }, team = "red",
+      set = { shoe = 44, room = "shop" }, memory = { coins = 7 } },
     away = { behaviour = behaviour, at = { { 4, 0 } }, team = "blue", set = { room = "yard" } },
     none = { behaviour = behaviour, at = { { 8, 4 } }, set = { room = "shop" } } } }
   s:step()
