@@ -19,13 +19,13 @@ static const char SCENE[] =
     "jostle: 1\n"
     "duration: 5\n"
     "places:\n"
-    "  hall: {polygon: [[0, 0], [20, 0], [20, 8], [0, 8]]}\n"
-    "  east: {polygon: [[16, 0], [20, 0], [20, 8], [16, 8]]}\n"
-    "  west: {polygon: [[0, 0], [4, 0], [4, 8], [0, 8]]}\n"
+    "  hall: {polygon: [[0, 0], [5, 0], [5, 3], [0, 3]]}\n"
+    "  east: {polygon: [[4, 0], [5, 0], [5, 3], [4, 3]]}\n"
+    "  west: {polygon: [[0, 0], [1, 0], [1, 3], [0, 3]]}\n"
     "walls:\n"
-    "  - {line: [[0, 0], [20, 0], [20, 8], [0, 8]], closed: true}\n"
+    "  - {line: [[0, 0], [5, 0], [5, 3], [0, 3]], closed: true}\n"
     "groups:\n"
-    "  walkers: {behaviour: behaviours/pedestrian.lua, count: 12, in: hall, spacing: 1,\n"
+    "  walkers: {behaviour: behaviours/pedestrian.lua, count: 8, in: hall, spacing: 0.7,\n"
     "            set: {goal: east, home: west}}\n";
 
 static char told[4096]; /* by the last call */

@@ -1,12 +1,14 @@
 /* Crowds that press on a closed door at the end of a corridor, and on a very broad person: what the
    door bears hardly depends on the time step, and people neither sink into others nor stand denser
    than they can. */
+#include "unit/effort.h"
 #include "unit/load_torso.h"
 
 enum { CROWD = 240, ROW = 5 };
-static const double HALF = 1.5;                   /* m: of the corridor's width */
-static const double SECONDS = 60.0, FIRST = 20.0; /* s: length of a run, and of what is left out */
-static const double PUSH = 65.0;                  /* N */
+static const double HALF = 1.5; /* m: of the corridor's width */
+/* s: length of a run, and of what is left out */
+static const double SECONDS = EFFORT_EACH > 1 ? 30.0 : 60.0, FIRST = 20.0;
+static const double PUSH = 65.0;  /* N */
 static const double SUNK = 0.02;  /* m: greatest depth of overlap, 99th percentile */
 static const double WITHIN = 0.1; /* relative change of the load over time steps; 12 % for 120 */
 /* 1/m2: densest packing of torsos of 0.45 by 0.25 m, one in each 2 sqrt(3) 0.125^2 + 0.2 0.25 m2 */

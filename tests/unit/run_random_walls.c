@@ -5,9 +5,10 @@
 #include "base/number/random.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
+#include "unit/effort.h"
 #include "unit/gate_ball_scene.h"
 
-enum { SCENES = 500, MOST_PEOPLE = 512, MOST_RINGS = 256 };
+enum { SCENES = 500 / EFFORT_EACH, MOST_PEOPLE = 512, MOST_RINGS = 256 };
 
 /* A hall of 12 x 8 m, sealed at edges that are not joined; no walls at x < 3 m, except at joined
  * edges. */

@@ -2,6 +2,7 @@
  * scratch memory may be cleared before any step. */
 #include <math.h>
 
+#include "unit/effort.h"
 #include "unit/gate_ball_scene.h"
 
 enum { BEFORE = 130, AFTER = 120 };
@@ -263,7 +264,7 @@ static void flip_cell(void *context, const char *section, size_t index, void *ce
     /* Visits the first cells of large sections, then fewer and fewer. */
     if (!hashed || (f->last_flipped > 2 && f->last_flipped % 997 != 0))
         return;
-    for (size_t byte = 0; byte<size; byte += size> 64 ? 61 : 1) {
+    for (size_t byte = 0; byte<size; byte += size> 64 ? 61 : EFFORT_EACH) {
         ((unsigned char *)cell)[byte] ^= 1;
         if (jo_world_hash(f->scene->world) == f->hash)
             fail_msg("cell %zu, byte %zu of %s is not hashed", index, byte, section);
@@ -285,14 +286,14 @@ static void each_cell_of_the_state_is_hashed(void **state) {
     (void)state;
     JoScene *scene = load_town();
     step_until_busy(scene, BEFORE, true);
-    flip_all_cells(scene, 700);
+    flip_all_cells(scene, 700 / EFFORT_EACH);
     if (!jox_bodies_available())
         return;
     scene = load_scene_text(YARD, YARDFOLK);
     step_scene(scene, JOX_BODIES_REINSERT_STEPS);
     apply_input(scene, "box 12 4 2 -6 0 0 0.4 10");
     apply_input(scene, "grab 2 9 5 1");
-    flip_all_cells(scene, 1400);
+    flip_all_cells(scene, 1400 / EFFORT_EACH);
 }
 
 /* A value that scratch memory carried from step to step would change the hash. */

@@ -12,10 +12,12 @@
 
 #include "base/mem.h"
 #include "scene/scene.h"
+#include "unit/effort.h"
 
 /* LARGE: bytes of the largest file that is read. PIECES_LARGE: enough to show work that grows with
-   the square of the size, which would take minutes, in a tenth of LARGE's time. */
-enum { LARGE = 10 << 20, PIECES_LARGE = 1 << 20, MUTATIONS = 300 };
+   the square of the size, which would take minutes, in a tenth of LARGE's time; with sanitizers a
+   part of it. */
+enum { LARGE = 10 << 20, PIECES_LARGE = (1 << 20) / EFFORT_EACH, MUTATIONS = 300 / EFFORT_EACH };
 static const double SLOWEST = 20; /* s of processor time, for builds with sanitizers */
 
 static double read_cpu_clock(void) {
