@@ -54,6 +54,7 @@ std = {
     "nobody",
     "holding",
     "striker",
+    "best_place",
     "one_of",
     "goal",
     "last_seen",

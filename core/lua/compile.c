@@ -173,6 +173,7 @@ static int32_t build_score(JoxBuild *build, const JoxNode *node) {
         return 0;
     }
     build->scores = true;
+    build->scores_places = jox_target_kind_is_place(node->target_kind);
     const int32_t score = jox_build_expression(build, node->score, node->position);
     build->scores = false;
     return 1 + score;
@@ -190,7 +191,9 @@ static char *name_target(const JoxNode *node) {
     else if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_MESSAGE)
         jox_text_printf(&text, "told(\"%s\").%s", node->name, node->field ? node->field : "sender");
     else if (node->kind == JOX_NODE_TARGET && node->score)
-        jox_text_printf(&text, "best(%s)", node->name);
+        jox_text_printf(&text, "%s(%s)",
+                        jox_target_kind_is_place(node->target_kind) ? "best_place" : "best",
+                        node->name);
     else
         jox_text_add(&text, node->name);
     return text.data;
@@ -226,8 +229,8 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     if (node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_LAST_SEEN)
         target.arg = add_sighting(build, jox_build_memory(build, node->name));
     target.score = build_score(build, node);
-    bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
-    if (node->kind == JOX_NODE_OWN || own_set) {
+    const bool of_own = target.kind == JOX_TARGET_ONE_OF_OWN || target.kind == JOX_TARGET_BEST_OWN;
+    if (node->kind == JOX_NODE_OWN || of_own) {
         int32_t slot = jox_build_own_at(build, node);
         if (m->own[slot].declared && !m->own[slot].is_place)
             jox_build_error(build, node->position, "bad-value",
@@ -236,7 +239,7 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
         if (!m->own[slot].declared) /* no place unless the scene's group names one */
             m->own[slot].dist = jox_dist_constant(-1.0);
         m->own[slot].is_place = true;
-        target.kind = own_set ? JOX_TARGET_ONE_OF_OWN : JOX_TARGET_OWN_PLACE;
+        target.kind = of_own ? target.kind : JOX_TARGET_OWN_PLACE;
         target.arg = slot;
     }
     target.name = name_target(node);
@@ -251,6 +254,10 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     JOX_RESERVE(m->targets, build->target_capacity, m->target_count + 1);
     m->targets[m->target_count] = target;
     return (int16_t)m->target_count++;
+}
+
+static bool is_other(const JoxNode *node) {
+    return node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_OTHER;
 }
 
 typedef struct Code {
@@ -329,6 +336,10 @@ static void emit_expression(Code *code, const JoxNode *node, uint32_t to, uint32
         in.target = jox_build_target(code->build, node->target);
     if (node->place)
         in.place = jox_build_target(code->build, node->place);
+    if (node->place && is_other(node->place) && !code->build->scores_places)
+        jox_build_error(code->build, node->position, "bad-value",
+                        "Example: best_place(\"exits\", 0 - count(other))",
+                        "a place is wanted here, and `other` is a person or a body");
     use_outer_clock(code, &in);
     JOX_RESERVE(code->items, code->capacity, code->count + 1);
     if (in.op == JOX_OP_AND && !code->too_deep)

@@ -30,6 +30,7 @@ typedef struct JoxBuild {
     size_t expression_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
         state_capacity, name_capacity, sighting_capacity, outer_capacity, nested_capacity,
         renamed_capacity;
+    bool scores_places; /* that target is a place */
     bool scores;       /* the score of a target is being compiled, in which `other` has a meaning */
     JoxNested *nested; /* item 0: the behaviour's own machine */
     uint32_t nested_count;

@@ -1,5 +1,6 @@
-/* Chooses the best of the agents and bodies that an agent sees, by a score that the behaviour gives
-   as an expression over the candidate. target.c calls it; `nearest` needs no score. */
+/* Chooses the best of the agents and bodies that an agent sees, or of the members of a set of
+   places, by a score that the behaviour gives as an expression over the candidate. target.c calls
+   it; `nearest` needs no score. */
 #include <math.h>
 
 #include "machine/machine_parts.h"
@@ -37,6 +38,22 @@ static uint32_t list_agents(const JoxMachineRun *run, const JoxTarget *target, u
     for (uint32_t n = 0; n < count; n++)
         candidates[n] = jox_spot_agent(run, i, found[n]);
     return count;
+}
+
+int32_t jox_find_best_place(const JoxMachineRun *run, uint32_t i, const JoxTarget *target,
+                            int32_t set) {
+    const JoxExpression *score = &jox_machine_of(run, i)->expressions[target->score - 1];
+    const JoxPlace *place = &run->places[set];
+    Best best = {.spot = JOX_NO_SPOT};
+    JoxSpot candidates[JOX_BATCH];
+    for (uint32_t first = 0; first < place->member_count; first += JOX_BATCH) {
+        const uint32_t left = place->member_count - first,
+                       count = left < JOX_BATCH ? left : JOX_BATCH;
+        for (uint32_t n = 0; n < count; n++)
+            candidates[n] = jox_spot_place(run, i, place->members[first + n]);
+        choose_best(run, i, score, candidates, count, &best);
+    }
+    return jox_place_is_set(place) ? best.spot.place : set;
 }
 
 JoxSpot jox_find_best(const JoxMachineRun *run, uint32_t i, const JoxTarget *target) {

@@ -155,9 +155,9 @@ void jox_machine_check(const JoxMachine *m) {
         check_value(m, &m->defaults[p]);
     for (uint32_t t = 0; t < m->target_count; t++) {
         const JoxTarget *target = &m->targets[t];
-        JOX_ASSERT(
-            (target->kind != JOX_TARGET_OWN_PLACE && target->kind != JOX_TARGET_ONE_OF_OWN) ||
-            (uint32_t)target->arg < m->own_count);
+        JOX_ASSERT((target->kind != JOX_TARGET_OWN_PLACE && target->kind != JOX_TARGET_ONE_OF_OWN &&
+                    target->kind != JOX_TARGET_BEST_OWN) ||
+                   (uint32_t)target->arg < m->own_count);
         JOX_ASSERT(target->kind != JOX_TARGET_NEAREST || (target->arg >= 0 && target->arg < 64));
         JOX_ASSERT(target->kind != JOX_TARGET_MEMORY || (uint32_t)target->arg < m->memory_count);
         JOX_ASSERT(target->kind != JOX_TARGET_MESSAGE || ((uint32_t)target->arg < m->name_count &&

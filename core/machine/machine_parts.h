@@ -195,6 +195,9 @@ void jox_watch_calls(const JoxMachineRun *run);
 /* best_of.c: returns the candidate with the greatest score among those that the agent sees and that
    match the target; of equal ones agents before bodies, by ascending id. */
 JoxSpot jox_find_best(const JoxMachineRun *run, uint32_t agent, const JoxTarget *target);
+/* Returns the member of a set of places with the greatest score; the place itself if it is none. */
+int32_t jox_find_best_place(const JoxMachineRun *run, uint32_t agent, const JoxTarget *target,
+                            int32_t set);
 
 /* Resolves target `index` of the agent's machine; index -1 is the agent itself. */
 JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t agent, int32_t index);

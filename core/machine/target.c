@@ -22,16 +22,20 @@ static inline double get_remembered(const JoxMachineRun *run, const JoxTarget *t
 static inline int32_t resolve_place(const JoxMachineRun *run, const JoxTarget *target,
                                     uint32_t agent) {
     int32_t place = -1;
-    if (target->kind == JOX_TARGET_PLACE)
+    if (target->kind == JOX_TARGET_PLACE || target->kind == JOX_TARGET_BEST_PLACE)
         place = target->arg;
-    else if (target->kind == JOX_TARGET_OWN_PLACE)
+    else if (target->kind == JOX_TARGET_OWN_PLACE || target->kind == JOX_TARGET_BEST_OWN)
         place = (int32_t)jox_own(run->agents, agent, (uint32_t)target->arg);
     else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF ||
              target->kind == JOX_TARGET_ONE_OF_OWN)
         place = run->agents->goal[agent];
     else if (target->kind == JOX_TARGET_MEMORY)
         place = jox_who_place(run, get_remembered(run, target, agent));
-    return keep_valid_place(run, place);
+    else if (target->kind == JOX_TARGET_OTHER && jox_target_considered())
+        place = jox_target_considered()->place;
+    place = keep_valid_place(run, place);
+    const bool best = target->kind == JOX_TARGET_BEST_PLACE || target->kind == JOX_TARGET_BEST_OWN;
+    return best && place >= 0 ? jox_find_best_place(run, agent, target, place) : place;
 }
 
 int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
@@ -198,6 +202,8 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
         return jox_spot_agent(run, i, i);
     JOX_ASSERT((uint32_t)index < jox_machine_of(run, i)->target_count);
     const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
+    if (target->kind == JOX_TARGET_OTHER && resolve_place(run, target, i) >= 0)
+        return *jox_target_considered();
     if (jox_target_kind_chooses(target->kind))
         return target->score ? jox_find_best(run, i, target) : find_nearest_spot(run, target, i);
     if (jox_target_kind_moves(target->kind))

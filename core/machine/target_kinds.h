@@ -12,6 +12,8 @@ typedef enum JoxTargetKind {
     JOX_TARGET_GOAL,       /* the place in the agent's `goal` column */
     JOX_TARGET_ONE_OF,     /* arg: place index of a set; on entering the state, goal := a member */
     JOX_TARGET_ONE_OF_OWN, /* like ONE_OF; arg: own slot that holds the set */
+    JOX_TARGET_BEST_PLACE, /* arg: place index of a set; its member with the greatest score */
+    JOX_TARGET_BEST_OWN,   /* like BEST_PLACE; arg: own slot that holds the set */
     JOX_TARGET_NEAREST,    /* arg: tag bit; nearest seen body or agent with that tag */
     JOX_TARGET_OPPONENT,   /* nearest seen agent of another team */
     JOX_TARGET_TEAMMATE,   /* nearest seen agent of the same team */

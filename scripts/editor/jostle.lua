@@ -686,7 +686,7 @@ function nearest(tag) end
 ---@return jostle.Target
 function best(tag, score) end
 
---- `other`: in the score of `best`: the candidate
+--- `other`: in the score of `best` and `best_place`: the candidate
 ---@type jostle.Target
 other = nil
 
@@ -701,6 +701,12 @@ holding = nil
 --- `striker`: the agent that kicked or threw the body which hits this one, as `hit_by` sees it; that body, if nobody else did
 ---@type jostle.Target
 striker = nil
+
+--- `best_place(set, score)`: the member of a set of places with the greatest score, a number over the candidate `other`; of the same score, the first. It is judged anew in each step: `set` remembers it
+---@param set jostle.Place
+---@param score jostle.Value
+---@return jostle.Target
+function best_place(set, score) end
 
 --- `one_of(set)`: a member of a set of places, drawn on entering the state; from then on it is the agent's `goal`
 ---@param set jostle.Place

@@ -125,7 +125,7 @@ const JoxWord jox_words[] = {
     {"best", "gn", TARGET, JOX_TARGET_NEAREST, 0, "best(tag, score)", "",
      "of those that `nearest` chooses from, the one with the greatest score, a number in which `other` is the "
      "candidate; of equal ones agents before bodies, by ascending id", "best(\"people\", other.speed - distance(other))"},
-    {"other", NULL, TARGET, JOX_TARGET_OTHER, 0, "other", "", "in the score of `best`: the candidate",
+    {"other", NULL, TARGET, JOX_TARGET_OTHER, 0, "other", "", "in the score of `best` and `best_place`: the candidate",
      "best(\"people\", theirs(other, \"laps\"))"},
     {"nobody", NULL, TARGET, JOX_TARGET_NOBODY, 0, "nobody", "",
      "no person, body or place: memory that begins with it holds somebody, as `set = { prey = nearest \"people\" }`; "
@@ -162,6 +162,10 @@ const JoxWord jox_words[] = {
     {":ahead", "*", TARGET, 0, 0, "of:ahead(degrees)", "",
      "restricts them to what lies ahead: within this angle, degrees, to either side of where the agent looks",
      "nearest(\"people\"):ahead(60)"},
+    {"best_place", "pn", TARGET, JOX_TARGET_BEST_PLACE, 0, "best_place(set, score)", "",
+     "the member of a set of places with the greatest score, a number over the candidate `other`; of the same score, the "
+     "first. It is judged anew in each step: `set` remembers it",
+     "best_place(\"ends\", 0 - distance(other) - 5 * density(other))"},
     {"one_of", "p", TARGET, JOX_TARGET_ONE_OF, 0, "one_of(set)", "",
      "a member of a set of places, drawn on entering the state; from then on it is the agent's "
      "`goal`",

@@ -44,7 +44,8 @@ static JoxNode *read_place_name(lua_State *L, const char *name) {
 /* Returns whether a value may stand for a place. */
 static bool can_be_place(const JoxNode *node) {
     return node->kind == JOX_NODE_OWN ||
-           (node->kind == JOX_NODE_TARGET && jox_target_kind_is_place(node->target_kind));
+           (node->kind == JOX_NODE_TARGET &&
+            (jox_target_kind_is_place(node->target_kind) || node->target_kind == JOX_TARGET_OTHER));
 }
 
 /* Writes how a word that takes a tag is used in place of what it was given. */
@@ -269,6 +270,29 @@ static bool read_sighting(lua_State *L, JoxNode *node, const JoxNode *of) {
     return false;
 }
 
+/* Fills the target one_of or best_place, a member of a set that is named, or that the scene names
+   for the group; false with an error pushed. */
+static bool build_member(lua_State *L, JoxNode *node, const JoxWord *word,
+                         JoxNode *const *arguments) {
+    const JoxNode *set = arguments[0];
+    const bool own = set->kind == JOX_NODE_OWN;
+    if (!own && (set->target_kind != JOX_TARGET_PLACE)) {
+        char hint[80];
+        snprintf(hint, sizeof hint, "Example: %s", jox_word_example(word->name));
+        jox_word_error(L, word->name, "bad-argument", hint, "%s takes a set of places", word->name);
+        return false;
+    }
+    node->target_kind = !own                            ? (JoxTargetKind)word->op
+                        : word->op == JOX_TARGET_ONE_OF ? JOX_TARGET_ONE_OF_OWN
+                                                        : JOX_TARGET_BEST_OWN;
+    node->target_arg = set->target_arg;
+    node->name = set->name;
+    node->position = own ? set->position : jox_script_of(L)->called_at;
+    node->written = set->written;
+    node->score = arguments[1];
+    return true;
+}
+
 /* Pushes and returns the value that a word makes of its arguments; NULL with an error pushed if
    they do not fit together. */
 static JoxNode *build_word_value(lua_State *L, const JoxWord *word, JoxNode *const *arguments,
@@ -278,18 +302,10 @@ static JoxNode *build_word_value(lua_State *L, const JoxWord *word, JoxNode *con
     node->arg = word->arg;
     switch (word->makes) {
     case JOX_NODE_TARGET: /* nearest, one_of */
-        if (word->op == JOX_TARGET_ONE_OF && arguments[0]->kind == JOX_NODE_OWN) {
-            node->target_kind =
-                JOX_TARGET_ONE_OF_OWN; /* a set that the scene names for the group */
-            node->name = arguments[0]->name;
-            node->position = arguments[0]->position;
-            node->written = arguments[0]->written;
+        if (word->op == JOX_TARGET_ONE_OF || word->op == JOX_TARGET_BEST_PLACE) {
+            if (!build_member(L, node, word, arguments))
+                return NULL;
             break;
-        }
-        if (word->op == JOX_TARGET_ONE_OF && arguments[0]->target_kind != JOX_TARGET_PLACE) {
-            jox_word_error(L, "one_of", "bad-argument", "Example: one_of \"gates\"",
-                           "one_of takes a set of places");
-            return NULL;
         }
         node->target_kind =
             word->op == JOX_TARGET_NEAREST ? arguments[0]->target_kind : (JoxTargetKind)word->op;

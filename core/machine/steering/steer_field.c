@@ -195,7 +195,8 @@ void jox_machines_ask_routes(JoxMachineRun *run) {
         const JoxState *state = &machine->states[a->state[i]];
         s.index[0] = i;
         for (uint32_t t = 0; t < state->steer_count; t++)
-            if (state->steer[t].kind == JOX_STEER_FIELD)
+            if (state->steer[t].kind == JOX_STEER_FIELD &&
+                !machine->targets[state->steer[t].target].score)
                 lead_to_places(run, machine, &state->steer[t], &s, &place);
     }
 }
