@@ -40,20 +40,33 @@ static const char SCENE[] =
     "sinks: [{at: out}]\n"
     "events: [{at: 4, signal: all}, {at: 6.6, open: gate}]\n";
 static const char BEHAVIOUR[] =
-    "local mine, ball = memory { turns = 0, calm = true }, nearest \"ball\"\n"
+    "local mine, ball = memory { turns = 0, calm = true, mate = nobody, met = list(3, nobody),\n"
+    "  times = list(2) }, nearest \"ball\"\n"
+    "local hello, mate = told \"hello\", nearest \"red\"\n"
     "return machine { name = \"m\", version = 1, start = \"Walk\",\n"
     "  defaults = { speed = normal(1.3, 0.2), push = uniform(0, 60), perception = 3 },\n"
     "  own = { aim = \"goal\" },\n"
     "  states = {\n"
     "    Walk = { steer = field \"goal\", lasts = normal(1, 0.3), push = 100, take = ball,\n"
-    "      on_enter = function(me) me.turns = me.turns + 1 end,\n"
+    "      on_enter = function(me) me.turns = me.turns + 1 end, set = { mate = mate },\n"
+    "      { when = hello, every = 0.3, set = { met = mine.met:push(hello.sender),\n"
+    "        times = mine.times:push(now.time) } },\n"
+    "      { when = after(0), tell = { neighbours \"red\", \"hello\", n = mine.turns, "
+    "who = "
+    "mate } },\n"
     "      { to = \"Queue\", when = lasted, chance = 0.7 }, { to = \"Throw\", when = has(ball) } "
     "},\n"
     "    Queue = { steer = queue \"desk\", signal = { \"all\", every = 0.3 },\n"
     "      { to = \"Roam\", when = first_in \"desk\" & after(0.5) },\n"
     "      { to = \"Roam\", when = stuck(0.4) } },\n"
     "    Throw = { steer = hold, throw = { ball, at = \"goal\", speed = 6 },\n"
-    "      { to = \"Walk\", when = ~has(ball) | after(1) } },\n"
+    "      { to = \"Hold\", when = ~has(ball) | after(1) } },\n"
+    "    Hold = { grasp = mine.mate, grip = 200, { to = \"Walk\", when = after(0.8) },\n"
+    "      runs = machine { start = \"Pull\", states = {\n"
+    "        Pull = { steer = seek(last_seen(mine.mate)), lasts = uniform(0.1, 0.2), { to = "
+    "\"Look\", "
+    "when = lasted } },\n"
+    "        Look = { steer = hold, { to = back, when = after(0.1) } } } } },\n"
     "    Roam = { steer = seek(own.aim) + 0.3 * evade, lasts = uniform(0.5, 1),\n"
     "      { to = \"Walk\", when = heard \"all\" | lasted, set = { calm = false } } } } }\n";
 
@@ -112,9 +125,12 @@ static void save_busy_world(void) {
     apply_line("grab 5 1.4 1.6 1");
     step_world(JOX_BODIES_REINSERT_STEPS / 2);
     apply_line("set m Queue speed 0.5");
+    apply_line("set m Hold speed 0.8"); /* a state that runs a machine */
     apply_line("spawn pairs 0.5 1.7");
     apply_line("player 1 0.5 0");
     apply_line("signal all");
+    const JoxMachineState *machines = scene->world->machines.state;
+    FUZZ_CHECK(machines->waiting_count > 0 && machines->sent_count > 0); /* messages */
     FUZZ_CHECK(save_world(&base));
     FUZZ_CHECK(restore_world(&base, &error));
     base_hash = jo_world_hash(scene->world);
