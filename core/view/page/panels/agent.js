@@ -50,10 +50,21 @@ function transitionRow(t) {
             t.chance_note ? el("li", {}, el("span", { className: "faint" }, t.chance_note)) : null));
 }
 
+const FEW = 3; // more messages are folded
+let unfolded = false;
+
+/** The messages that wait, the oldest first. */
+function messageRows(texts) {
+    const rows = texts.map((text) => el("p", { className: "faint" }, `message ${text}`));
+    if (rows.length <= FEW) return rows;
+    return el("details", { open: unfolded, ontoggle: (event) => (unfolded = event.target.open) },
+        el("summary", {}, `${rows.length} messages wait, the oldest: ${texts[0]}`), rows);
+}
+
 /** What the person waits for: every transition out of its state, the nearest to firing first. */
 function whyRows(why) {
     if (!why) return [el("p", { className: "faint" }, "It has no behaviour.")];
-    const messages = why.messages.map((text) => el("p", { className: "faint" }, `message ${text}`));
+    const messages = messageRows(why.messages);
     const last = why.transitions.some((t) => t.to) ? null : el("p", { className: "faint" }, "Nothing leads out of this state.");
     return [messages, why.transitions.map(transitionRow), last];
 }
