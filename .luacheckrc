@@ -45,6 +45,7 @@ std = {
     "max",
     "abs",
     "sqrt",
+    "either",
     "clamp",
     "now",
     "own",

@@ -26,6 +26,8 @@ static const char *get_argument_type(const JoxSignatureItem *p, char letter) {
         return "jostle.Target";
     case 'n':
         return "jostle.Value";
+    case 'c':
+        return "jostle.Condition";
     case 'd':
         return "number";
     case 'g':

@@ -19,16 +19,10 @@ static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     asked[count++] = state->push_toward;
     for (uint32_t k = 0; k < count; k++) {
         const JoxTarget *target = asked[k] < 0 ? NULL : &machine->targets[asked[k]];
-        if (!target || (target->kind != JOX_TARGET_ONE_OF && target->kind != JOX_TARGET_ONE_OF_OWN))
+        const int32_t drawn = target ? jox_target_draw_place(run, i, target, 0) : -1;
+        if (drawn < 0)
             continue;
-        int32_t set = target->kind == JOX_TARGET_ONE_OF
-                          ? target->arg
-                          : (int32_t)jox_own(a, i, (uint32_t)target->arg);
-        if (set < 0 || (uint32_t)set >= run->place_count || !run->places[set].member_count)
-            continue;
-        double u = jox_random_unit(run->seed, a->id[i], run->tick, JOX_DRAW_ONE_OF, 0);
-        a->goal[i] = run->places[set].members[(uint32_t)(u * run->places[set].member_count)];
-        JOX_ASSERT((uint32_t)a->goal[i] < run->place_count);
+        a->goal[i] = drawn;
         return;
     }
 }

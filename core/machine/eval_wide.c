@@ -135,6 +135,8 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
         break;
     case JOX_OP_CLAMP:
         EACH(pick_numbers(A < B, B, pick_numbers(A > C, C, A)));
+    case JOX_OP_EITHER:
+        EACH(pick_numbers(A != zero, B, C));
     case JOX_OP_GT:
         EACH(to_truth(A > B));
     case JOX_OP_GE:

@@ -53,7 +53,8 @@ typedef enum JoxNow {
 } JoxNow;
 
 /* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. Target -1 is the
-   agent itself. x / 0 is 0. CLAMP: a within [b, c]. DISTANCE: metres from the agent's centre to the
+   agent itself. x / 0 is 0. CLAMP: a within [b, c]. EITHER: b if a
+   holds, else c. DISTANCE: metres from the agent's centre to the
    target, infinite when absent. PLACE_DENSITY, PLACE_COUNT: people in place (a polygon, else a disc
    of 2 m about it). INSIDE: target is in place. ARRIVED: the agent is in place, or agents who have
    arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the last move crossed
@@ -83,6 +84,7 @@ typedef enum JoxNow {
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
     X(ADD) X(SUB) X(MUL) X(DIV) X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP)    \
+    X(EITHER)                                                                   \
     X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                           \
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
     X(INSIDE) X(ARRIVED) X(NEAR) X(CROSSES) X(FIRST_IN) X(JOINED) X(AFTER)      \

@@ -11,7 +11,7 @@ static bool is_index(int64_t index, uint32_t count) {
 }
 
 uint32_t jox_op_inputs(JoxOp op) {
-    if (op == JOX_OP_CLAMP)
+    if (op == JOX_OP_CLAMP || op == JOX_OP_EITHER)
         return 3;
     if (op == JOX_OP_NEG || op == JOX_OP_ABS || op == JOX_OP_SQRT || op == JOX_OP_NOT)
         return 1;

@@ -113,7 +113,8 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
         jox_tell(run, machine, actions->tell, i);
     for (uint32_t n = 0; n < actions->set_count; n++)
         values[n] = actions->set[n].target >= 0
-                        ? jox_target_who(run, i, actions->set[n].target)
+                        ? jox_target_draw_who(run, i, actions->set[n].target,
+                                              1 + (uint32_t)actions->set[n].slot)
                         : jox_value(run, machine, &actions->set[n].value, i);
     for (uint32_t n = 0; n < actions->set_count; n++) {
         const struct JoxAssign *assign = &actions->set[n];

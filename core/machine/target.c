@@ -38,6 +38,21 @@ static inline int32_t resolve_place(const JoxMachineRun *run, const JoxTarget *t
     return best && place >= 0 ? jox_find_best_place(run, agent, target, place) : place;
 }
 
+int32_t jox_target_draw_place(const JoxMachineRun *run, uint32_t i, const JoxTarget *target,
+                              uint32_t number) {
+    const bool own = target->kind == JOX_TARGET_ONE_OF_OWN;
+    if (!own && target->kind != JOX_TARGET_ONE_OF)
+        return -1;
+    const int32_t set = keep_valid_place(
+        run, own ? (int32_t)jox_own(run->agents, i, (uint32_t)target->arg) : target->arg);
+    const JoxPlace *place = set < 0 ? NULL : &run->places[set];
+    if (!place || !place->member_count)
+        return -1;
+    const double u =
+        jox_random_unit(run->seed, run->agents->id[i], run->tick, JOX_DRAW_ONE_OF, number);
+    return place->members[(uint32_t)(u * place->member_count)];
+}
+
 int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
     int32_t place;
     jox_target_places(run, jox_machine_of(run, agent), index, &agent, 1, &place);
@@ -218,6 +233,12 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
 static bool has_filter(const JoxAgentFilter *filter) {
     return filter->some || filter->flies || filter->comes > 0.0f || filter->within > 0.0f ||
            filter->ahead > 0.0f;
+}
+
+double jox_target_draw_who(const JoxMachineRun *run, uint32_t i, int32_t index, uint32_t number) {
+    const JoxTarget *target = index < 0 ? NULL : &jox_machine_of(run, i)->targets[index];
+    const int32_t drawn = target ? jox_target_draw_place(run, i, target, number) : -1;
+    return drawn >= 0 ? JOX_WHO_PLACE + drawn : jox_target_who(run, i, index);
 }
 
 double jox_target_who(const JoxMachineRun *run, uint32_t i, int32_t index) {

@@ -51,8 +51,9 @@ static JoxMessage compose_message(JoxMachineRun *run, const JoxMachine *machine,
                           .count = tell->count};
     for (uint32_t v = 0; v < tell->count; v++) {
         const struct JoxCarried *carried = &tell->carries[v];
-        const double value = carried->target >= 0 ? jox_target_who(run, i, carried->target)
-                                                  : jox_value(run, machine, &carried->value, i);
+        const double value = carried->target >= 0
+                                 ? jox_target_draw_who(run, i, carried->target, UINT32_MAX - v)
+                                 : jox_value(run, machine, &carried->value, i);
         if (!isfinite(value))
             jox_odd_note(run, i, JOX_ACTION_TELL, &carried->value, value);
         message.names[v] = machine->names[carried->name].number;

@@ -660,6 +660,13 @@ function abs(a) end
 ---@return jostle.Number
 function sqrt(a) end
 
+--- `either(condition, a, b)`: the number a where the condition holds, else b; both are computed
+---@param condition jostle.Condition
+---@param a jostle.Value
+---@param b jostle.Value
+---@return jostle.Number
+function either(condition, a, b) end
+
 --- `clamp(a, least, greatest)`: a, kept within two bounds
 ---@param a jostle.Value
 ---@param least jostle.Value
@@ -708,7 +715,7 @@ striker = nil
 ---@return jostle.Target
 function best_place(set, score) end
 
---- `one_of(set)`: a member of a set of places, drawn on entering the state; from then on it is the agent's `goal`
+--- `one_of(set)`: a member of a set of places, drawn on entering the state; from then on it is the agent's `goal`. In `set` and `tell`: drawn when that is done
 ---@param set jostle.Place
 ---@return jostle.Target
 function one_of(set) end

@@ -36,3 +36,32 @@ test("a person is no place", function()
     return machine { name = "people", start = "A", states = {
       A = { steer = hold, set = { way = best_place(nearest "anyone", 1) } } } }]] } } }, "must be a place")
 end)
+
+test("memory and messages take a place that is drawn", function()
+  local s = scene {
+    places = { a = { point = { 9, 0 } }, b = { point = { -9, 0 } }, c = { point = { 0, 9 } },
+      spots = { set = { "a", "b", "c" } }, yard = { polygon = { { -3, -3 }, { 3, -3 }, { 3, 3 }, { -3, 3 } } } },
+    groups = { people = { ["in"] = "yard", count = 30, behaviour = [[
+      local mine = memory { spot = nobody, other = nobody, told_of = nobody }
+      return machine { name = "people", start = "Draw", defaults = { perception = 9, neighbours = 16 }, states = {
+        Draw = { steer = hold, { to = "Drawn", when = after(0.1),
+          set = { spot = one_of "spots", other = one_of "spots" }, tell = { neighbours "anyone", "go", to = one_of "spots" } } },
+        Drawn = { steer = field(mine.spot), { to = "There", when = near(mine.spot, 1),
+          set = { told_of = told("go").to } } },
+        There = { steer = hold } } }]] } } }
+  s:run(20)
+  local count, same, told_of = {}, 0, 0
+  for _, one in ipairs(s:agents("people")) do
+    count[one.spot] = (count[one.spot] or 0) + 1
+    same = same + (one.spot == one.other and 1 or 0)
+    told_of = told_of + (one.told_of and 1 or 0)
+  end
+  for _, name in ipairs { "a", "b", "c" } do truthy(count["place '" .. name .. "'"] >= 4) end
+  truthy(same > 2 and same < 20)
+  truthy(told_of > 20)
+end)
+
+test("a score counts what a condition excludes", function()
+  local score = "either(count(other):above(0), -100, 0 - distance(other))"
+  choose(score, '"exits"'):reaches("ByB", { within = 15, agents = "leaver" })
+end)

@@ -1,4 +1,5 @@
 local wanted = min(3, 1 + own.horizon * 2) / 2 + abs(-1) - clamp(5, 0, 1)
+  + either(after(9), 1, 0) - either(~after(9), 0.25, 1) + either(after(0), 0.25, 7)
 return machine { name = "expressions", version = 1, start = "Run",
   defaults = { horizon = choose(0.5), max_speed = 4 }, states = {
   Run = { steer = seek "post" + 0 * spread, speed = 1 + wanted,

@@ -81,7 +81,10 @@ static int apply_arithmetic(lua_State *L, int op, const char *sign) {
         (left && left->kind == JOX_NODE_CONDITION) || (right && right->kind == JOX_NODE_CONDITION);
     return jox_word_error(
         L, sign, "bad-operand",
-        condition ? "Put parentheses about the number: (150 * now.speed):below(3)" : NULL,
+        condition
+            ? "Put parentheses about the number: (150 * now.speed):below(3). To compute with a "
+              "condition: either(stuck(5), 2, 0.5)"
+            : NULL,
         "'%s' cannot join %s and %s", sign, jox_node_kind(L, 1), jox_node_kind(L, 2));
 }
 

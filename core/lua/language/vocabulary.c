@@ -106,6 +106,9 @@ const JoxWord jox_words[] = {
     {"abs", "n", NUMBER, JOX_OP_ABS, 0, "abs(a)", "", "absolute value", "abs(now.x)"},
     {"sqrt", "n", NUMBER, JOX_OP_SQRT, 0, "sqrt(a)", "", "square root; 0 of a negative number",
      "sqrt(density_here)"},
+    {"either", "cnn", NUMBER, JOX_OP_EITHER, 0, "either(condition, a, b)", "",
+     "the number a where the condition holds, else b; both are computed",
+     "either(stuck(5), 2, 0.5) * own.speed"},
     {"clamp", "nnn", NUMBER, JOX_OP_CLAMP, 0, "clamp(a, least, greatest)", "",
      "a, kept within two bounds", "clamp(headway / 0.95, 0.2, own.speed)"},
     {"now", NULL, 0, 0, 0, "now.NAME", "",
@@ -168,7 +171,7 @@ const JoxWord jox_words[] = {
      "best_place(\"ends\", 0 - distance(other) - 5 * density(other))"},
     {"one_of", "p", TARGET, JOX_TARGET_ONE_OF, 0, "one_of(set)", "",
      "a member of a set of places, drawn on entering the state; from then on it is the agent's "
-     "`goal`",
+     "`goal`. In `set` and `tell`: drawn when that is done",
      "one_of \"ends\""},
     {"goal", NULL, TARGET, JOX_TARGET_GOAL, 0, "goal", "",
      "the place that `one_of` drew last, or that a function or the scene set", "goal"},

@@ -150,6 +150,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
                   {'t', "a target or the name of a place"},
                   {'m', "a body or an agent, as of `nearest`"},
                   {'n', "a number"},
+                  {'c', "a condition"},
                   {'d', "a plain number"},
                   {'g', "a tag"},
                   {'s', "a name"},
@@ -173,6 +174,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         result = node;
     if (letter == 'n')
         result = jox_node_number(L, index);
+    if (letter == 'c' && node && node->kind == JOX_NODE_CONDITION)
+        result = node;
     if (letter == 'd' && lua_type(L, index) == LUA_TNUMBER && isfinite(lua_tonumber(L, index)))
         result = jox_node_number(L, index);
     if (letter == 'g')
