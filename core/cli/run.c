@@ -85,8 +85,10 @@ static const CliOption OPTIONS[] = {
      "if the output is a terminal", CLI_TO(Run, watch)},
     {"no-watch", NULL, "do not reload changed files", CLI_TO(Run, no_watch)},
     {"trace", "AGENT",
-     "print each transition of the agent with this id, and why; and between them each term of the "
-     "conditions that it waits for, when it begins or ceases to hold",
+     "print each transition of the agent with this id, and why; and between them its reactions, "
+     "and "
+     "each term of the conditions that it waits for, when it begins or ceases to hold. Repetitions "
+     "within a state are counted, and told ever more seldom",
      CLI_TO(Run, trace), CLI_GIVEN(Run, has_trace), CLI_RANGE(0, UINT32_MAX)},
     {"break", "WHEN",
      "end the run, or with --view pause it, in the step in which WHEN happens: 'agent 17 enters "

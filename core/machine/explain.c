@@ -23,10 +23,16 @@ static void print_expression(const JoxMachineRun *run, const JoxMachine *machine
 void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxText *out) {
     const JoxMachine *machine = run->set->items[taken->machine];
     const JoxTransition *t = &machine->states[taken->from].transitions[taken->transition];
-    jox_text_printf(out, "t=%.2f agent %u %s: %s -> %s (transition %u '%s', %s:%d)\n",
-                    run->tick * run->dt, taken->agent_id, machine->name,
-                    machine->states[taken->from].name, machine->states[taken->to].name,
-                    taken->transition + 1u, t->id, jox_machine_file(machine, t->source), t->line);
+    if (t->stays)
+        jox_text_printf(out, "t=%.2f agent %u %s: in %s, reaction (%s:%d)\n", run->tick * run->dt,
+                        taken->agent_id, machine->name, machine->states[taken->from].name,
+                        jox_machine_file(machine, t->source), t->line);
+    else
+        jox_text_printf(out, "t=%.2f agent %u %s: %s -> %s (transition %u '%s', %s:%d)\n",
+                        run->tick * run->dt, taken->agent_id, machine->name,
+                        machine->states[taken->from].name, machine->states[taken->to].name,
+                        taken->transition + 1u, t->id, jox_machine_file(machine, t->source),
+                        t->line);
     uint32_t agent = jox_agents_find(run->agents, taken->agent_id);
     if (t->when < 0 || agent == JOX_NO_INDEX)
         return;

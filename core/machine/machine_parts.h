@@ -462,11 +462,19 @@ double jox_action_number(JoxMachineRun *run, const JoxMachine *machine, JoxActio
 void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
 /* Forgets the parameters that people set for a machine, and frees the copy. */
 void jox_edits_end(JoxMachineRun *run, uint32_t machine);
-/* watched_agents.c: record a transition and the values that actions wrote, of watched agents. */
+/* watched_agents.c: explain transitions that are due, before reactions change values; record a
+   transition that is taken, and the values that actions wrote, of watched agents. */
+void jox_watch_due(const JoxMachineRun *run, const JoxTaken *due);
 void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken);
 /* trace.c: appends the terms that changed of the conditions that the traced agent waits for, unless
    it takes a transition in this step. */
 void jox_trace_waiting(JoxMachineRun *run);
+/* Explain the transition that is due for the traced agent, before reactions change values; and
+   append it when it is taken. */
+void jox_trace_due(JoxMachineRun *run, const JoxTaken *due);
+void jox_trace_transition(JoxMachineRun *run);
+/* Appends a reaction of the traced agent, in full if it is its first time in this stay. */
+void jox_trace_reaction(JoxMachineRun *run, const JoxTaken *taken);
 void jox_trace_free(JoxMachineRun *run);
 /* Records the number that was drawn for the chance of a transition of agent i. */
 void jox_watch_roll(const JoxMachineRun *run, uint32_t i, uint32_t transition, double drawn);

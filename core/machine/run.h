@@ -144,7 +144,7 @@ typedef struct JoxWatched {
                   describe the last */
     uint32_t tick;
     char from[64], to[64];
-    JoxText why; /* text of jox_machines_explain */
+    JoxText why, due; /* jox_machines_explain of that, and of the one due in this step */
     /* Last roll of each chance since the state was entered. */
     struct JoxRolled {
         bool rolled;

@@ -206,6 +206,29 @@ static void list_fired(JoxMachineRun *run) {
     }
 }
 
+/* Explains the transition that is due for an agent that is traced or watched. */
+static void explain_due_of(JoxMachineRun *run, uint32_t id) {
+    const JoxAgents *a = run->agents;
+    const uint32_t i = id < a->next_id ? jox_agents_find(a, id) : JOX_NO_INDEX;
+    if (i == JOX_NO_INDEX || run->scratch->fired[i] < 0)
+        return;
+    const uint16_t fired = (uint16_t)run->scratch->fired[i];
+    const JoxTransition *t = &jox_machine_of(run, i)->states[a->state[i]].transitions[fired];
+    const JoxTaken due = {id, a->machine[i], a->state[i], jox_destination(run, t, i), fired};
+    if (run->traces && id == run->trace_id)
+        jox_trace_due(run, &due);
+    if (run->watched_count)
+        jox_watch_due(run, &due);
+}
+
+/* Explains the transitions that are due, before reactions change what they rest on. */
+static void explain_due(JoxMachineRun *run) {
+    if (run->traces)
+        explain_due_of(run, run->trace_id);
+    for (uint32_t n = 0; n < run->watched_count; n++)
+        explain_due_of(run, run->watched[n].agent_id);
+}
+
 /* Uses the messages on which the items rest that an agent is to carry out. */
 static void use_messages_of(JoxMachineRun *run, uint32_t i) {
     const JoxMachine *machine = jox_machine_of(run, i);
@@ -251,7 +274,7 @@ static void react(JoxMachineRun *run, uint32_t i) {
         const JoxTaken taken = {a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)k};
         run->state->counts[a->machine[i]].taken[state->first_transition + k]++;
         if (run->traces && a->id[i] == run->trace_id)
-            jox_machines_explain(run, &taken, &run->trace);
+            jox_trace_reaction(run, &taken);
         do_item(run, machine, t, i);
     }
 }
@@ -289,7 +312,7 @@ static void take_transitions(JoxMachineRun *run) {
         run->taken[run->taken_count++] =
             (JoxTaken){a->id[i], a->machine[i], a->state[i], to, (uint16_t)s->fired[i]};
         if (run->traces && a->id[i] == run->trace_id)
-            jox_machines_explain(run, &run->taken[run->taken_count - 1], &run->trace);
+            jox_trace_transition(run);
         if (run->watched_count)
             jox_watch_taken(run, &run->taken[run->taken_count - 1]);
         jox_exit_states(run, i, t->level);
@@ -373,6 +396,7 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
         evaluate_function_conditions(run);
         if (run->traces)
             jox_trace_waiting(run);
+        explain_due(run);
         use_messages(run);
         carry_out_reactions(run);
         take_transitions(run);

@@ -6,6 +6,14 @@
 #include "base/mem.h"
 #include "machine/machine_parts.h"
 
+void jox_watch_due(const JoxMachineRun *run, const JoxTaken *due) {
+    for (uint32_t n = 0; n < run->watched_count; n++)
+        if (run->watched[n].agent_id == due->agent_id) {
+            run->watched[n].due.length = 0;
+            jox_machines_explain(run, due, &run->watched[n].due);
+        }
+}
+
 void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken) {
     const JoxMachine *machine = run->set->items[taken->machine];
     for (uint32_t n = 0; n < run->watched_count; n++) {
@@ -16,9 +24,9 @@ void jox_watch_taken(const JoxMachineRun *run, const JoxTaken *taken) {
         watched->tick = run->tick;
         snprintf(watched->from, sizeof watched->from, "%s", machine->states[taken->from].name);
         snprintf(watched->to, sizeof watched->to, "%s", machine->states[taken->to].name);
-        watched->why.length = 0;
         memset(watched->rolls, 0, sizeof watched->rolls);
-        jox_machines_explain(run, taken, &watched->why);
+        watched->why.length = 0;
+        jox_text_add(&watched->why, watched->due.data);
     }
 }
 
@@ -84,6 +92,7 @@ void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxA
 
 void jox_watched_end(JoxWatched *watched) {
     jox_text_free(&watched->why);
+    jox_text_free(&watched->due);
     jox_free(watched->wrote);
     jox_free(watched->came);
     jox_free(watched->overheard);

@@ -29,6 +29,7 @@ typedef struct JoxWhyTerm {
     bool holds;
     bool negated;  /* under an odd number of `not` */
     bool is_infix; /* a comparison, written with its sign in the middle */
+    bool beats;    /* holds every so many seconds, for one step */
     JoxWhyGap gap; /* from holding */
     JoxText text;  /* a word as written, with `not` where it is negated; else empty */
     JoxText note;  /* what there is instead, as "the nearest is agent 12, 7.3 m away"; may be

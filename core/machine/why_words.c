@@ -185,9 +185,11 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
         jox_why_add_told(run, i, machine->names[in->name].number, &term->note);
         break;
     case JOX_OP_EVERY:
+        term->beats = true;
         say_next(jox_time_in_state(run, i), a, &term->note);
         break;
     case JOX_OP_OUTER_EVERY:
+        term->beats = true;
         say_next(jox_time_since(run, i, (uint32_t)in->arg), a, &term->note);
         break;
     case JOX_OP_DONE:

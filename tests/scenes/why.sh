@@ -144,3 +144,14 @@ react >"$work/out"; grep -qF "a reaction of state 'Walk' was never done in 30 s,
 react --quiet --summary - | grep -q 'Walk>Walk'; [ $? = 1 ]; verdict "  nor a transition of the summary" $?
 grep -qF 'Nobody left Rest.2 hold (where the sequence waits, 3 people in it, since 1 s): `jostle why SCENE --state "Rest.2 hold"`' "$work/out"; verdict "a step in which a sequence waits for ever is named" $?
 grep -qF 'Rest -> Walk (line 4), Rest -> Walk (line 4)' "$work/out"; verdict "  transitions to one state are told apart by their lines" $?
+# A trace counts repetitions, and explains a transition by the values before the reactions of its step.
+cat >"$work/school/flip.lua" <<'LUA'
+local mine = memory { flip = 0 }
+return machine { name = "flip", start = "Walk", states = {
+  Walk = { steer = hold, { every = 0.05, set = { flip = 1 - mine.flip } }, { to = "Rest", when = mine.flip:is(1) & after(20) } }, Rest = { steer = hold } } }
+LUA
+"$JOSTLE" run "$school" --set groups.pupils.behaviour=flip.lua --trace 0 --quiet >"$work/out" 2>&1
+[ "$(grep -c '^t=.* in Walk, reaction' "$work/out")" = 6 ] && grep -q "reaction (.*flip.lua:3) again, 160 times since t=7.10" "$work/out"; verdict "a trace counts a reaction that is repeated" $?
+[ "$(grep -c 'for Rest: mine.flip is 1 ' "$work/out")" = 5 ] && grep -q 'mine.flip is 1 .* (the last of 161 changes)' "$work/out"; verdict "  and a term that flips" $?
+! grep -q 'every(0.05) n' "$work/out"; verdict "  without the beats of every" $?
+grep -q 'when mine.flip 1 is 1 and after(20) is true' "$work/out"; verdict "  and shows the values by which a transition was taken" $?
