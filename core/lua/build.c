@@ -118,6 +118,7 @@ static void build_machine(JoxBuild *build) {
     lua_State *L = script->vm.L;
     JoxNode *node = jox_node_get(L, -1);
     jox_misuse_find(build);
+    jox_list_copies_find(build);
     if (!node || node->kind != JOX_NODE_MACHINE) {
         if (!node || node->kind != JOX_NODE_ERROR)
             jox_diag_error(

@@ -81,6 +81,8 @@ void jox_misuse_find(JoxBuild *build);
 /* Reports uncertain misuse within the value at a path; returns whether any misuse there was
    reported, which explains why the value is wrong. */
 bool jox_misuse_explains(JoxBuild *build, const char *path);
+/* Reports writes of functions into copies of lists in memory. */
+void jox_list_copies_find(JoxBuild *build);
 /* Returns the slot of memory of a name, or -1. */
 int32_t jox_read_memory(const JoxBuild *build, const char *name);
 /* Reads `counts` of the table at `index`, for `state` as in JoxCounter. */

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "luatest/luatest_parts.h"
+#include "machine/lists.h"
 
 double jox_test_speed(const JoxAgents *a, uint32_t i) {
     return sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
@@ -31,13 +32,14 @@ static void push_somebody(lua_State *L, const JoxMachineRun *machines, double wh
 static void push_list(lua_State *L, const JoxMachineRun *machines, const JoxMachine *machine,
                       const double *memory, int32_t index) {
     const JoxMemorySlot *slot = &machine->memory[index];
-    const uint32_t size = jox_list_size(slot, memory, index);
+    double items[JOX_MOST_ITEMS];
+    const uint32_t size = jox_list_read(machines, machine, memory, index, items);
     lua_newtable(L);
     for (uint32_t k = 0; k < size; k++) {
         if (slot->kind == JOX_MEMORY_PEOPLE)
-            push_somebody(L, machines, memory[slot->items + k]);
+            push_somebody(L, machines, items[k]);
         else
-            lua_pushnumber(L, memory[slot->items + k]);
+            lua_pushnumber(L, items[k]);
         lua_rawseti(L, -2, k + 1);
     }
 }

@@ -107,7 +107,7 @@ void jox_dormant_keep(const JoxMachine *old, JoxMachine *next) {
 /* Returns whether the slot is memory of the behaviour's author, not a hidden one or a post. */
 static bool is_named_by_author(const JoxMemorySlot *slot) {
     const char *identity = jox_memory_identity(slot);
-    return *identity > *JOX_IDENTITY_LEAD && strcmp(identity, "home x") != 0 &&
+    return *identity > *JOX_IDENTITY_ITEM && strcmp(identity, "home x") != 0 &&
            strcmp(identity, "home y") != 0;
 }
 
@@ -166,6 +166,11 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
         const JoxMemorySlot *now = &next->memory[s];
         const int32_t from = jox_memory_before(old, next, s);
         const JoxMemorySlot *was = from < 0 ? NULL : &old->memory[from];
+        if (was && !was->dormant && now->capacity < was->capacity)
+            jox_text_printf(out,
+                            " the list '%.60s' holds at most %u items now: where there are more, "
+                            "the oldest are dropped\n",
+                            now->name, now->capacity);
         if (!was || was->dormant == now->dormant || !is_named_by_author(now))
             continue;
         const char *name = jox_memory_identity(now);

@@ -130,12 +130,14 @@ static double count_left(const JoxMachineRun *run, int32_t index) {
 static double eval_list(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
                         const JoxInstruction *in, double item) {
     const double *memory = run->agents->memory + (size_t)i * run->agents->memory_stride;
+    double items[JOX_MOST_ITEMS];
     if (in->op == JOX_OP_LIST_SIZE)
-        return jox_list_size(&machine->memory[in->arg], memory, in->arg);
+        return jox_list_read(run, machine, memory, in->arg, items);
     if (in->op != JOX_OP_LIST_HAS)
-        return jox_list_end(machine, memory, in->arg, in->op == JOX_OP_LIST_LAST);
+        return jox_list_end(run, machine, memory, in->arg, in->op == JOX_OP_LIST_LAST);
     const double who = in->target >= 0 ? jox_target_who(run, i, in->target) : item;
-    return (in->target < 0 || who != JOX_NOBODY) && jox_list_has(machine, memory, in->arg, who);
+    return (in->target < 0 || who != JOX_NOBODY) &&
+           jox_list_has(run, machine, memory, in->arg, who);
 }
 
 /* Returns whether both targets are the same person, body or place. */

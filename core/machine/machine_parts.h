@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "geom/hand_reach.h"
+#include "machine/lists.h"
 #include "machine/run.h"
 
 enum { JOX_BATCH = 256 };

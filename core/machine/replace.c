@@ -77,6 +77,12 @@ static void keep_given(const JoxMachine *old, JoxMachine *next) {
     }
 }
 
+/* Returns whether slot `slot` of the new version is a list that held more items before. */
+static bool shortens_list(const JoxReplacement *r, uint32_t slot) {
+    const int32_t was = r->memory[slot];
+    return was >= 0 && r->next->memory[slot].capacity < r->old->memory[was].capacity;
+}
+
 /* Maps own values and memory of the new version to old slots, and draws own values whose
    distribution changed. */
 static void map_slots(JoxReplacement *r, uint64_t seed) {
@@ -102,7 +108,7 @@ static void map_slots(JoxReplacement *r, uint64_t seed) {
     }
     for (uint32_t s = 0; s < next->memory_count; s++) {
         r->memory[s] = jox_memory_before(old, next, s);
-        r->memory_moves |= r->memory[s] != (int32_t)s;
+        r->memory_moves |= r->memory[s] != (int32_t)s || shortens_list(r, s);
     }
 }
 
@@ -294,6 +300,14 @@ static double begin_slot(const JoxMachineRun *run, const JoxMemorySlot *slot, ui
                                               : slot->initial;
 }
 
+/* Writes the newest items of a list that holds fewer in the new version. */
+static void shorten_list(const JoxMachineRun *run, const JoxReplacement *r, uint32_t slot,
+                         double *memory) {
+    double items[JOX_MOST_ITEMS];
+    const uint32_t count = jox_list_read(run, r->old, r->before, r->memory[slot], items);
+    jox_list_fill(r->next, memory, (int32_t)slot, items, count);
+}
+
 /* Moves an agent's memory to its new slots; new memory gets its initial value. */
 static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
     JoxAgents *a = run->agents;
@@ -302,6 +316,9 @@ static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i
     for (uint32_t s = 0; s < r->next->memory_count; s++)
         memory[s] = r->memory[s] >= 0 ? carry_slot(r, s, r->before[r->memory[s]])
                                       : begin_slot(run, &r->next->memory[s], i);
+    for (uint32_t s = 0; s < r->next->memory_count; s++)
+        if (shortens_list(r, s))
+            shorten_list(run, r, s, memory);
     if (r->next->home && r->memory[r->next->home - 1] < 0)
         jox_set_home_post(run, i); /* first version with a post */
 }

@@ -444,14 +444,6 @@ bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row);
 void jox_who_print(const JoxMachineRun *run, double who, JoxText *out);
 /* Returns the messages that wait for an agent, the oldest first; some may have been used. */
 const JoxMessage *jox_messages_of(const JoxMachineRun *run, uint32_t agent, uint32_t *count);
-/* lists.c: return the length of a list in memory, its first or last item, 0 if it is empty, and
-   whether it contains an item; and change it. `memory` is that of one agent, `index`
-   the slot of the list. */
-uint32_t jox_list_size(const JoxMemorySlot *slot, const double *memory, int32_t index);
-double jox_list_end(const JoxMachine *machine, const double *memory, int32_t index, bool last);
-bool jox_list_has(const JoxMachine *machine, const double *memory, int32_t index, double item);
-void jox_list_change(const JoxMachine *machine, double *memory, int32_t index, JoxListChange change,
-                     double item);
 /* Prints a value of memory: a number, "true", whom it holds, or the items of a list. */
 void jox_memory_print(const JoxMachineRun *run, const JoxMachine *machine, const double *memory,
                       uint32_t index, JoxText *out);

@@ -122,7 +122,7 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
         if (!isfinite(values[n]))
             jox_odd_note(run, i, JOX_ACTION_MEMORY + assign->slot, &assign->value, values[n]);
         else if (assign->change != JOX_LIST_NONE)
-            jox_list_change(machine, memory, assign->slot, assign->change, values[n]);
+            jox_list_change(run, machine, memory, assign->slot, assign->change, values[n]);
         else
             memory[assign->slot] = values[n];
     }

@@ -213,12 +213,34 @@ void jox_clear_unused_slots(JoxAgents *a, uint32_t i, const JoxMachine *machine)
         memory[s] = 0.0;
 }
 
-/* Returns whether a slot of memory goes on as one of another machine: by its name, or as an item of
-   a list. */
+/* Returns whether a slot of memory goes on as one of another machine, by its name. */
 static bool continues_memory(const JoxMemorySlot *was, const JoxMemorySlot *is) {
-    const char *identity = jox_memory_identity(is);
-    return (*is->name || *identity == *JOX_IDENTITY_ITEM) && was->kind == is->kind &&
-           strcmp(jox_memory_identity(was), identity) == 0;
+    return *is->name && was->kind == is->kind && strcmp(was->name, is->name) == 0;
+}
+
+/* A list that goes on in another machine. */
+typedef struct KeptList {
+    uint32_t slot, count; /* slot in the next machine */
+    double items[JOX_MOST_ITEMS];
+} KeptList;
+
+/* Writes the lists of an agent that go on in its next machine; returns how many. */
+static uint32_t keep_lists(const JoxMachineRun *run, uint32_t i, const JoxMachine *next,
+                           KeptList lists[JOX_MOST_SET]) {
+    const JoxAgents *a = run->agents;
+    const JoxMachine *old = jox_machine_of(run, i);
+    uint32_t count = 0;
+    for (uint32_t n = 0; n < next->memory_count && count < JOX_MOST_SET; n++)
+        for (uint32_t o = 0; jox_memory_is_list(&next->memory[n]) && o < old->memory_count; o++)
+            if (continues_memory(&old->memory[o], &next->memory[n])) {
+                lists[count] = (KeptList){.slot = n};
+                lists[count].count =
+                    jox_list_read(run, old, a->memory + (size_t)i * a->memory_stride, (int32_t)o,
+                                  lists[count].items);
+                count++;
+                break;
+            }
+    return count;
 }
 
 void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
@@ -244,8 +266,13 @@ void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
                 remembered[n] = jox_dist_constant(a->memory[(size_t)i * a->memory_stride + o]);
                 memory[n] = &remembered[n];
             }
+    KeptList lists[JOX_MOST_SET];
+    const uint32_t list_count = keep_lists(run, i, next, lists);
     a->machine[i] = (uint16_t)machine;
     draw_values(run, i, next, own, memory);
+    for (uint32_t n = 0; n < list_count; n++)
+        jox_list_fill(next, a->memory + (size_t)i * a->memory_stride, (int32_t)lists[n].slot,
+                      lists[n].items, lists[n].count);
     jox_clear_unused_slots(a, i, next);
     a->given[i] = given;
     jox_messages_recheck(run, i);

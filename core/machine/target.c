@@ -153,7 +153,7 @@ double jox_target_named_who(const JoxMachineRun *run, const JoxTarget *target, u
     case JOX_TARGET_STRIKER:
         return jox_who_struck(run, i);
     case JOX_TARGET_ITEM:
-        return jox_list_end(jox_machine_of(run, i),
+        return jox_list_end(run, jox_machine_of(run, i),
                             run->agents->memory + (size_t)i * run->agents->memory_stride,
                             target->arg, target->field != 0);
     case JOX_TARGET_MESSAGE:

@@ -74,6 +74,26 @@ bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32
     return false;
 }
 
+/* Warns of memory that does not go on as it is in the machine that agents of a state become. */
+static void compare_memory(const JoxMachine *machine, const JoxState *state, const JoxMachine *next,
+                           JoxDiagnostics *diagnostics) {
+    const JoxPosition at = {state->become_file, state->become_line, state->become_column, 0};
+    for (uint32_t s = 0; s < machine->memory_count; s++) {
+        const JoxMemorySlot *was = &machine->memory[s];
+        const int32_t slot = jox_machine_memory(next, was->name);
+        const JoxMemorySlot *is = slot < 0 ? NULL : &next->memory[slot];
+        if (is && is->kind != was->kind)
+            jox_diag_warn(diagnostics, at, "other-memory", "Give one of them another name",
+                          "memory '%.60s' is of another kind in '%.60s', and begins anew there",
+                          was->name, next->name);
+        else if (is && is->capacity < was->capacity)
+            jox_diag_warn(diagnostics, at, "other-memory", "Give both the same length",
+                          "the list '%.60s' holds %u items, and %u in '%.60s': of more, the oldest "
+                          "are dropped there",
+                          was->name, was->capacity, is->capacity, next->name);
+    }
+}
+
 bool jox_run_link_becomes(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
     bool good = true;
     for (uint32_t s = 0; s < machine->state_count; s++) {
@@ -84,6 +104,9 @@ bool jox_run_link_becomes(JoScene *scene, JoxMachine *machine, JoxDiagnostics *d
                             ? load_machine(scene, path, diagnostics)
                             : -1;
         machine->states[s].become_machine = index;
+        if (index >= 0)
+            compare_memory(machine, &machine->states[s], scene->world->machines.set->built[index],
+                           diagnostics);
         good = good && index >= 0;
     }
     return good;

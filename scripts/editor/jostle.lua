@@ -364,7 +364,7 @@ function Target:contains(item) end
 ---@field signal fun(name: string) gives a signal: me.signal("alarm")
 ---@field tell fun(whom: jostle.View, name: string, values?: table<string, number|jostle.View>) tells somebody a message, as `tell` does: me.tell(me.prey, "shot", { damage = 2 })
 ---@field told fun(name: string): jostle.Told|nil the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up when the functions and items of this step are done; further calls get the next one
----@field holding jostle.View|nil the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them
+---@field holding jostle.View|nil the body that it carries, else the agent that it holds on to; nil: none. A list in memory is read as a table, a copy, and changed by setting it to a table. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them
 ---@field striker jostle.View|nil who kicked or threw the body that hits it, else that body; nil: none
 ---@field speed number wanted speed, m/s; 0 to 20, default 1.3
 ---@field max_speed number hard cap on speed; only a contact impulse exceeds it, m/s; 0 to 30, default 1.8
@@ -905,7 +905,7 @@ function circuits(place) end
 ---@return T|jostle.Remembered
 function memory(declared) end
 
---- `list(capacity [, nobody])`: for `memory`: begins as an empty list of at most so many numbers, 1 to 16, or with `nobody` of people, bodies and places. mine.LIST.size, .first and .last read it, mine.LIST:contains(item) asks; `set` changes it: by mine.LIST:push(item), after which a full list lacks its first, :remove(item), which removes all that are the item, or :clear()
+--- `list(capacity [, nobody])`: for `memory`: begins as an empty list of at most so many numbers, 1 to 16, or with `nobody` of people, bodies and places. mine.LIST.size, .first and .last read it, mine.LIST:contains(item) asks; `set` changes it: by mine.LIST:push(item), after which a full list lacks its first, :remove(item), which removes all that are the item, or :clear(). Who has left the world is in no list any more
 ---@param capacity any
 ---@param nobody? any
 ---@return any

@@ -202,6 +202,37 @@ test("all items of a step that hold rest on the same message, which is used up b
   equal(one.entered, 12)
 end)
 
+test("who has left the world is in no list any more, and makes room there", function()
+  local one = [[local mine = memory { met = list(3, nobody), size = 0, first = nobody, hooks = 0 }
+    local met = mine.met
+    return machine { name = "one", start = "A", defaults = { perception = 20 }, states = {
+      A = { steer = hold, { to = "B", when = after(0.1), set = { met = met:push(nearest "early") } } },
+      B = { steer = hold, { to = "C", when = after(0.1), set = { met = met:push(nearest "late") } } },
+      C = { steer = hold, { to = "D", when = after(0.1), set = { met = met:push(nearest "ball") } } },
+      D = { steer = hold, { to = "E", when = after(1), set = { size = met.size, first = met.first } } },
+      E = { steer = hold, on_enter = function(me) me.hooks = #me.met end,
+        { to = "F", when = after(0.1), set = { met = met:push("post") } } },
+      F = { steer = hold } } }]]
+  local leaver = [[return machine { name = "leaver", start = "A", states = {
+    A = { steer = hold, { to = "B", when = after(0.6) } }, B = { removes = true } } }]]
+  local still = [[return machine { name = "still", start = "A", states = { A = { steer = hold } } }]]
+  local s = scene { places = { post = { point = { 9, 9 } } },
+    bodies = { { shape = { sphere = { radius = 0.2 } }, mass = 1, at = { 0, 9, 0.2 }, tags = { "ball" }, name = "b" } },
+    groups = { one = { behaviour = one, at = { { 0, 0 } } },
+      leaver = { behaviour = leaver, at = { { 3, 0 } }, tags = { "early" } },
+      still = { behaviour = still, at = { { 5, 0 } }, tags = { "late" } } } }
+  s:run(0.5)
+  equal(#s:agents("one")[1].met, 3)
+  s:run(2)
+  local a, late = s:agents("one")[1], s:agents("still")[1].id
+  equal(a.size, 2)
+  equal(a.first, late)
+  equal(a.hooks, 2)
+  equal(#a.met, 3) -- nobody who is there had to go
+  equal(a.met[1], late)
+  equal(a.met[3], "place 'post'")
+end)
+
 test("left counts who went from a place, wherever the agent is", function()
   local leaver = [[return machine { name = "leaver", start = "Go", states = {
     Go = { steer = seek(own.way), { to = "Gone", when = inside(own.way) } }, Gone = { removes = true } } }]]

@@ -107,14 +107,17 @@ expect "lost changes of another agent's memory are reported" 0 "buyer.lua:3: 'ea
 pays "other.told = not other.told or true"
 "$JOSTLE" run "$work/till.yaml" 2>&1 | grep -q "is changed by several"; [ $? = 1 ]; verdict "  not if all set the same value" $?
 cat >"$work/caller.lua" <<'END'
+local mine = memory { last = list(4), kept = 0 }
 return machine { name = "caller", start = "A", states = {
-  A = { steer = hold, { to = "B", when = after(0.1), tell = { neighbours "anyone", "late" } } },
+  A = { steer = hold, { every = 0.05, set = { last = mine.last:push(now.time) } }, { to = "B", when = after(0.1), tell = { neighbours "anyone", "late" } } },
   B = { steer = hold, { when = told "late" & after(9) }, { to = "C", when = after(0.5) } },
   C = { become = "quiet" } } }
 END
-echo 'return machine { name = "quiet", start = "A", states = { A = { steer = hold } } }' >"$work/quiet.lua"
+echo 'memory { last = list(2), kept = false } return machine { name = "quiet", start = "A", states = { A = { steer = hold } } }' >"$work/quiet.lua"
 printf 'jostle: 1\nduration: 1\ngroups: {g: {behaviour: caller.lua, at: [[0, 0], [1, 0]]}}\n' >"$work/late.yaml"
 expect "messages that wait when an agent becomes a machine that never asks for them are counted" 0 '"messages_unasked": 2' "$JOSTLE" run "$work/late.yaml" --quiet --summary -
+expect "a list that is longer than in the machine which agents become is told" 0 "caller.lua:5:9: warning: the list 'last' holds 4 items, and 2 in 'quiet': of more, the oldest are dropped there" "$JOSTLE" check "$work/late.yaml"
+expect "  and memory of another kind" 0 "memory 'kept' is of another kind in 'quiet', and begins anew there" "$JOSTLE" check "$work/late.yaml"
 expect "--profile-lua lists the cost of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
 expect "reference prints behaviours by default" 0 "### Conditions" "$JOSTLE" reference behaviours
 expect "reference refuses an unknown page" 2 "there is no page 'plants'; there are behaviours, scenes" "$JOSTLE" reference plants

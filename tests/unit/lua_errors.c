@@ -252,6 +252,12 @@ static const Mistake MISTAKES[] = {
      "neighbours(\"people\"):within(5)"},
     {"local mine = memory { ids = list(3) }\nlocal a = mine.ids[1]\n" HEAD "A = {} } }", ERROR, 2,
      16, 19, "bad-operand", ".first and .last"},
+    {"local mine = memory { ids = list(3) }\n" HEAD
+     "A = { steer = hold, on_enter = function(me) me.ids[1] = 3 end } } }",
+     ERROR, 3, 48, 51, "copied-list", "changes the copy alone"},
+    {"local mine = memory { ids = list(3) }\n" HEAD
+     "A = { steer = hold, on_enter = function(me) table.insert(me.ids, 3) end } } }",
+     ERROR, 3, 61, 64, "copied-list", "me.NAME = list"},
     {"local mine = memory { ids = list(3) }\nlocal a = #mine.ids\n" HEAD "A = {} } }", ERROR, 2, 11,
      12, "bad-operator", ".size"},
     {"local mine = memory { ids = list(3) }\n" HEAD

@@ -1,5 +1,6 @@
 /* Tests of reloads by versions with other names: tags and teams that no group of the scene has, and
  * memory that a version lacks. */
+#include "machine/lists.h"
 #include "run/reload.h"
 #include "unit/scene_loader.h"
 
@@ -284,6 +285,37 @@ static void renamed_memory_replaces_kept_memory(void **state) {
     jo_scene_free(scene);
 }
 
+#define LISTING(length)                                                                            \
+    "local mine = memory { n = 0, times = list(" length ") }\n" MACHINE_START                      \
+    "\"A\", states = { A = { steer = hold, { every = 0.1, when = mine.n:below(6), "                \
+    "set = { n = mine.n + 1, times = mine.times:push(mine.n) } } } } }\n"
+
+/* Returns an item of the list `times` of an agent, by its number from 0; -1 beyond its end. */
+static double read_listed(const JoScene *scene, uint32_t agent, uint32_t item) {
+    const JoxMachine *m = scene->world->machines.set->items[0];
+    const JoxAgents *a = &scene->world->state.agents;
+    double items[JOX_MOST_ITEMS];
+    const uint32_t count =
+        jox_list_read(&scene->world->machines, m, a->memory + (size_t)agent * a->memory_stride,
+                      jox_machine_memory(m, "times"), items);
+    return item < count ? items[item] : -1.0;
+}
+
+static void a_shorter_list_keeps_its_newest_items(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(TWO, LISTING("6"));
+    step_scene(scene, 40);
+    assert_true(read_listed(scene, 1, 0) == 0.0 && read_listed(scene, 1, 5) == 5.0);
+    swap_behaviour_live(scene, LISTING("2"));
+    assert_non_null(strstr(scene_messages.data, "the list 'times' holds at most 2 items now"));
+    assert_null(strstr(scene_messages.data, "is kept until")); /* its hidden items are not named */
+    assert_true(read_listed(scene, 1, 0) == 4.0 && read_listed(scene, 1, 1) == 5.0 &&
+                read_listed(scene, 1, 2) == -1.0);
+    swap_behaviour_live(scene, LISTING("6"));
+    assert_true(read_listed(scene, 1, 0) == 4.0 && read_listed(scene, 1, 2) == -1.0);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tag_and_team_that_a_state_sets_are_known),
@@ -297,6 +329,7 @@ int main(void) {
         cmocka_unit_test(oldest_of_too_many_kept_names_is_dropped_and_reported),
         cmocka_unit_test(restored_memory_is_not_reported_as_new),
         cmocka_unit_test(renamed_memory_replaces_kept_memory),
+        cmocka_unit_test(a_shorter_list_keeps_its_newest_items),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

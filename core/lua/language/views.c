@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/fields.h"
+#include "machine/lists.h"
 
 static const char VIEW[] = "jostle view";
 
@@ -24,15 +25,16 @@ struct JoxView {
 static void push_list(lua_State *L, JoxScript *script, const JoxMachine *machine,
                       const double *memory, int32_t index) {
     const JoxMemorySlot *slot = &machine->memory[index];
-    const uint32_t size = jox_list_size(slot, memory, index);
+    double items[JOX_MOST_ITEMS];
+    const uint32_t size = jox_list_read(script->owner->machines, machine, memory, index, items);
     jox_vm_charge(L, 20 * (size + 1));
     luaL_checkstack(L, 4, NULL);
     lua_createtable(L, (int)size, 0);
     for (uint32_t k = 0; k < size; k++) {
         if (slot->kind == JOX_MEMORY_PEOPLE)
-            jox_view_push_somebody(L, script, memory[slot->items + k]);
+            jox_view_push_somebody(L, script, items[k]);
         else
-            lua_pushnumber(L, memory[slot->items + k]);
+            lua_pushnumber(L, items[k]);
         lua_rawseti(L, -2, k + 1);
     }
 }

@@ -245,7 +245,7 @@ const JoxWord jox_words[] = {
      "for `memory`: begins as an empty list of at most so many numbers, 1 to 16, or with `nobody` of people, bodies and "
      "places. mine.LIST.size, .first and .last read it, mine.LIST:contains(item) asks; `set` changes it: by "
      "mine.LIST:push(item), after which a full list lacks its first, :remove(item), which removes all that are the "
-     "item, or :clear()", "memory { met = list(8, nobody), times = list(3) }"},
+     "item, or :clear(). Who has left the world is in no list any more", "memory { met = list(8, nobody), times = list(3) }"},
     {":contains", "*", CONDITION, 0, 0, "list:contains(item)", "", "the list in memory holds this number or target", "mine.met:contains(nearest \"people\")"},
     {"machine", "*", 0, 0, 0, "machine { ... }", "", "the table that a behaviour returns, or that a state runs (see `runs`)",
      "machine { name = \"m\", start = \"A\", states = { A = {} } }"},
@@ -404,7 +404,7 @@ const JoxMeKey jox_me_keys[] = {
     {"signal", "function(name)", "", "gives a signal: me.signal(\"alarm\")"},
     {"tell", "function(whom, name, values)", "", "tells somebody a message, as `tell` does: me.tell(me.prey, \"shot\", { damage = 2 })"},
     {"told", "function(name)", "", "the oldest message of this name that waits, a table of its `sender` and values; nil if none does. It is used up when the functions and items of this step are done; further calls get the next one"},
-    {"holding", "view", "", "the body that it carries, else the agent that it holds on to; nil: none. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them"},
+    {"holding", "view", "", "the body that it carries, else the agent that it holds on to; nil: none. A list in memory is read as a table, a copy, and changed by setting it to a table. Memory that holds somebody is read in the same way: a view of an agent or body (a body has id, x, y, vx and vy), the name of a place, or nil; and it is set to one of them"},
     {"striker", "view", "", "who kicked or threw the body that hits it, else that body; nil: none"},
     {"in_sight", "true or false", "", "of a view: the agent sees it now. Of one whom it remembers and does not see, only `id` is known"},
 };
