@@ -45,7 +45,8 @@ test("memory and messages take a place that is drawn", function()
       local mine = memory { spot = nobody, other = nobody, told_of = nobody }
       return machine { name = "people", start = "Draw", defaults = { perception = 9, neighbours = 16 }, states = {
         Draw = { steer = hold, { to = "Drawn", when = after(0.1),
-          set = { spot = one_of "spots", other = one_of "spots" }, tell = { neighbours "anyone", "go", to = one_of "spots" } } },
+          set = { spot = one_of "spots", other = one_of "spots" },
+          tell = { neighbours "anyone", "go", to = one_of "spots" } } },
         Drawn = { steer = field(mine.spot), { to = "There", when = near(mine.spot, 1),
           set = { told_of = told("go").to } } },
         There = { steer = hold } } }]] } } }
