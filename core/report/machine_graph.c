@@ -63,6 +63,18 @@ static void add_lines(Graph *g, const char *text, size_t width) {
     }
 }
 
+/* Appends "PREFIX TEXT", the text without the braces and blanks around it. */
+static void add_within_braces(const char *prefix, const char *text, JoxText *line) {
+    size_t length = strlen(text);
+    const char *inner = text + 1 + strspn(text + 1, " ");
+    if (length > 1 && text[length - 1] == '}')
+        length--;
+    while (length > 1 && text[length - 1] == ' ')
+        length--;
+    jox_text_printf(line, "%s%.*s", prefix,
+                    inner < text + length ? (int)(text + length - inner) : 0, inner);
+}
+
 /* Adds "PREFIX TEXT", the text being what the files have at a path, without braces around it; a
    function becomes "function, FILE:LINE". Returns whether it was found: what code builds is not. */
 static bool add_written(Graph *g, const char *prefix, const char *path, size_t width) {
@@ -74,8 +86,8 @@ static bool add_written(Graph *g, const char *prefix, const char *path, size_t w
     if (strncmp(text, "function", 8) == 0)
         jox_text_printf(&line, "%sfunction, %s:%d", prefix, jox_path_name(written.file),
                         written.line);
-    else if (*text == '{' && written.text.length > 4)
-        jox_text_printf(&line, "%s%.*s", prefix, (int)written.text.length - 4, text + 2);
+    else if (*text == '{')
+        add_within_braces(prefix, text, &line);
     else
         jox_text_printf(&line, "%s%s", prefix, text);
     jox_text_printf(&g->seen, "%s\n", line.data);
@@ -161,19 +173,42 @@ static void print_tint(JoxText *out, JoxInk ink, double white) {
     jox_text_add(out, "\"");
 }
 
+/* Adds the steering or duration of a step, which no file has as a key of a state. */
+static void add_step_line(Graph *g, const JoxState *state, const char *key) {
+    static const char *const WORDS[JOX_STEER_FUNCTION + 1] = {[JOX_STEER_HOLD] = "hold",
+                                                              [JOX_STEER_SEEK] = "seek",
+                                                              [JOX_STEER_FIELD] = "field",
+                                                              [JOX_STEER_QUEUE] = "queue"};
+    const JoxSteerTerm *steer = &state->steer[0];
+    JoxText line = {0};
+    if (strcmp(key, "steer") == 0 && state->steer_count == 1 && WORDS[steer->kind]) {
+        jox_text_add(&line, WORDS[steer->kind]);
+        if (steer->target >= 0)
+            jox_text_printf(&line, " %s", g->machine->targets[steer->target].name);
+    }
+    if (strcmp(key, "lasts") == 0 && state->has_lasts) {
+        jox_text_add(&line, "lasts ");
+        jox_dist_print(&state->lasts, &line);
+        jox_text_add(&line, " s");
+    }
+    if (line.length)
+        add_lines(g, line.data, STATE_WIDTH);
+    jox_text_free(&line);
+}
+
 /* Adds what a state does. */
 static void add_state_lines(Graph *g, const JoxState *state) {
-    static const char *const KEYS[][2] = {{"", "steer"},           {"lasts ", "lasts"},
-                                          {"signal: ", "signal"},  {"set: ", "set"},
-                                          {"tell: ", "tell"},      {"kick: ", "kick"},
-                                          {"take: ", "take"},      {"throw: ", "throw"},
-                                          {"grasp: ", "grasp"},    {"on_enter: ", "on_enter"},
-                                          {"on_exit: ", "on_exit"}};
+    static const char *const KEYS[][2] = {
+        {"", "steer"},        {"lasts ", "lasts"},        {"signal: ", "signal"},
+        {"set: ", "set"},     {"tell: ", "tell"},         {"kick: ", "kick"},
+        {"take: ", "take"},   {"drop: ", "drop"},         {"throw: ", "throw"},
+        {"grasp: ", "grasp"}, {"on_enter: ", "on_enter"}, {"on_exit: ", "on_exit"}};
     char of[256], path[2 * sizeof of];
     jox_state_path(state, of);
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++) {
         snprintf(path, sizeof path, "%s.%s", of, KEYS[k][1]);
-        add_written(g, KEYS[k][0], path, STATE_WIDTH);
+        if (!add_written(g, KEYS[k][0], path, STATE_WIDTH) && jox_state_is_step(g->machine, state))
+            add_step_line(g, state, KEYS[k][1]);
     }
     if (state->become) {
         snprintf(path, sizeof path, "becomes %.100s", state->become);

@@ -52,11 +52,19 @@ if command -v dot >/dev/null; then
     xmllint --noout "$work/odd.svg"; verdict "  as well-formed XML" $?
 fi
 
+cat >"$work/drop.lua" <<'END'
+local mine = memory { n=0 }
+return machine { name = "drop", start = "Go", states = { Go = { steer = hold, drop = nearest "ball", { to = "Go", id = "x", when = after(1), set={n=mine.n+10} } } } }
+END
+expect "a drop is drawn, and actions without blanks are whole" 0 'drop: nearest &quot;ball&quot;' "$JOSTLE" graph "$work/drop.lua" --dot
+dot_has "  in braces" 'set: n=mine.n+10<'
+
 cat >"$work/steps.lua" <<'END'
 return machine { name = "steps", start = "Leave", states = {
   Leave = { runs = sequence { seek "door", wait(2) }, { to = "Gone", when = done } }, Gone = { removes = true } } }
 END
 expect "steps of a sequence follow one another" 0 'label=<when it is over<' "$JOSTLE" graph "$work/steps.lua" --dot
+dot_has "  with steering and seconds" '<b>1 seek door</b><br/><font point-size="9">seek door<' '<b>2 wait</b><br/><font point-size="9">hold<br align="left"/>lasts 2 s<'
 dot_has "  in a frame" '<b>1 seek door</b>' '<b>2 wait</b>' 'label=<done<'
 
 # ---- pictures ----
