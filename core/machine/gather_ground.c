@@ -36,8 +36,10 @@ static void include_disc(JoxV2 *low, JoxV2 *high, JoxV2 p, float radius) {
    `corners`: room for its points. */
 static JoxPlace find_floor_box(const JoxMachineRun *run, JoxV2 corners[4]) {
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
-    for (uint32_t v = 0; run->walls && v < run->walls->count; v++)
-        include_disc(&low, &high, run->walls->vertices[v].point, ABOUT);
+    const JoxWalls *const both[] = {run->walls, run->wall_images};
+    for (uint32_t k = 0; k < 2; k++)
+        for (uint32_t v = 0; both[k] && v < both[k]->count; v++)
+            include_disc(&low, &high, both[k]->vertices[v].point, ABOUT);
     for (uint32_t row = 0; run->objects && row < run->objects->count; row++) {
         const JoxObject *o = &run->objects->rows[row];
         if (jox_standable_is_fixed(o))

@@ -179,16 +179,39 @@ void jox_standable_free(JoxStandable *s) {
     *s = (JoxStandable){0};
 }
 
-static bool is_cut_off(const JoxStandable *s, JoxV2 p, JoxV2 q) {
+enum { NEAR_EDGES = 64 };
+
+/* Lists the edges that meet a box; returns how many there are, also beyond the room. */
+static uint32_t list_edges(const JoxStandable *s, JoxV2 low, JoxV2 high, uint32_t out[NEAR_EDGES]) {
+    uint32_t count = 0;
     for (uint32_t e = 0; e < s->edge_count; e++)
+        if (jox_boxes_meet(s->edges[2 * e], s->edges[2 * e + 1], low, high)) {
+            if (count < NEAR_EDGES)
+                out[count] = e;
+            count++;
+        }
+    return count;
+}
+
+/* Returns whether an edge separates two points: one of `count` listed ones, or any if they are more
+   than could be listed. */
+static bool is_cut_off(const JoxStandable *s, const uint32_t *listed, uint32_t count, JoxV2 p,
+                       JoxV2 q) {
+    const bool all = count > NEAR_EDGES;
+    const uint32_t tested = all ? s->edge_count : count;
+    for (uint32_t n = 0; n < tested; n++) {
+        const uint32_t e = all ? n : listed[n];
         if (jox_segment_crossing(s->edges[2 * e], s->edges[2 * e + 1], p, q))
             return true;
+    }
     return false;
 }
 
 /* Returns the nearest free cell within two cells of a blocked one. */
 static uint32_t find_cell_near(const JoxStandable *s, uint32_t middle, JoxV2 p) {
-    uint32_t found = JOX_NO_CELL;
+    uint32_t found = JOX_NO_CELL, near[NEAR_EDGES];
+    const JoxV2 reach = {3.0f * s->cell, 3.0f * s->cell};
+    const uint32_t edges = list_edges(s, jox_sub(p, reach), jox_add(p, reach), near);
     float least2 = INFINITY;
     for (uint32_t k = 0; k < 25; k++) {
         const uint32_t column = middle % s->columns + k % 5 - 2;
@@ -196,7 +219,7 @@ static uint32_t find_cell_near(const JoxStandable *s, uint32_t middle, JoxV2 p) 
         if (column >= s->columns || row >= s->rows || !s->part[cell])
             continue;
         const float off2 = jox_length2(jox_sub(cell_middle(s, cell), p));
-        if (off2 < least2 && !is_cut_off(s, p, cell_middle(s, cell))) {
+        if (off2 < least2 && !is_cut_off(s, near, edges, p, cell_middle(s, cell))) {
             least2 = off2;
             found = cell;
         }
