@@ -86,12 +86,12 @@ void jox_machines_draw_lasts(JoxMachineRun *run, uint32_t i, uint32_t level) {
 static void start_outer_clocks(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                                uint32_t i, uint32_t level) {
     const JoxAgents *a = run->agents;
-    double *memory = a->memory + (size_t)i * a->memory_stride;
+    const size_t first = (size_t)i * a->memory_stride;
     for (uint32_t l = level; l < state->depth; l++) {
         if (machine->clock[l])
-            memory[machine->clock[l] - 1] = run->tick;
+            a->memory[first + machine->clock[l] - 1] = run->tick;
         if (machine->lasting[l])
-            memory[machine->lasting[l] - 1] =
+            a->memory[first + machine->lasting[l] - 1] =
                 draw_lasts(run, &machine->outer[state->around[l]], i, 1 + l);
     }
 }

@@ -42,10 +42,10 @@ void jox_note_left_state(JoxMachineRun *run, const JoxTransition *t, uint32_t i,
     const JoxAgents *a = run->agents;
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
-    double *memory = a->memory + (size_t)i * a->memory_stride;
+    const size_t first = (size_t)i * a->memory_stride;
     for (uint32_t l = t->level; !t->back && l <= state->depth; l++) {
         const uint32_t slot = jox_state_on_level(machine, state, l)->came_from;
         if (slot) /* a machine that begins anew has left no state yet */
-            memory[slot - 1] = l == t->level ? 1.0 + a->state[i] : 0.0;
+            a->memory[first + slot - 1] = l == t->level ? 1.0 + a->state[i] : 0.0;
     }
 }

@@ -206,11 +206,10 @@ void jox_machines_set_own(JoxMachineRun *run, uint32_t i, uint32_t slot, double 
 }
 
 void jox_clear_unused_slots(JoxAgents *a, uint32_t i, const JoxMachine *machine) {
-    double *memory = a->memory + (size_t)i * a->memory_stride;
     for (uint32_t s = machine->own_count; s < a->own_count; s++)
         jox_own_set(a, i, s, 0.0);
     for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
-        memory[s] = 0.0;
+        a->memory[(size_t)i * a->memory_stride + s] = 0.0;
 }
 
 /* Returns whether a slot of memory goes on as one of another machine, by its name. */
