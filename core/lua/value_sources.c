@@ -285,13 +285,15 @@ static void visit_engine_default(int parameter, const Settings *to) {
 }
 
 /* Visits the places of a key or transition of a state within outer ones: its own; else those of the
-   nearest outer state around it that sets it; else those of defaults, of the machine first. */
+   nearest outer state around it that sets it, but not for an item by its number or with the mark of
+   one, which is the state's own; else those of defaults, of the machine first. */
 static bool visit_nested_path(const JoxScript *script, const JoxMachine *machine,
                               const JoxState *state, const char *rest, Settings *to) {
     char path[256], full[256];
     const int parameter = jox_parameter_find(rest);
+    const uint32_t most = *rest == '@' || (*rest >= '0' && *rest <= '9') ? 0 : state->depth;
     int count = 0;
-    for (uint32_t up = 0; !count && up <= state->depth; up++) {
+    for (uint32_t up = 0; !count && up <= most; up++) {
         const JoxState *on =
             up == 0 ? state : jox_state_on_level(machine, state, state->depth - up);
         jox_state_path(on, path);

@@ -249,6 +249,15 @@ static void print_test_output(void *context, const char *text) {
         jox_run_send_message(tests->message, tests->context, text);
 }
 
+/* Removes the files of behaviours that the tests of a file contain. */
+static void remove_kept(Tests *tests) {
+    for (size_t k = 0; k < tests->kept_count; k++) {
+        unlink(tests->kept[k]);
+        jox_free(tests->kept[k]);
+    }
+    tests->kept_count = 0;
+}
+
 static void run_test_file(Tests *tests, const char *path) {
     TestContext context = {tests, path};
     const JoxTestDriver driver = {.load = load_driven_scene,
@@ -278,6 +287,7 @@ static void run_test_file(Tests *tests, const char *path) {
         jox_diag_free(&diagnostics);
     else
         jox_run_report_diagnostics(tests->message, tests->context, &diagnostics, NULL);
+    remove_kept(tests);
 }
 
 static bool is_test_file(const char *name) {
@@ -318,10 +328,6 @@ static bool run_test_paths(const char *const *paths, size_t count, const char *o
         jox_json_end(&tests.array);
         jox_text_append(&tests.results, "\n", 1);
         jox_run_send_message(message, context, tests.results.data);
-    }
-    for (size_t k = 0; k < tests.kept_count; k++) {
-        unlink(tests.kept[k]);
-        jox_free(tests.kept[k]);
     }
     if (*tests.folder) {
         char inner[128];

@@ -20,7 +20,8 @@ static void write_yaml_string(lua_State *L, JoxTestRun *run, int index, const ch
         (strchr(text, '\n') || strstr(text, "return machine") || strstr(text, "return sequence"))) {
         text = run->driver->keep(run->driver->context, text, length);
         if (!text)
-            luaL_error(L, "behaviours in a test are at most 200, of at most 256 KB each");
+            luaL_error(L,
+                       "the behaviours in a file of tests are at most 200, of at most 256 KB each");
     }
     jox_json_string(json, key, text);
 }

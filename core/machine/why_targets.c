@@ -155,8 +155,9 @@ static void add_lack(const JoxMachineRun *run, uint32_t i, const JoxAgentFilter 
         jox_text_add(out, "not of the group");
         break;
     case NEED_MEMORY:
-        jox_text_printf(out, "without %s >= %.6g", names[filter->memory].text, filter->least);
-        if (!isinf(filter->greatest))
+        jox_text_printf(out, "without %s %s %.6g", names[filter->memory].text,
+                        filter->least == filter->greatest ? "=" : ">=", filter->least);
+        if (!isinf(filter->greatest) && filter->least != filter->greatest)
             jox_text_printf(out, " and <= %.6g", filter->greatest);
         break;
     case NEED_FLIES:

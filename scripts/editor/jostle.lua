@@ -53,7 +53,7 @@ function Counted:of_machine(name) end
 ---@param name string
 ---@return jostle.Counted
 function Counted:of_group(name) end
---- restricts them to agents whose public memory of this name is true, or is a number from least to greatest
+--- restricts them to agents whose public memory of this name is true, or is a number from least to greatest; :where(name, false) to those of whom it is false
 ---@param name string
 ---@param least? number
 ---@param greatest? number
@@ -110,7 +110,7 @@ function Target:of_machine(name) end
 ---@param name string
 ---@return jostle.Target
 function Target:of_group(name) end
---- restricts them to agents whose public memory of this name is true, or is a number from least to greatest
+--- restricts them to agents whose public memory of this name is true, or is a number from least to greatest; :where(name, false) to those of whom it is false
 ---@param name string
 ---@param least? number
 ---@param greatest? number

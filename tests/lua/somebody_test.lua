@@ -287,3 +287,26 @@ test("one may hold, and tell, oneself", function()
   equal(one.whom, one.id)
   equal(one.heard, 7)
 end)
+
+test("a filter takes those of whom public memory is false", function()
+  local function stander(name, ill)
+    return [[ memory { ill = false }
+      return machine { name = "]] .. name .. [[", start = "Stand", public = { "ill" },
+        states = { Stand = { steer = hold, set = { ill = ]] .. ill .. [[ } } } }]]
+  end
+  local s = scene { groups = {
+    ill = { behaviour = stander("patient", "true"), at = { { 1, 0 } } },
+    well = { behaviour = stander("visitor", "false"), at = { { 3, 0 } } },
+    looker = { at = { { 0, 0 } }, behaviour = [[
+      local mine = memory { ill = nobody, well = nobody }
+      return machine { name = "looker", start = "Look", defaults = { perception = 9 }, states = {
+        Look = { steer = hold, { to = "Done", when = after(0.1), set = {
+          ill = nearest("anyone"):where("ill", true), well = nearest("anyone"):where("ill", false) } } },
+        Done = { steer = hold } } }]] } } }
+  s:run(1)
+  equal(s:agents("looker")[1].ill, s:agents("ill")[1].id)
+  equal(s:agents("looker")[1].well, s:agents("well")[1].id)
+  refused({ groups = { looker = { at = { { 0, 0 } }, behaviour = [[
+    return machine { name = "looker", start = "Look", states = {
+      Look = { { to = "Look", when = sees(nearest("anyone"):where("ill", "no")) } } } }]] } } }, "true or false")
+end)

@@ -97,6 +97,14 @@ printf 'name: far\ntitle: Far\nversion: 1.0.0\napi: 1\n' >"$work/mods/far/mod.ya
 printf 'return patch "tawaf" { states = { Circle = { steer = seek "kaaba" } } }\n' >"$work/mods/far/patches/tawaf.lua"
 expect "mods change the graph" 0 'seek &quot;kaaba&quot;' "$JOSTLE" graph scenes/tawaf.yaml --mod "$work/mods/far" --set groups.pilgrims.count=1 --dot
 
+cat >"$work/inner.lua" <<'END'
+return machine { name = "m", start = "P", states = {
+  P = { runs = sequence { wait(1), wait(2) }, { to = "Q", when = heard "x", set = { team = "red" } } },
+  Q = { steer = hold, { to = back, when = after(1) } } } }
+END
+"$JOSTLE" graph "$work/inner.lua" --dot >"$work/out"
+same "what an outer transition does is not drawn at inner ones" "$(grep -c 'team = ' "$work/out")" 1
+
 # ---- mistakes ----
 printf 'return machine { name = "m", start = "A", states = { A = { steer = hold, { to = "B" } } } }\n' >"$work/wrong.lua"
 expect "a behaviour with errors" 3 "wrong.lua:1:76" "$JOSTLE" graph "$work/wrong.lua" --dot

@@ -124,14 +124,22 @@ static int method_of_group(lua_State *L) {
 }
 
 static int method_where(lua_State *L) {
+    const int given = lua_gettop(L), least = lua_type(L, 3), greatest = lua_type(L, 4);
+    const bool truth = given == 3 && least == LUA_TBOOLEAN;
+    const bool numbers = given < 3 || (given == 3 && least == LUA_TNUMBER) ||
+                         (given == 4 && least == LUA_TNUMBER && greatest == LUA_TNUMBER);
     JoxNodeFilter *filter = push_named_target(L, "where");
-    const int given = lua_isnumber(L, 4) ? 4 : lua_isnumber(L, 3) ? 3 : 2;
     if (!filter)
         return 1;
+    if (!truth && !numbers)
+        return jox_word_error(L, "where", "bad-argument",
+                              "nearest(\"people\"):where(\"laps\", 0, 2), or (\"ill\", false)",
+                              "after the name, :where takes a least and a greatest number, or true "
+                              "or false");
     filter->memory = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
     filter->memory_at = jox_word_place(L, filter->memory);
-    filter->least = given > 2 ? lua_tonumber(L, 3) : 1.0;
-    filter->greatest = given > 3 ? lua_tonumber(L, 4) : INFINITY;
+    filter->least = truth ? lua_toboolean(L, 3) : given > 2 ? lua_tonumber(L, 3) : 1.0;
+    filter->greatest = truth ? filter->least : given > 3 ? lua_tonumber(L, 4) : INFINITY;
     return 1;
 }
 

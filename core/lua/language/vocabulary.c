@@ -148,7 +148,7 @@ const JoxWord jox_words[] = {
      "restricts them to agents of this group of the scene", "nearest(\"anyone\"):of_group(\"people\")"},
     {":where", "*", TARGET, 0, 0, "of:where(name [, least [, greatest]])", "",
      "restricts them to agents whose public memory of this name is true, or is a number from "
-     "least to greatest", "nearest(\"people\"):where(\"laps\", 0, 2)"},
+     "least to greatest; :where(name, false) to those of whom it is false", "nearest(\"people\"):where(\"laps\", 0, 2)"},
     {":fallen", "*", TARGET, 0, 0, "of:fallen()", "",
      "restricts them to agents that lie after a fall (see `balance`)",
      "nearest(\"anyone\"):fallen()"},
