@@ -164,7 +164,10 @@ const CliCommand cli_why = {
         "have been in their state, and for every transition out of it each term of its condition, "
         "with its value and its bound, and what there is where it does not hold. The transition "
         "that is nearest to firing comes first, and within it the terms that do not hold. Of many "
-        "people, how many hold each term. Ids of agents are on the live page, in recordings, and "
+        "people, how many hold each term. Of an agent also where its steering leads, and what "
+        "keeps "
+        "take, kick, throw, grasp and face from their targets. Ids of agents are on the live page, "
+        "in recordings, and "
         "in what `why` says of groups and states.",
     .notes = "examples:\n"
              "  jostle why office --agent 17 --at 30\n"

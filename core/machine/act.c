@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "base/number/pi.h"
-#include "machine/machine_parts.h"
+#include "machine/obstacles.h"
 
 static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
 static const float AT_REST = 0.1f;    /* m/s: slower bodies do not pass their kicker */
@@ -155,18 +155,36 @@ static JoxV3 find_kick_impulse(JoxMachineRun *run, const JoxMachine *machine, co
     return kick;
 }
 
+JoxObstacle jox_find_kick_obstacle(const JoxMachineRun *run, const JoxState *state, uint32_t i,
+                                   JoxSpot *spot) {
+    const JoxAgents *a = run->agents;
+    *spot = jox_target_find(run, i, state->kick);
+    if (spot->object < 0)
+        return spot->found ? JOX_OBSTACLE_KIND : JOX_OBSTACLE_ABSENT;
+    const JoxObject *object = &run->objects->rows[spot->object];
+    if (!object->moves)
+        return JOX_OBSTACLE_FIXED;
+    if (object->held)
+        return JOX_OBSTACLE_HELD;
+    if (jox_spot_gap(run, i, spot) >= JOX_KICK_REACH)
+        return JOX_OBSTACLE_FAR;
+    if (!object->in_band)
+        return JOX_OBSTACLE_HIGH;
+    const bool hidden =
+        jox_is_hidden(run, jox_v2(a->x[i], a->y[i]), jox_v2(spot->x, spot->y), true);
+    return hidden ? JOX_OBSTACLE_BLOCKED : JOX_OBSTACLE_NONE;
+}
+
 /* Kicks the target of the state if the agent touches it: an impulse through the body's centre,
    towards kick_at; straight ahead without it, or if there is none in sight. */
 static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
     JoxAgents *a = run->agents;
-    JoxSpot ball = jox_target_find(run, i, state->kick);
-    if (ball.object < 0 || run->tick < a->kick_ready[i] || jox_spot_gap(run, i, &ball) >= 0.05f)
+    JoxSpot ball;
+    if (run->tick < a->kick_ready[i] ||
+        jox_find_kick_obstacle(run, state, i, &ball) != JOX_OBSTACLE_NONE)
         return;
     const JoxObject *object = &run->objects->rows[ball.object];
-    if (!object->moves || !object->in_band || object->held ||
-        jox_is_hidden(run, jox_v2(a->x[i], a->y[i]), jox_v2(ball.x, ball.y), true))
-        return;
     JoxV2 way = {ball.x - a->x[i], ball.y - a->y[i]};
     if (state->kick_at >= 0) {
         JoxSpot at = jox_target_find(run, i, state->kick_at);
@@ -187,9 +205,6 @@ static void kick_body(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }
 
-static const float REACH = 0.6f;     /* m: greatest gap over which a body is picked up */
-static const float CATCHABLE = 8.0f; /* m/s: faster bodies are not caught */
-
 /* Adds a pick-up or throw, unless another agent has one of the same body. */
 static void add_grip(JoxMachineRun *run, JoxGrip grip) {
     for (uint32_t g = 0; g < run->grip_count; g++)
@@ -208,18 +223,35 @@ static bool hands_reach(const JoxMachineRun *run, uint32_t i, const JoxSpot *bod
     return jox_hands_reach(hands, from, to);
 }
 
-/* Picks up the target of the state if it is within reach, slow, and not held. */
-static void pick_up_body(JoxMachineRun *run, const JoxState *state, uint32_t i) {
+JoxObstacle jox_find_take_obstacle(const JoxMachineRun *run, const JoxState *state, uint32_t i,
+                                   JoxSpot *spot) {
     const JoxAgents *a = run->agents;
-    JoxSpot spot = jox_target_find(run, i, state->take);
-    if (spot.object < 0 || jox_held_body_row(run, i, state->take) >= 0)
-        return;
-    const JoxObject *object = &run->objects->rows[spot.object];
-    JoxV2 relative = {spot.vx - a->vx[i], spot.vy - a->vy[i]};
-    if (object->moves && !object->held && jox_spot_gap(run, i, &spot) < REACH && spot.z < 2.0f &&
-        jox_length(relative) < CATCHABLE && hands_reach(run, i, &spot))
-        add_grip(run,
-                 (JoxGrip){.object = (uint32_t)spot.object, .agent_id = a->id[i], .takes = true});
+    *spot = jox_target_find(run, i, state->take);
+    if (spot->object < 0)
+        return spot->found ? JOX_OBSTACLE_KIND : JOX_OBSTACLE_ABSENT;
+    const JoxObject *object = &run->objects->rows[spot->object];
+    const JoxV2 relative = {spot->vx - a->vx[i], spot->vy - a->vy[i]};
+    if (!object->moves)
+        return JOX_OBSTACLE_FIXED;
+    if (object->held)
+        return JOX_OBSTACLE_HELD;
+    if (!(jox_spot_gap(run, i, spot) < JOX_TAKE_REACH))
+        return JOX_OBSTACLE_FAR;
+    if (!(spot->z < 2.0f))
+        return JOX_OBSTACLE_HIGH;
+    if (!(jox_length(relative) < JOX_CATCHABLE))
+        return JOX_OBSTACLE_FAST;
+    return hands_reach(run, i, spot) ? JOX_OBSTACLE_NONE : JOX_OBSTACLE_BLOCKED;
+}
+
+/* Picks up the target of the state unless the agent holds it, or something keeps it from it. */
+static void pick_up_body(JoxMachineRun *run, const JoxState *state, uint32_t i) {
+    JoxSpot spot;
+    if (jox_held_body_row(run, i, state->take) < 0 &&
+        jox_find_take_obstacle(run, state, i, &spot) == JOX_OBSTACLE_NONE)
+        add_grip(run, (JoxGrip){.object = (uint32_t)spot.object,
+                                .agent_id = run->agents->id[i],
+                                .takes = true});
 }
 
 /* Throws the held body at the target with a given horizontal speed, and the vertical speed with

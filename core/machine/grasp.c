@@ -4,9 +4,8 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "machine/machine_parts.h"
+#include "machine/obstacles.h"
 
-static const float REACH = 0.5f;     /* m: greatest gap over which an agent takes hold */
 static const float SLIPS = 1.0f;     /* m: gap at which the hold is lost */
 static const float STIFFNESS = 2e3f; /* N/m: stiffness of an arm */
 /* Bounds on stiffness and damping, as shares of m / dt2 and m / dt, beyond which an explicit step
@@ -18,19 +17,26 @@ static float measure_arm_gap(const JoxAgents *a, uint32_t i, uint32_t j) {
     return jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
 }
 
+JoxObstacle jox_find_grasp_obstacle(const JoxMachineRun *run, const JoxState *state, uint32_t i,
+                                    JoxSpot *spot) {
+    *spot = jox_target_find(run, i, state->grasp);
+    if (spot->agent == JOX_NO_INDEX || spot->agent == i)
+        return spot->found ? JOX_OBSTACLE_KIND : JOX_OBSTACLE_ABSENT;
+    return measure_arm_gap(run->agents, i, spot->agent) <= JOX_GRASP_REACH ? JOX_OBSTACLE_NONE
+                                                                           : JOX_OBSTACLE_FAR;
+}
+
 /* Returns the agent that i holds: the one it held, else its target if within reach. */
-static uint32_t find_held(const JoxMachineRun *run, uint32_t i, int32_t target) {
+static uint32_t find_held(const JoxMachineRun *run, uint32_t i, const JoxState *state) {
     const JoxAgents *a = run->agents;
+    JoxSpot spot;
     if (a->grasped[i]) {
         const uint32_t j = jox_agents_find(a, a->grasped[i] - 1);
         if (j != JOX_NO_INDEX && !a->removed[j] && measure_arm_gap(a, i, j) <= SLIPS)
             return j;
     }
-    const JoxSpot spot = jox_target_find(run, i, target);
-    return spot.agent != JOX_NO_INDEX && spot.agent != i &&
-                   measure_arm_gap(a, i, spot.agent) <= REACH
-               ? spot.agent
-               : JOX_NO_INDEX;
+    return jox_find_grasp_obstacle(run, state, i, &spot) == JOX_OBSTACLE_NONE ? spot.agent
+                                                                              : JOX_NO_INDEX;
 }
 
 static void pull_together(const JoxMachineRun *run, uint32_t i, uint32_t j, float grip) {
@@ -63,7 +69,7 @@ void jox_machines_grasp(JoxMachineRun *run, const uint32_t *agents, uint32_t cou
     for (uint32_t n = 0; n < count; n++) {
         const uint32_t i = agents[n];
         const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
-        const uint32_t j = find_held(run, i, state->grasp);
+        const uint32_t j = find_held(run, i, state);
         a->grasped[i] = j == JOX_NO_INDEX ? 0 : a->id[j] + 1;
         if (j == JOX_NO_INDEX)
             continue;

@@ -70,6 +70,11 @@ typedef struct JoxWhyTransition {
 void jox_why_transition(const JoxMachineRun *run, uint32_t agent, uint32_t index,
                         JoxWhyTransition *out);
 void jox_why_free(JoxWhyTransition *transition);
+/* why_deeds.c: appends a line for the steering of an agent's state that has a target, "steering:
+   seek(ball): body 'ball', 1.5 m away", and a line for each action that something keeps from its
+   target, "take ball: ... beyond the reach of 0.6 m". Within a look. Returns whether something does
+   not work. */
+bool jox_why_add_deeds(const JoxMachineRun *run, uint32_t agent, JoxText *out);
 /* Appends a message in words: "'shot' of agent 3, told at 2.30 s, damage 2". */
 void jox_why_add_message(const JoxMachineRun *run, const JoxMessage *message, JoxText *out);
 /* Returns whether gap `a` is less than gap `b`. */

@@ -1,5 +1,6 @@
 /* What a target is for an agent, in words; where it is not found, which candidates there are, and
    what each of them lacks. why_words.c and why.c call it. */
+#include <stdio.h>
 #include <string.h>
 
 #include "base/format/plurals.h"
@@ -365,13 +366,28 @@ static void say_named(const JoxMachineRun *run, uint32_t i, const JoxTarget *tar
     add_candidate(run, i, &target->filter, &one, out);
 }
 
+/* Appends that somebody whom memory holds has never been seen, and where that is. */
+static void say_never_seen(const JoxMachineRun *run, uint32_t i, const JoxTarget *target,
+                           JoxText *out) {
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const int32_t slot = machine->sightings[target->arg].memory;
+    char name[100];
+    snprintf(name, sizeof name, "mine.%.90s", machine->memory[slot].name);
+    const JoxTarget held = {.kind = JOX_TARGET_MEMORY,
+                            .arg = slot,
+                            .name = name,
+                            .filter = {.state = -1, .machine = -1, .memory = -1, .group = -1}};
+    jox_text_printf(out, "it has not seen %s; ", name);
+    say_named(run, i, &held, out);
+}
+
 /* Appends what there is in place of a target that is not found. */
 static void say_unfound(const JoxMachineRun *run, uint32_t i, const JoxTarget *target,
                         JoxText *out) {
     if (jox_target_kind_chooses(target->kind))
         say_absent(run, i, target, out);
     else if (target->kind == JOX_TARGET_LAST_SEEN)
-        jox_text_printf(out, "it has not seen %s", target->name);
+        say_never_seen(run, i, target, out);
     else if (jox_target_kind_moves(target->kind))
         say_named(run, i, target, out);
     else

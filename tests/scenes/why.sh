@@ -48,6 +48,18 @@ assert (after["holds"], after["value"], after["relation"], after["bound"], after
 assert near["when"]["text"] == "near(teacher, 2)" and near["line"] == 7 and near["file"].endswith("pupil.lua")
 '
 verdict "--json is an object of transitions and terms" $?
+cat >"$work/school/reach.lua" <<'LUA'
+return machine { name = "reach", start = "Reach", states = { Reach = { steer = seek(nearest "anyone"), take = nearest "ball", { to = "Reach", when = has(nearest "ball") } } } }
+LUA
+cat >"$work/school/reach.yaml" <<'END'
+jostle: 1
+duration: 5
+bodies: [{name: ball, shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [1.5, 0, 0.1], tags: [ball]}]
+groups: {n: {behaviour: reach.lua, at: [[0, 0]]}}
+END
+expect "an action that something keeps from its target is told" 0 "  take ball: body 'ball', 1.5 m away: a gap of 1.2 m, reach 0.6 m" "$JOSTLE" why "$work/school/reach.yaml" --agent 0 --quiet
+expect "  of a state, too, with steering that leads nowhere" 0 "  agent 0: steering: seek(anyone): there is nobody else in the world; so it stands" "$JOSTLE" why "$work/school/reach.yaml" --state Reach --quiet
+"$JOSTLE" why "$work/school/reach.yaml" --agent 0 --json 2>/dev/null | grep -q '"take ball: body .ball., 1.5 m away: a gap of 1.2 m, reach 0.6 m"'; verdict "  and as JSON" $?
 expect "progress is shown, on stderr" 0 "" bash -c "'$JOSTLE' why '$school' --agent 0 >/dev/null"
 grep -q '30' "$work/out"; verdict "  up to the end" $?
 # From a checkpoint, at its time and later, as from the beginning.

@@ -120,11 +120,55 @@ static void told_messages_are_accounted_for(void **state) {
     jo_scene_free(scene);
 }
 
+/* What a state does in vain is told: steering to whom it does not see, and bodies beyond reach. */
+static void actions_in_vain_are_told(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(
+        "jostle: 1\nwalls: [{line: [[-3, -5], [-3, 5]], height: 3}]\nplaces: {far: {point: [9, "
+        "0]}}\n"
+        "bodies: [{name: ball, shape: {sphere: {radius: 0.1}}, mass: 1, at: [1.5, 0, 0.1], tags: "
+        "[ball]}]\n"
+        "groups:\n"
+        "  one: {behaviour: own.lua, tags: [one], at: [[0, 0]]}\n"
+        "  runners: {behaviour: own.lua, tags: [runner], at: [[-4, 0]]}\n"
+        "  guides: {behaviour: own.lua, at: [[-3, 7]]}\n",
+        "local mine = memory { friend = nobody }\nlocal ball = nearest \"ball\"\n"
+        "local hi = told \"hi\"\n" MACHINE_START
+        "\"Look\", defaults = { perception = 9, speed = 1 }, states = {\n"
+        "  Look = { steer = hold,\n"
+        "    { when = now.y:above(5) & after(0.05),\n"
+        "      tell = { nearest \"one\", \"hi\", who = nearest \"runner\" } },\n"
+        "    { to = \"Go\", when = hi, set = { friend = hi.who } } },\n"
+        "  Go = { steer = field(last_seen(mine.friend)), face = mine.friend, take = ball,\n"
+        "    kick = { ball, at = \"far\", impulse = 1 }, grasp = mine.friend,\n"
+        "    { to = \"Throw\", when = after(1) } },\n"
+        "  Throw = { steer = seek \"far\" + spread, throw = { ball, at = \"far\", speed = 3 },\n"
+        "    { to = \"Look\", when = after(9) } } } }\n");
+    step_scene(scene, 10);
+    char *text = ask_agent(scene, 0);
+    CHECK_ORDER(text, "memory: friend agent 1",
+                "  steering: field(last_seen(mine.friend)): it has not seen mine.friend; "
+                "mine.friend is agent 1 (in Look), 4 m away, behind a wall; so it stands\n",
+                "  face mine.friend: mine.friend is agent 1 (in Look), 4 m away, behind a wall\n",
+                "  take ball: body 'ball', 1.5 m away: a gap of 1.2 m, reach 0.6 m\n",
+                "  kick ball: body 'ball', 1.5 m away: a gap of 1.2 m, reach 0.05 m\n",
+                "  grasp mine.friend: mine.friend is agent 1 (in Look), 4 m away, behind a wall\n",
+                "It stays, as its transition does not fire");
+    jo_free(text);
+    step_scene(scene, 30);
+    text = ask_agent(scene, 0);
+    CHECK_ORDER(text, "  steering: seek(far): ", " m away; spread\n",
+                "  throw ball: it does not hold it\n", "It stays");
+    jo_free(text);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(candidates_are_counted_by_what_they_lack),
         cmocka_unit_test(calls_are_measured_from_where_the_agent_was),
         cmocka_unit_test(told_messages_are_accounted_for),
+        cmocka_unit_test(actions_in_vain_are_told),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

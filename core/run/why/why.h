@@ -18,6 +18,7 @@ typedef struct JoxWhyAgent {
     const JoxWatched *watched; /* record of its past; NULL: it is not watched */
     JoxWhyTransition transitions[JOX_MOST_TRANSITIONS]; /* in the order of the state */
     uint32_t order[JOX_MOST_TRANSITIONS];               /* nearest to firing first */
+    JoxText deeds; /* lines on what its state does (jox_why_add_deeds) */
     /* States on the shortest way from its own to a state that is asked for; way_count 0: none is
        asked for, or no way leads there. Transitions to way[1] alone are shown. */
     const char *to; /* state that is asked for; NULL: none */
@@ -55,6 +56,7 @@ typedef struct JoxWhyCrowd {
         JoxWhyTransition shown; /* of the nearest */
     } transitions[JOX_MOST_TRANSITIONS];
     uint32_t order[JOX_MOST_TRANSITIONS];
+    JoxText deeds; /* of `longest`, if something that its state does fails (jox_why_add_deeds) */
 } JoxWhyCrowd;
 
 /* Explains agents, given by index, that are all in one state of one machine. */

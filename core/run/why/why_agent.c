@@ -105,6 +105,7 @@ void jox_why_agent(JoScene *scene, JoxBehaviourLook *look, uint32_t agent, const
         jox_why_transition(&world->machines, agent, k, &out->transitions[k]);
         gaps[k] = out->transitions[k].gap;
     }
+    jox_why_add_deeds(&world->machines, agent, &out->deeds);
     sort_by_gap(out->state, out->order, gaps);
     if (to && !jox_state_is_in(out->state, to))
         find_way(out);
@@ -114,6 +115,7 @@ void jox_why_agent_free(JoxWhyAgent *why) {
     for (uint32_t k = 0; k < why->state->transition_count; k++)
         jox_why_free(&why->transitions[k]);
     jox_free(why->way);
+    jox_text_free(&why->deeds);
 }
 
 /* ---- many agents in one state ---- */
@@ -168,9 +170,13 @@ void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agent
     for (uint32_t k = 0; k < out->state->transition_count; k++)
         gaps[k] = out->transitions[k].shown.gap;
     sort_by_gap(out->state, out->order, gaps);
+    jox_world_look_at(scene->world, look, out->longest);
+    if (!jox_why_add_deeds(&world->machines, out->longest, &out->deeds))
+        out->deeds.length = 0;
 }
 
 void jox_why_crowd_free(JoxWhyCrowd *crowd) {
+    jox_text_free(&crowd->deeds);
     for (uint32_t k = 0; k < crowd->state->transition_count; k++) {
         jox_free(crowd->transitions[k].holders);
         jox_why_free(&crowd->transitions[k].shown);

@@ -76,9 +76,23 @@ static void add_messages(const JoScene *scene, uint32_t agent, JoxJson *json) {
     jox_json_end(json);
 }
 
+/* Adds "does": lines on what a state does. */
+static void add_deeds(const JoxText *deeds, JoxJson *json) {
+    const char *line = deeds->length ? deeds->data : "";
+    jox_json_array(json, "does");
+    for (; *line; line += strcspn(line, "\n") + 1) {
+        JoxText text = {0};
+        jox_text_append(&text, line, strcspn(line, "\n"));
+        jox_json_string(json, NULL, text.data);
+        jox_text_free(&text);
+    }
+    jox_json_end(json);
+}
+
 void jox_why_agent_json(const JoScene *scene, const JoxWhyAgent *why, JoxJson *json) {
     static const char *const CHANCES[] = {[JOX_WHY_TO_ROLL] = "to roll", [JOX_WHY_LOST] = "lost"};
     add_messages(scene, why->agent, json);
+    add_deeds(&why->deeds, json);
     jox_json_array(json, "transitions");
     for (uint32_t k = 0; k < why->state->transition_count; k++) {
         const uint32_t index = why->order[k];
@@ -117,6 +131,7 @@ void jox_why_crowd_json(const JoScene *scene, const JoxWhyCrowd *crowd, JoxJson 
     jox_json_digits(json, "earliest", crowd->earliest, DIGITS);
     jox_json_digits(json, "latest", crowd->latest, DIGITS);
     jox_json_whole(json, "longest", a->id[crowd->longest]);
+    add_deeds(&crowd->deeds, json);
     jox_json_array(json, "transitions");
     for (uint32_t k = 0; k < crowd->state->transition_count; k++) {
         const uint32_t index = crowd->order[k];

@@ -184,6 +184,13 @@ static void print_messages(const JoScene *scene, const JoxWhyAgent *why, JoxText
     }
 }
 
+/* Appends lines on what a state does, each behind `before`. */
+static void print_deeds(const JoxText *deeds, const char *before, JoxText *out) {
+    const char *line = deeds->length ? deeds->data : "";
+    for (; *line; line += strcspn(line, "\n") + 1)
+        jox_text_printf(out, "%s%.*s\n", before, (int)strcspn(line, "\n"), line);
+}
+
 /* Returns the transition that an agent takes next, or the number of transitions. */
 static uint32_t find_next_transition(const JoxWhyAgent *why) {
     uint32_t first = 0;
@@ -250,6 +257,7 @@ void jox_why_agent_text(const JoScene *scene, const JoxWhyAgent *why, JoxText *o
     print_values(scene, why, false, out);
     print_values(scene, why, true, out);
     print_messages(scene, why, out);
+    print_deeds(&why->deeds, "  ", out);
     const uint32_t leading = jox_why_count_leading(why->state);
     const uint32_t first = find_next_transition(why);
     if (leading == 0)
@@ -315,6 +323,9 @@ void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const ch
     else
         jox_text_printf(out, ", since %.2f s (agent %u) to %.2f s\n", crowd->earliest,
                         a->id[crowd->longest], crowd->latest);
+    char before[40];
+    snprintf(before, sizeof before, "  agent %u: ", a->id[crowd->longest]);
+    print_deeds(&crowd->deeds, before, out);
     if (jox_why_count_leading(crowd->state) == 0)
         jox_text_printf(out, "  State %s has no transitions: nothing leads out of it.\n",
                         crowd->state->name);

@@ -65,8 +65,9 @@ function messageRows(texts) {
 function whyRows(why) {
     if (!why) return [el("p", { className: "faint" }, "It has no behaviour.")];
     const messages = messageRows(why.messages);
+    const deeds = why.does.map((text) => el("p", { className: "faint" }, text));
     const last = why.transitions.some((t) => t.to) ? null : el("p", { className: "faint" }, "Nothing leads out of this state.");
-    return [messages, why.transitions.map(transitionRow), last];
+    return [messages, deeds, why.transitions.map(transitionRow), last];
 }
 
 /** Shows named values in `list`, or hides `part`, which has the list, if there are none. */
