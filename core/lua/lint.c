@@ -163,7 +163,8 @@ static void check_firing(JoxBuild *b, const JoxState *state) {
         if (taken->level < state->depth)
             continue;
         write_transition_path(m, state, taken, full);
-        if (t > 0 && is_unconditional(&state->transitions[t - 1])) {
+        const bool known = b->script->diagnostics->errors == 0; /* else a `when` may be missing */
+        if (t > 0 && known && is_unconditional(&state->transitions[t - 1])) {
             add_warning(b, full, "never-fires", "Put it before that one",
                         "this transition never fires: the one before it is always taken");
             return;

@@ -310,3 +310,15 @@ test("a filter takes those of whom public memory is false", function()
     return machine { name = "looker", start = "Look", states = {
       Look = { { to = "Look", when = sees(nearest("anyone"):where("ill", "no")) } } } }]] } } }, "true or false")
 end)
+
+test("a list that is declared wrongly is told once", function()
+  local wrong = { groups = { looker = { at = { { 0, 0 } }, behaviour = [[
+    local mine = memory { met = list(20, nobody) }
+    return machine { name = "looker", start = "Look", states = {
+      Look = { { to = "Done", when = after(1) | mine.met:contains(other), set = { met = mine.met:clear() } },
+        { to = "Done", when = after(2) } }, Done = { steer = hold } } }]] } } }
+  refused(wrong, "list takes a length")
+  truthy(not pcall(refused, wrong, "memory 'met'"))
+  truthy(not pcall(refused, wrong, "unknown key"))
+  truthy(not pcall(refused, wrong, "always taken"))
+end)

@@ -126,14 +126,16 @@ static int make_memory(lua_State *L) {
     lua_pushnil(L);
     while (lua_next(L, 1)) {
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
-        const int kind = read_memory_kind(L);
+        const bool wrong = jox_node_is_error(L, -1); /* told where it was made */
+        const int kind = wrong ? JOX_MEMORY_NUMBER : read_memory_kind(L);
         if (lua_type(L, -2) != LUA_TSTRING || kind < 0 || script->memory_count >= JOX_MOST_SET)
             return jox_word_error(L, name, "bad-memory",
                                   "Numbers, true or false, `nobody` and list(8) can be remembered",
                                   "memory '%s' cannot be %s%s", name,
                                   jox_node_get(L, -1) ? "" : "a ", jox_node_kind(L, -1));
         JOX_RESERVE(script->memory, script->memory_capacity, script->memory_count + 1);
-        double value = kind == JOX_MEMORY_NUMBER    ? lua_tonumber(L, -1)
+        double value = wrong                        ? 0.0
+                       : kind == JOX_MEMORY_NUMBER  ? lua_tonumber(L, -1)
                        : kind == JOX_MEMORY_BOOLEAN ? lua_toboolean(L, -1)
                                                     : JOX_NOBODY;
         const JoxMemorySlot *known = find_memory(script, name);
@@ -155,6 +157,7 @@ static int make_memory(lua_State *L) {
         JoxMemorySlot slot = {.name = jox_strdup(name),
                               .kind = (JoxMemoryKind)kind,
                               .capacity = capacity,
+                              .dormant = wrong,
                               .initial = value};
         uint32_t at =
             script->memory_count++; /* inserted in order of names, as tables have no order */
@@ -181,6 +184,8 @@ static int memory_index(lua_State *L) {
     for (uint32_t i = 0; i < script->memory_count; i++) {
         names[i] = script->memory[i].name;
         if (strcmp(script->memory[i].name, name) == 0) {
+            if (script->memory[i].dormant) /* what it begins as is wrong */
+                return jox_node_push_error(L);
             static const JoxNodeKind KINDS[] = {[JOX_MEMORY_NUMBER] = JOX_NODE_NUMBER,
                                                 [JOX_MEMORY_BOOLEAN] = JOX_NODE_CONDITION,
                                                 [JOX_MEMORY_SOMEBODY] = JOX_NODE_TARGET,
