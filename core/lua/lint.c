@@ -329,6 +329,7 @@ void jox_lint(JoxBuild *b) {
     check_reachable(b);
     check_exits(b);
     check_hidden_fields(b);
+    jox_lint_memory(b);
     for (uint32_t o = 0; o < b->machine->outer_count; o++) {
         check_firing(b, &b->machine->outer[o]);
         check_done(b, o);

@@ -115,6 +115,9 @@ void jox_read_parameter_values(JoxBuild *build);
 void jox_read_defaults(JoxBuild *build, int index, const char *path, uint32_t nested);
 /* Warns of parts of the machine that have no effect. In lint.c. */
 void jox_lint(JoxBuild *build);
+/* Warns of memory that is read and never set, and of messages read where none is asked for. In
+   lint_memory.c. */
+void jox_lint_memory(JoxBuild *build);
 /* Read `own` and `public` of the machine's table at `index` and `path`. In declare.c. */
 void jox_read_own(JoxBuild *build, int index, const char *path);
 void jox_read_public(JoxBuild *build, int index, const char *path);

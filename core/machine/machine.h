@@ -256,6 +256,9 @@ typedef struct JoxMemorySlot {
     uint32_t capacity, items; /* for a list: greatest length, and the slot of its first item */
     bool is_public;           /* other machines may read it */
     uint32_t name_number;     /* number of the name in the set of machines, if is_public */
+    bool unset; /* a number that the machine reads and never sets; a scene may give it a value */
+    int32_t line, column, end_column; /* if unset: where it is declared; 0 unknown */
+    uint32_t source;                  /* index of that file in the machine's `files` */
 } JoxMemorySlot;
 
 /* circuits: net counter-clockwise turns about `target` since the agent first crossed its start line

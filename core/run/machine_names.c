@@ -159,6 +159,40 @@ void jox_run_check_own_values(const JoScene *scene, const JoxMachine *machine,
         jox_run_attach_sources(files, count, diagnostics);
 }
 
+static bool gives_memory(const JoxGroupValue *values, uint32_t count, const char *name) {
+    for (uint32_t v = 0; v < count; v++)
+        if (strcmp(values[v].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* Warns of numbers in memory that the machine reads and that neither it nor the scene sets. */
+static void check_unset_memory(const JoScene *scene, const JoxMachine *machine,
+                               const JoxLuaFile *files, uint32_t count,
+                               JoxDiagnostics *diagnostics) {
+    const JoxSceneSpec *spec = scene->spec;
+    for (uint32_t s = 0; s < machine->memory_count; s++) {
+        const JoxMemorySlot *slot = &machine->memory[s];
+        bool given = !slot->unset;
+        char hint[160];
+        for (uint32_t g = 0; g < spec->group_count; g++)
+            given |= gives_memory(spec->groups[g].memory, spec->groups[g].memory_count, slot->name);
+        for (uint32_t n = 0; n < spec->source_count; n++)
+            given |=
+                gives_memory(spec->sources[n].memory, spec->sources[n].memory_count, slot->name);
+        if (given)
+            continue;
+        const char *file = slot->source < count ? files[slot->source].path : machine->path;
+        snprintf(
+            hint, sizeof hint,
+            "In a transition: set = { %.40s = ... }, or in the scene's group: memory: {%.40s: 1}",
+            slot->name, slot->name);
+        jox_diag_warn(
+            diagnostics, ((JoxPosition){file, slot->line, slot->column, slot->end_column}),
+            "unset-memory", hint, "memory '%.60s' is read, and nothing sets it", slot->name);
+    }
+}
+
 /* Returns where a behaviour first names a state or memory of other machines. */
 static JoxPosition get_name_position(const JoxMachine *machine, const JoxName *name,
                                      const JoxLuaFile *files, uint32_t count) {
@@ -239,6 +273,7 @@ void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnosti
         const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
         size_t before = diagnostics->count;
         jox_run_check_own_values(scene, machine, files, count, diagnostics);
+        check_unset_memory(scene, machine, files, count, diagnostics);
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             const bool others = name->uses & (JOX_NAME_STATE | JOX_NAME_MEMORY);

@@ -265,6 +265,16 @@ static const Mistake MISTAKES[] = {
      ERROR, 3, 35, 38, "bad-value", "one message for each item"},
     {"local mine = memory { on = false }\n" HEAD "A = { set = { on = now.speed } } } }", ERROR, 3,
      15, 17, "bad-value", "becomes a condition by"},
+    {"local mine = memory { who = nobody }\n" HEAD "A = { steer = seek(mine.who) } } }", WARNING, 1,
+     23, 26, "unset-memory", "it stays nobody"},
+    {"local mine = memory { ids = list(3) }\n" HEAD "A = { speed = mine.ids.size } } }", WARNING, 1,
+     23, 26, "unset-memory", "mine.ids:push(...)"},
+    {"local mine = memory { ids = list(3) }\n" HEAD "A = { set = { ids = mine.ids:push(1) },\n"
+     "{ to = \"B\", when = mine.ids.size:at_least(4) } }, B = { steer = hold } } }",
+     WARNING, 4, 13, 17, "never-fires", "holds at most 3 items"},
+    {"local mine = memory { who = nobody }\nlocal need = told \"need\"\n" HEAD
+     "A = { steer = seek(mine.who),\n{ when = after(1), set = { who = need.sender } } } } }",
+     WARNING, 5, 1, 2, "unasked-message", "when = told \"need\""},
 };
 
 static void each_kind_of_mistake_has_its_place(void **state) {
