@@ -110,6 +110,18 @@ static int16_t add_name_at(JoxBuild *build, const char *text, JoxNameUse use,
     return number;
 }
 
+uint32_t jox_build_source(const JoxBuild *build, const char *file) {
+    for (uint32_t s = 0; file && s < build->script->vm.source_count; s++)
+        if (strcmp(build->script->vm.sources[s]->path, file) == 0)
+            return s;
+    return 0;
+}
+
+int16_t jox_build_name_at(JoxBuild *build, const char *text, JoxNameUse use, JoxPosition at) {
+    const JoxNamePlace written = {.at = at, .source = jox_build_source(build, at.file)};
+    return add_name_at(build, text, use, &written);
+}
+
 /* Adds the memory of an agent's home; no script can use its name, which has a blank. */
 static void add_home_memory(JoxBuild *build) {
     build->machine->home = (uint32_t)jox_build_memory(build, "home x") + 1;

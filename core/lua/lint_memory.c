@@ -55,16 +55,14 @@ static void mark_read_memory(const JoxMachine *m, bool *read) {
 }
 
 /* Keeps where memory is declared whose value only a scene can give. */
-static void keep_unset(JoxBuild *b, uint32_t slot) {
+static void keep_unset(const JoxBuild *b, uint32_t slot) {
     JoxMemorySlot *memory = &b->machine->memory[slot];
     const JoxPosition at = b->script->memory_at[slot];
     memory->unset = true;
     memory->line = at.line;
     memory->column = at.column;
     memory->end_column = at.end_column;
-    for (uint32_t s = 0; at.file && s < b->script->vm.source_count; s++)
-        if (strcmp(b->script->vm.sources[s]->path, at.file) == 0)
-            memory->source = s;
+    memory->source = jox_build_source(b, at.file);
 }
 
 /* Warns of memory that is read though it keeps its first value for ever. A number may come from

@@ -252,6 +252,8 @@ static void report_unknown_state(JoxBuild *b, const char *path, const char *to) 
     if (b->nest > 0 && jox_machine_entry(m, to) >= 0) /* a state of the outer machine */
         near = "A machine that a state runs knows its own states: end it by a state with `ends = "
                "true`, and ask `done` around it";
+    if (strcmp(to, "back") == 0)
+        near = "Write it without quotes: to = back";
     jox_build_error(b, jox_read_at(b, path), "unknown-state", near, "there is no state '%s'", to);
 }
 

@@ -46,6 +46,10 @@ typedef struct JoxBuild {
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node);
 /* Returns the index of a name of a signal, state, machine or memory, added on first use. */
 int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use);
+/* Does the same, and keeps the first place that uses it. */
+int16_t jox_build_name_at(JoxBuild *build, const char *text, JoxNameUse use, JoxPosition at);
+/* Returns the number of the source with this path; 0 if there is none. */
+uint32_t jox_build_source(const JoxBuild *build, const char *file);
 /* Returns the slot of an own value, added on first use; a name of "" adds a new one. */
 int32_t jox_build_own(JoxBuild *build, const char *name);
 /* Returns the slot of an own value that an expression uses, and keeps where it is first used. */

@@ -46,7 +46,8 @@ static void read_carried(JoxBuild *b, int table, const char *path, const char *k
     bool is_dist = false;
     JoxDist dist;
     jox_read_join(full, path, key);
-    *carried = (struct JoxCarried){.name = jox_build_name(b, key, JOX_NAME_CARRIED), .target = -1};
+    *carried = (struct JoxCarried){
+        .name = jox_build_name_at(b, key, JOX_NAME_CARRIED, jox_read_at(b, full)), .target = -1};
     const int type = jox_read_field(L, table, key);
     const JoxNode *node = jox_node_get(L, -1);
     if (type == LUA_TSTRING || (node && node->kind == JOX_NODE_TARGET)) {
@@ -91,7 +92,8 @@ void jox_read_tell(JoxBuild *b, int index, const char *path, JoxActions *actions
         JoxTell tell = {.to = -1, .name = -1};
         read_receiver(b, table, full, &tell);
         if (lua_rawgeti(L, table, 2) == LUA_TSTRING && lua_rawlen(L, -1) <= 60)
-            tell.name = jox_build_name(b, lua_tostring(L, -1), JOX_NAME_SENT);
+            tell.name =
+                jox_build_name_at(b, lua_tostring(L, -1), JOX_NAME_SENT, jox_read_at(b, full));
         else
             jox_build_error(b, jox_read_at(b, full), "bad-value", EXAMPLE,
                             "tell needs the name of the message as its second item");

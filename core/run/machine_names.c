@@ -69,6 +69,42 @@ static bool has_public_memory(const JoxMachineRun *machines, const char *name) {
     return false;
 }
 
+/* Writes a suggestion into `hint`: the name most like `name` that machines use in this way. Returns
+   it; NULL if none resembles it. */
+static const char *suggest_name(const JoxMachineRun *machines, const char *name, JoxNameUse use,
+                                char hint[JOX_HINT]) {
+    const char *names[256];
+    size_t count = 0;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
+        for (uint32_t n = 0; n < machine->name_count && count < 256; n++)
+            if ((machine->names[n].uses & use) && strcmp(machine->names[n].text, name) != 0)
+                names[count++] = machine->names[n].text;
+    }
+    return jox_did_you_mean(name, names, count, hint);
+}
+
+/* Warns of memory of others that no machine makes public. */
+static void warn_of_unknown_memory(const JoxMachineRun *machines, JoxPosition at, const char *name,
+                                   JoxDiagnostics *diagnostics) {
+    const char *names[256];
+    char hint[JOX_HINT];
+    size_t count = 0;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
+        for (uint32_t s = 0; s < machine->memory_count && count < 256; s++)
+            if (machine->memory[s].is_public)
+                names[count++] = machine->memory[s].name;
+    }
+    const char *near = jox_did_you_mean(name, names, count, hint);
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (jox_machine_memory(machines->set->items[m], name) >= 0)
+            near = NULL; /* it is there, and not public */
+    jox_diag_warn(diagnostics, at, "unknown-memory",
+                  near ? near : "In the machine that remembers it: public = { ... }",
+                  "no machine of the scene makes memory '%s' public", name);
+}
+
 /* Returns the present name of a state or memory that was renamed; NULL if a machine still has it
    by the old name, or none had it. */
 static const char *find_new_name(const JoxMachineRun *machines, JoxPart part, const char *name) {
@@ -134,11 +170,16 @@ void jox_run_check_own_values(const JoScene *scene, const JoxMachine *machine,
         if (!*slot->name || slot->declared || jox_parameter_find(slot->name) >= 0 ||
             is_set_by_groups(scene, machine, slot->name))
             continue;
-        const char *names[JOX_PARAM_COUNT], *near;
+        const char *names[JOX_PARAM_COUNT + JOX_MOST_GIVEN], *near = NULL;
         char hint[160];
+        size_t known = 0;
+        for (uint32_t s = 0; s < machine->own_count && known < JOX_MOST_GIVEN; s++)
+            if (*machine->own[s].name && machine->own[s].declared)
+                names[known++] = machine->own[s].name;
+        near = jox_suggest(slot->name, names, known); /* its own first: `own.rise` is far off */
         for (int p = 0; p < JOX_PARAM_COUNT; p++)
-            names[p] = jox_parameters[p].name;
-        near = jox_suggest(slot->name, names, JOX_PARAM_COUNT);
+            names[known++] = jox_parameters[p].name;
+        near = near ? near : jox_suggest(slot->name, names, known);
         const char *file = slot->source < count ? files[slot->source].path : machine->path;
         const char *now = find_new_own_name(machine, slot->name);
         if (now) {
@@ -148,8 +189,10 @@ void jox_run_check_own_values(const JoScene *scene, const JoxMachine *machine,
             continue;
         }
         snprintf(hint, sizeof hint,
-                 near ? "Did you mean 'own.%.60s'?" : "In the scene's group: set: {%.60s: ...}",
-                 near ? near : slot->name);
+                 jox_machine_memory(machine, slot->name) >= 0 ? "It is in memory: mine.%.60s"
+                 : near                                       ? "Did you mean 'own.%.60s'?"
+                        : "In the scene's group: set: {%.60s: ...}",
+                 near && jox_machine_memory(machine, slot->name) < 0 ? near : slot->name);
         jox_diag_error(
             diagnostics, ((JoxPosition){file, slot->line, slot->column, slot->end_column}),
             "unknown-value", hint, "'%.60s' is no parameter, and no group that runs %s sets it",
@@ -240,17 +283,28 @@ static bool may_functions_tell(const JoxMachineRun *machines) {
 static void check_message_name(const JoScene *scene, const JoxName *name, JoxPosition at,
                                JoxDiagnostics *diagnostics) {
     const JoxMachineRun *machines = &scene->world->machines;
+    char hint[JOX_HINT];
     if (may_functions_tell(machines))
         return;
     if ((name->uses & JOX_NAME_TOLD) && !has_name_use(machines, name->text, JOX_NAME_SENT))
         jox_diag_warn(diagnostics, at, "untold-message",
-                      "Example: tell = { nearest \"people\", \"shot\" }",
+                      suggest_name(machines, name->text, JOX_NAME_SENT, hint)
+                          ? hint
+                          : "Example: tell = { nearest \"people\", \"shot\" }",
                       "no machine of the scene tells a message '%s'", name->text);
     if ((name->uses & JOX_NAME_SENT) && !has_name_use(machines, name->text, JOX_NAME_TOLD))
-        jox_diag_warn(diagnostics, at, "unasked-message", "Example: when = told \"shot\"",
+        jox_diag_warn(diagnostics, at, "unasked-message",
+                      has_name_use(machines, name->text, JOX_NAME_HEARD)
+                          ? "heard() is of signals: a message is asked for by told()"
+                      : suggest_name(machines, name->text, JOX_NAME_TOLD, hint)
+                          ? hint
+                          : "Example: when = told \"shot\"",
                       "no machine of the scene asks for the message '%s'", name->text);
     if ((name->uses & JOX_NAME_READ) && !has_name_use(machines, name->text, JOX_NAME_CARRIED))
-        jox_diag_warn(diagnostics, at, "unknown-value", "In `tell`, after its name: damage = 2",
+        jox_diag_warn(diagnostics, at, "unknown-value",
+                      suggest_name(machines, name->text, JOX_NAME_CARRIED, hint)
+                          ? hint
+                          : "In `tell`, after its name: damage = 2",
                       "no message of the scene carries a value '%s'", name->text);
 }
 
@@ -269,6 +323,7 @@ void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnosti
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const JoxMachine *machine = machines->set->items[m];
         const JoxPosition in = {machine->path, 0, 0, 0};
+        char hint[JOX_HINT];
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
         size_t before = diagnostics->count;
@@ -287,7 +342,10 @@ void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnosti
             if (heard && !has_machine_signal(machines, name->text) &&
                 !has_event_signal(scene, name->text) && !may_function_signal(scene, name->text))
                 jox_diag_warn(diagnostics, find_wait(scene, machine, name, files, count),
-                              "unheard-signal", NULL,
+                              "unheard-signal",
+                              has_name_use(machines, name->text, JOX_NAME_SENT)
+                                  ? "It is a message: when = told \"...\""
+                                  : suggest_name(machines, name->text, JOX_NAME_SIGNALLED, hint),
                               "no machine of the scene gives the signal '%s'", name->text);
             check_message_name(scene, name, get_name_position(machine, name, files, count),
                                diagnostics);
@@ -301,9 +359,7 @@ void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnosti
                 jox_diag_warn(diagnostics, in, "unknown-machine", NULL,
                               "no machine of the scene is called '%s'", name->text);
             if ((name->uses & JOX_NAME_MEMORY) && !has_public_memory(machines, name->text))
-                jox_diag_warn(diagnostics, at, "unknown-memory",
-                              "In the machine that remembers it: public = { ... }",
-                              "no machine of the scene makes memory '%s' public", name->text);
+                warn_of_unknown_memory(machines, at, name->text, diagnostics);
         }
         if (diagnostics->count > before)
             jox_run_attach_sources(files, count, diagnostics);

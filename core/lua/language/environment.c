@@ -37,6 +37,29 @@ static const char *explain_absent_name(const char *name) {
     return NULL;
 }
 
+/* Returns what to write for a name that exists behind a dot or a colon alone; NULL for any other
+   name. */
+static const char *explain_member_name(const char *name) {
+    static const char LIST[] = "It belongs to a list: set = { met = mine.met:push(value) }, "
+                               ":remove(value), :clear()";
+    static const struct {
+        const char *name, *why;
+    } MEMBERS[] = {
+        {"sender", "It belongs to a message: local shot = told \"shot\", then shot.sender"},
+        {"push", LIST},
+        {"remove", LIST},
+        {"clear", LIST},
+        {"contains", "It belongs to a list: mine.met:contains(value)"},
+        {"size", "It belongs to a list: mine.met.size"},
+        {"where", "It belongs to a target: nearest(\"people\"):where(\"busy\", 0, 0)"},
+        {"in_state", "It belongs to a target: nearest(\"people\"):in_state(\"Wait\")"},
+    };
+    for (size_t i = 0; i < sizeof MEMBERS / sizeof *MEMBERS; i++)
+        if (strcmp(MEMBERS[i].name, name) == 0)
+            return MEMBERS[i].why;
+    return NULL;
+}
+
 /* Returns whether a place or tag of the scene has the name. */
 static bool is_name_in_scene(const JoxScope *scope, const char *name) {
     for (uint32_t p = 0; p < scope->place_count; p++)
@@ -85,7 +108,9 @@ static int env_index(lua_State *L) {
     count += jox_program_word_names(script->owner, names + count, 256);
     char hint[JOX_HINT];
     const char *near = jox_did_you_mean(name, names, count, hint);
-    if (jox_parameter_find(name) >= 0)
+    if (explain_member_name(name))
+        snprintf(hint, sizeof hint, "%s", explain_member_name(name));
+    else if (jox_parameter_find(name) >= 0)
         snprintf(hint, sizeof hint,
                  "As a value write own.%s (what was drawn) or now.NAME (what is "
                  "measured)",

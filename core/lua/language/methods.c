@@ -223,6 +223,17 @@ static int index_target(lua_State *L, const char *name, const char **names, size
         JOX_MEASURED(X)
 #undef X
     };
+    static const struct {
+        const char *name, *instead;
+    } ABSENT[] = {
+        {"team", "Who is of its team: nearest \"teammates\", nearest \"opponents\""},
+        {"id", "Whether two targets are the same: same(a, b)"},
+        {"radius", "touches(target) and near(target, 1) ask for its distance; in functions a view "
+                   "has its radius"},
+        {"state", "nearest(\"people\"):in_state(\"Wait\") chooses by it"},
+        {"own", "Only the agent itself reads its own values; others read theirs(target, \"NAME\"), "
+                "memory that is public"},
+    };
     for (int i = 0; i < JOX_NOW_COUNT; i++) {
         names[count++] = MEASURED[i];
         if (strcmp(MEASURED[i], name) != 0)
@@ -235,9 +246,15 @@ static int index_target(lua_State *L, const char *name, const char **names, size
     }
     char hint[JOX_HINT], theirs[128];
     snprintf(theirs, sizeof theirs, "Public memory of an agent is theirs(target, \"%.60s\")", name);
-    const char *near = jox_did_you_mean(name, names, count, hint);
-    return jox_word_error(L, name, "unknown-method", near ? hint : theirs, "a target has no '%s'",
-                          name);
+    const char *near = jox_did_you_mean(name, names, count, hint), *instead = NULL;
+    for (size_t k = 0; k < sizeof ABSENT / sizeof *ABSENT; k++)
+        if (strcmp(ABSENT[k].name, name) == 0)
+            instead = ABSENT[k].instead;
+    return jox_word_error(L, name, "unknown-method",
+                          instead ? instead
+                          : near  ? hint
+                                  : theirs,
+                          "a target has no '%s'", name);
 }
 
 /* __index of told "name": the sender of the message, or a value of it. */

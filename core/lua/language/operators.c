@@ -196,6 +196,14 @@ static int meta_newindex(lua_State *L) {
 static int meta_call(lua_State *L) {
     if (jox_node_is_error(L, 1))
         return jox_node_push_error(L);
+    const JoxNode *called = jox_node_get(L, 1);
+    if (called && called->op == JOX_OP_MESSAGE && called->field)
+        return jox_word_error(L, called->field, "bad-call",
+                              "Of a certain sender: when = need & same(need.sender, mine.asked). "
+                              "Messages have no filters",
+                              "a message has no ':%s': what follows the dot is a value that it "
+                              "carries",
+                              called->field);
     const bool table = lua_type(L, 2) == LUA_TTABLE;
     return jox_word_error(L, "(", "bad-call", table ? "Is a comma missing after it?" : NULL,
                           "%s cannot be called", jox_node_kind(L, 1));

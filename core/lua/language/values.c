@@ -202,10 +202,13 @@ static int memory_index(lua_State *L) {
             return 1;
         }
     }
-    char hint[JOX_HINT];
-    return jox_word_error(L, name, "unknown-memory",
-                          jox_did_you_mean(name, names, script->memory_count, hint),
-                          "memory has no '%s'", name);
+    char hint[JOX_HINT], declare[160];
+    const char *near = jox_did_you_mean(name, names, script->memory_count, hint);
+    snprintf(declare, sizeof declare,
+             "Declare it: memory { %.40s = 0 }. What was drawn once for the agent is own.%.40s",
+             name, name);
+    return jox_word_error(L, name, "unknown-memory", near ? near : declare, "memory has no '%s'",
+                          name);
 }
 
 /* __index of `now`. */

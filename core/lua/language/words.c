@@ -58,8 +58,12 @@ static JoxNode *read_place_name(lua_State *L, const char *word, const char *name
         for (size_t i = 0; i < count; i++)
             names[i] = script->scope->places[i].name;
         char hint[JOX_HINT];
-        jox_word_error(L, name, "unknown-place", jox_did_you_mean(name, names, count, hint),
-                       "the scene has no place '%s'", name);
+        const char *near = jox_did_you_mean(name, names, count, hint);
+        if (strcmp(name, "goal") == 0 || strcmp(name, "home") == 0) {
+            snprintf(hint, sizeof hint, "The word stands without quotes: %s(%s)", word, name);
+            near = hint;
+        }
+        jox_word_error(L, name, "unknown-place", near, "the scene has no place '%s'", name);
         return NULL;
     }
     warn_of_form(L, word, name, index);
