@@ -70,7 +70,9 @@ typedef struct JoxWhyTransition {
 void jox_why_transition(const JoxMachineRun *run, uint32_t agent, uint32_t index,
                         JoxWhyTransition *out);
 void jox_why_free(JoxWhyTransition *transition);
-/* why_deeds.c: appends a line for the steering of an agent's state that has a target, "steering:
+/* why_deeds.c: appends the steering of a state, without weights: "field(mine.who) + spread". */
+void jox_why_spell_steering(const JoxMachine *machine, const JoxState *state, JoxText *out);
+/* Appends a line for the steering of an agent's state that has a target, "steering:
    seek(ball): body 'ball', 1.5 m away", and a line for each action that something keeps from its
    target, "take ball: ... beyond the reach of 0.6 m". Within a look. Returns whether something does
    not work. */

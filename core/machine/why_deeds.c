@@ -28,24 +28,37 @@ static bool add_found(const JoxMachineRun *run, uint32_t i, int16_t index, JoxTe
     return spot.found;
 }
 
+/* Appends a term of steering: "field(mine.who)". */
+static void spell_term(const JoxMachine *machine, const JoxSteerTerm *term, JoxText *out) {
+    const bool spread = term->kind == JOX_STEER_GATHER && term->args[1] != 0.0;
+    jox_text_add(out, spread ? "spread_over" : STEERING[term->kind]);
+    if (term->target < 0)
+        return;
+    jox_text_add(out, "(");
+    jox_spell_target(machine, &machine->targets[term->target], out);
+    jox_text_add(out, ")");
+}
+
+void jox_why_spell_steering(const JoxMachine *machine, const JoxState *state, JoxText *out) {
+    for (uint32_t t = 0; t < state->steer_count; t++) {
+        jox_text_add(out, t ? " + " : "");
+        spell_term(machine, &state->steer[t], out);
+    }
+}
+
 /* Appends the line of the steering, if it has a target; returns whether a target is not found. */
 static bool add_steering(const JoxMachineRun *run, uint32_t i, const JoxState *state,
                          JoxText *out) {
-    const JoxMachine *machine = jox_machine_of(run, i);
     uint32_t targets = 0, lost = 0;
     for (uint32_t t = 0; t < state->steer_count; t++)
         targets += state->steer[t].target >= 0;
     for (uint32_t t = 0; targets && t < state->steer_count; t++) {
         const JoxSteerTerm *term = &state->steer[t];
-        jox_text_printf(out, "%s%s", t ? "; " : "steering: ",
-                        term->kind == JOX_STEER_GATHER && term->args[1] != 0.0
-                            ? "spread_over"
-                            : STEERING[term->kind]);
+        jox_text_add(out, t ? "; " : "steering: ");
+        spell_term(jox_machine_of(run, i), term, out);
         if (term->target < 0)
             continue;
-        jox_text_add(out, "(");
-        jox_spell_target(machine, &machine->targets[term->target], out);
-        jox_text_add(out, "): ");
+        jox_text_add(out, ": ");
         lost += !add_found(run, i, term->target, out);
     }
     if (lost && lost == state->steer_count)

@@ -59,6 +59,13 @@ groups: {n: {behaviour: reach.lua, at: [[0, 0]]}}
 END
 expect "an action that something keeps from its target is told" 0 "  take ball: body 'ball', 1.5 m away: a gap of 1.2 m, reach 0.6 m" "$JOSTLE" why "$work/school/reach.yaml" --agent 0 --quiet
 expect "  of a state, too, with steering that leads nowhere" 0 "  agent 0: steering: seek(anyone): there is nobody else in the world; so it stands" "$JOSTLE" why "$work/school/reach.yaml" --state Reach --quiet
+"$JOSTLE" run "$work/school/reach.yaml" --set duration=15 2>&1 | tr '\n' ' ' | grep -qF '1 person has stood for 10 s or more, as steering finds no target: 1 in Reach (seek(anyone)). `jostle why SCENE --state "Reach"` says why.'
+verdict "  and at the end of a run" $?
+"$JOSTLE" run "$work/school/reach.yaml" --set duration=15 --quiet --summary - 2>/dev/null | python3 -c '
+import json, sys
+assert json.load(sys.stdin)["lost_steering"] == [{"machine": "reach", "state": "Reach", "people": 1, "steering": "seek(anyone)"}]
+'
+verdict "    also in the summary" $?
 "$JOSTLE" why "$work/school/reach.yaml" --agent 0 --json 2>/dev/null | grep -q '"take ball: body .ball., 1.5 m away: a gap of 1.2 m, reach 0.6 m"'; verdict "  and as JSON" $?
 expect "progress is shown, on stderr" 0 "" bash -c "'$JOSTLE' why '$school' --agent 0 >/dev/null"
 grep -q '30' "$work/out"; verdict "  up to the end" $?

@@ -14,6 +14,7 @@
 #include "run/results/demand.h"
 #include "run/results/idle_input.h"
 #include "run/results/kept_people.h"
+#include "run/results/lost_steering.h"
 #include "run/results/unleft_states.h"
 #include "run/run.h"
 #include "run/standstill.h"
@@ -255,6 +256,7 @@ char *jo_scene_closing(const JoScene *scene) {
     jox_run_say_tally(scene, &text);
     say_standing(scene, &text);
     jox_run_say_unleft(scene, &text);
+    jox_run_say_lost(scene, &text);
     say_probes(scene, &text);
     jox_run_say_idle_input(scene, &text);
     say_plans(scene, &text);

@@ -17,6 +17,7 @@
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
 #include "run/results/kept_people.h"
+#include "run/results/lost_steering.h"
 #include "run/results/unleft_states.h"
 #include "run/run.h"
 #include "run/standstill.h"
@@ -345,6 +346,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_states(&json, world);
     add_transitions(&json, &world->machines);
     jox_run_add_unleft(scene, &json);
+    jox_run_add_lost(scene, &json);
     add_contacts(&json, scene);
     add_drives(&json, scene);
     add_regions(&json, scene);
