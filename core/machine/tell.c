@@ -68,6 +68,8 @@ void jox_tell(JoxMachineRun *run, const JoxMachine *machine, const JoxTell *tell
     uint32_t heard[JOX_SMALL_CROWD];
     if (tell->all) {
         const uint32_t count = jox_list_wanted(run, &machine->targets[tell->to], i, heard);
+        if (count == 0)
+            jox_message_to_nobody(run, message.name);
         for (uint32_t n = 0; n < count; n++) {
             message.to = run->agents->id[heard[n]];
             add_sent(run->state, &message);

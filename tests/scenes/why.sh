@@ -114,6 +114,12 @@ figures = json.load(sys.stdin)
 assert figures["never_fired"] == [{"machine": "pupil", "from": "Walk", "to": "Hide", "id": "Hide"}] and "unleft" not in figures
 '
 verdict "  also in the summary" $?
+cat >"$work/school/short.lua" <<'LUA'
+return machine { name = "short", start = "A", states = { A = { steer = hold, { to = "C", when = now.speed:above(100) }, { to = "B", when = after(3) } },
+  B = { steer = hold, { to = "A", when = after(1) } }, C = { steer = hold, { to = "A", when = after(1) } } } }
+LUA
+"$JOSTLE" run "$work/school/reach.yaml" --set duration=16 --set groups.n.behaviour=short.lua 2>&1 | tr '\n' ' ' | grep -q 'left it: A -> C\.'
+verdict "  also of a state that was left three times" $?
 # A trace tells between transitions which terms begin and cease to hold.
 expect "a trace tells which terms changed" 0 "in Walk, for Lesson: after(6) now holds" bash -c "sed 's/when = after(6)/when = after(6) \& now.x:above(90)/' '$work/school/pupil.lua' >'$work/school/slow.lua';
     '$JOSTLE' run '$school' --set groups.pupils.behaviour=slow.lua --trace 0 --for 8 --quiet"

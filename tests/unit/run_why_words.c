@@ -95,6 +95,7 @@ static void told_messages_are_accounted_for(void **state) {
         "    { when = told \"note\", set = { got = mine.got + 1 } },\n"
         "    { every = 1, when = now.x:above(0.5), tell = { nearest \"anyone\", \"note\" } },\n"
         "    { every = 1, tell = { nearest \"opponents\", \"shout\" } },\n"
+        "    { every = 1, tell = { neighbours \"opponents\", \"shout\" } },\n"
         "    { to = \"End\", when = told \"note\" & mine.got:above(5) },\n"
         "    { to = \"End\", when = told \"shout\" }, { to = \"End\", when = told \"bell\" } },\n"
         "  End = { steer = hold } } }\n");
@@ -107,7 +108,7 @@ static void told_messages_are_accounted_for(void **state) {
         "used "
         "at 2.05 s by a reaction (",
         "own.lua:4); in the scene 4 were told\n",
-        "no such message waits; none has come to it since 0.00 s; in the scene 6 were told, 6 of "
+        "no such message waits; none has come to it since 0.00 s; in the scene 12 were told, 12 of "
         "them to nobody\n",
         "no such message waits: no behaviour of the scene tells "
         "it\n");

@@ -10,7 +10,7 @@
 
 /* s: nobody is expected to leave a state sooner; and people must have been in a state for so long
    in all before its transitions are expected to fire */
-static const double SHORTEST_STAY = 10.0, SHORTEST_TOTAL = 30.0;
+static const double SHORTEST_STAY = 10.0, SHORTEST_TOTAL = 10.0;
 enum { MOST_STATES = 4, MOST_TRANSITIONS = 6 }; /* named in sentences */
 
 /* People in a state at the end. */
