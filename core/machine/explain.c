@@ -2,6 +2,13 @@
    value of each word. */
 #include "machine/expression_text.h"
 
+/* Appends who told the message of a name that waits, and when. */
+static void add_sender(const JoxMachineRun *run, uint32_t agent, uint32_t name, JoxText *out) {
+    const JoxMessage *message = jox_message_find(run, agent, name);
+    if (message)
+        jox_text_printf(out, " (by agent %u at %.2f s)", message->from, message->sent * run->dt);
+}
+
 static void print_expression(const JoxMachineRun *run, const JoxMachine *machine,
                              const JoxExpression *expression, uint32_t agent, JoxText *out) {
     static _Thread_local JoxRegisters values;
@@ -12,6 +19,8 @@ static void print_expression(const JoxMachineRun *run, const JoxMachine *machine
         JoxSpelled to = {0};
         jox_eval(run, machine, &one, &agent, 1, values);
         jox_spell_instruction(machine, in, registers, values[in->to][0], &to);
+        if (in->op == JOX_OP_TOLD)
+            add_sender(run, agent, machine->names[in->name].number, &to.valued);
         jox_spelled_free(&registers[in->to]);
         registers[in->to] = to;
     }

@@ -189,6 +189,12 @@ static void print_instruction(const JoxMachine *machine, const JoxInstruction *i
         jox_text_printf(out, "%.6g", in->number);
         return;
     }
+    if (op == JOX_OP_NOT && registers[in->a].condition) {
+        jox_text_printf(out, "not %s", registers[in->a].plain.data);
+        if (valued)
+            jox_text_add(out, value != 0.0 ? " is true" : " is false");
+        return;
+    }
     if (op == JOX_OP_NOT || op == JOX_OP_NEG) {
         jox_text_printf(out, op == JOX_OP_NOT ? "not (%s)" : "-(%s)",
                         operand_text(&registers[in->a], valued));
@@ -216,6 +222,7 @@ void jox_spell_instruction(const JoxMachine *machine, const JoxInstruction *in,
     const uint8_t inputs[] = {in->a, in->b, in->c};
     print_instruction(machine, in, registers, value, false, to);
     print_instruction(machine, in, registers, value, true, to);
+    to->condition = jox_op_is_condition(op);
     to->boundless = op == JOX_OP_CONST && isinf(in->number);
     to->constant = op == JOX_OP_CONST || (op < JOX_OP_DISTANCE && jox_op_inputs(op) > 0);
     for (uint32_t k = 0; k < jox_op_inputs(op); k++)

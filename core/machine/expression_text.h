@@ -23,6 +23,7 @@ typedef struct JoxSpelled {
     JoxBinding binding;
     bool boundless; /* an infinite constant */
     bool constant;  /* no word in it */
+    bool condition; /* one word that is true or false */
 } JoxSpelled;
 
 /* Spells the result of an instruction, `value` for the agent, from what its inputs in `registers`

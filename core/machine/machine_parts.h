@@ -477,6 +477,9 @@ void jox_trace_transition(JoxMachineRun *run);
 /* Appends a reaction of the traced agent, in full if it is its first time in this stay. */
 void jox_trace_reaction(JoxMachineRun *run, const JoxTaken *taken);
 void jox_trace_free(JoxMachineRun *run);
+/* Appends what an item that the trace shows has done; `first_sent`: its first message in `sent`. */
+void jox_trace_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
+                       uint32_t agent, uint32_t first_sent);
 /* Records the number that was drawn for the chance of a transition of agent i. */
 void jox_watch_roll(const JoxMachineRun *run, uint32_t i, uint32_t transition, double drawn);
 void jox_watch_actions(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,

@@ -325,8 +325,9 @@ typedef struct JoxMachineRun {
                                              velocity */
 
     /* Explanations for observers; no step reads them. */
-    uint32_t edits_made; /* number of parameters set by people so far */
-    bool traces;         /* explain transitions of agent trace_id in `trace` */
+    uint32_t edits_made;   /* number of parameters set by people so far */
+    bool traces;           /* explain transitions of agent trace_id in `trace` */
+    bool trace_shows_item; /* what the item does that is carried out belongs to the trace */
     uint32_t trace_id;
     JoxText trace;
     struct JoxTraceTerms *trace_terms; /* terms that the traced agent waits for (trace.c) */

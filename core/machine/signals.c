@@ -109,6 +109,7 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
     JoxAgents *a = run->agents;
     double values[JOX_MOST_SET];
     JOX_ASSERT(actions->set_count <= JOX_MOST_SET);
+    const uint32_t first_sent = run->state->sent_count;
     if (actions->tell)
         jox_tell(run, machine, actions->tell, i);
     for (uint32_t n = 0; n < actions->set_count; n++)
@@ -129,6 +130,8 @@ void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActi
     jox_sightings_note_agent(run, i);
     if (run->watched_count)
         jox_watch_actions(run, machine, actions, i);
+    if (run->traces && a->id[i] == run->trace_id)
+        jox_trace_actions(run, machine, actions, i, first_sent);
     if (actions->sets_team)
         a->team[i] = actions->team;
     if (actions->sets_tags)

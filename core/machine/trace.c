@@ -81,6 +81,7 @@ static void tell_all_repeats(JoxMachineRun *run) {
 void jox_trace_reaction(JoxMachineRun *run, const JoxTaken *taken) {
     Reacted *of = &run->trace_terms->reactions[taken->transition];
     of->last = run->tick;
+    run->trace_shows_item = !of->known;
     if (!of->known) {
         jox_machines_explain(run, taken, &run->trace);
         *of = (Reacted){.known = true, .at = run->tick, .last = run->tick, .quiet = QUIET};
@@ -172,6 +173,7 @@ void jox_trace_due(JoxMachineRun *run, const JoxTaken *due) {
 void jox_trace_transition(JoxMachineRun *run) {
     tell_all_repeats(run);
     jox_text_add(&run->trace, run->trace_terms->ahead.data);
+    run->trace_shows_item = true;
 }
 
 void jox_trace_waiting(JoxMachineRun *run) {
