@@ -1,6 +1,9 @@
-/* The table that tests get for an agent: a copy of its state. */
+/* The table that tests get for an agent: a copy of its state. Reading a name that it does not have
+   is an error, so that a misspelt one fails the test. */
 #include <math.h>
+#include <string.h>
 
+#include "base/format/name.h"
 #include "luatest/luatest_parts.h"
 #include "machine/lists.h"
 
@@ -64,6 +67,75 @@ static void push_own_values(lua_State *L, const JoxMachineRun *machines, uint32_
     }
 }
 
+/* ---- names that a view does not have ---- */
+
+/* Returns the key of the table at `table` that is most like `name`; NULL if none is. */
+static const char *suggest_key(lua_State *L, int table, const char *name) {
+    const char *names[256];
+    size_t count = 0;
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        lua_pop(L, 1);
+        if (count < 256 && lua_type(L, -1) == LUA_TSTRING)
+            names[count++] = lua_tostring(L, -1);
+    }
+    return jox_suggest(name, names, count);
+}
+
+/* Returns whether the table at `table` has a key. */
+static bool has_key(lua_State *L, int table, const char *name) {
+    lua_pushstring(L, name);
+    const bool has = lua_rawget(L, table) != LUA_TNIL;
+    lua_pop(L, 1);
+    return has;
+}
+
+/* __index of the table of an agent, for a name that it does not have, or that is nil: upvalue 1 has
+   the names that may be nil. */
+static int index_agent(lua_State *L) {
+    const char *name = luaL_tolstring(L, 2, NULL);
+    if (has_key(L, lua_upvalueindex(1), name))
+        return lua_pushnil(L), 1;
+    lua_pushliteral(L, "own");
+    if (lua_rawget(L, 1) == LUA_TTABLE && has_key(L, lua_gettop(L), name))
+        return luaL_error(L, "an agent has no '%s'; it is an own value: own.%s", name, name);
+    const char *near = suggest_key(L, 1, name);
+    if (!near)
+        near = suggest_key(L, lua_upvalueindex(1), name);
+    return luaL_error(L, "an agent has no '%s'%s%s", name, near ? "; did you mean " : "",
+                      near ? near : "");
+}
+
+/* __index of the table `own` of an agent, whose own table is upvalue 1 and may hold the name. */
+static int index_own(lua_State *L) {
+    const char *name = luaL_tolstring(L, 2, NULL), *near = suggest_key(L, 1, name);
+    if (has_key(L, lua_upvalueindex(1), name))
+        return luaL_error(L,
+                          "'%s' is no own value; memory and parameters are fields of the agent "
+                          "itself: .%s without own",
+                          name, name);
+    return luaL_error(L, "the agent has no own value '%s'%s%s", name,
+                      near ? "; did you mean own." : "", near ? near : "");
+}
+
+/* Gives the table on top of the stack this function as __index, with the value at `upvalue`. */
+static void refuse_unknown_names(lua_State *L, lua_CFunction index, int upvalue) {
+    upvalue = lua_absindex(L, upvalue);
+    lua_createtable(L, 0, 2);
+    lua_pushvalue(L, upvalue);
+    lua_pushcclosure(L, index, 1);
+    lua_setfield(L, -2, "__index");
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+    lua_setmetatable(L, -2);
+}
+
+/* Adds a name to the table of those that may be nil, at `absent`. */
+static void allow_nil(lua_State *L, int absent, const char *name) {
+    lua_pushboolean(L, 1);
+    lua_setfield(L, absent, name);
+}
+
 /* Pushes the team of an agent: its name, the number of a party's team, or nil. */
 static void push_team(lua_State *L, const JoxTestDriver *driver, void *scene, uint16_t team) {
     const char *name = driver->team_name(driver->context, scene, team);
@@ -77,7 +149,12 @@ static void push_team(lua_State *L, const JoxTestDriver *driver, void *scene, ui
 
 void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene, uint32_t i) {
     const JoxMachineRun *machines = driver->machines(driver->context, scene);
+    static const char *const MAY_BE_NIL[] = {"team", "group", "machine", "state"};
     const JoxAgents *a = machines->agents;
+    lua_newtable(L);
+    const int absent = lua_gettop(L);
+    for (size_t n = 0; n < sizeof MAY_BE_NIL / sizeof *MAY_BE_NIL; n++)
+        allow_nil(L, absent, MAY_BE_NIL[n]);
     lua_newtable(L);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         jox_test_set_number(L, jox_parameters[p].name, jox_param(a, p, i));
@@ -96,6 +173,7 @@ void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene,
             } else if (m->memory[s].kind == JOX_MEMORY_SOMEBODY) {
                 push_somebody(L, machines, value);
                 lua_setfield(L, -2, m->memory[s].name);
+                allow_nil(L, absent, m->memory[s].name);
             } else {
                 jox_test_set_number(L, m->memory[s].name, value);
             }
@@ -113,6 +191,7 @@ void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene,
     push_team(L, driver, scene, a->team[i]);
     lua_setfield(L, -2, "team");
     push_own_values(L, machines, i);
+    refuse_unknown_names(L, index_own, -2);
     lua_setfield(L, -2, "own");
     jox_test_set_number(L, "x", a->x[i]);
     jox_test_set_number(L, "y", a->y[i]);
@@ -127,4 +206,6 @@ void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene,
     jox_test_set_number(
         L, "pushed",
         sqrt((double)a->force_x[i] * a->force_x[i] + (double)a->force_y[i] * a->force_y[i]));
+    refuse_unknown_names(L, index_agent, absent);
+    lua_remove(L, absent);
 }

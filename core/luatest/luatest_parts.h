@@ -51,6 +51,16 @@ void jox_test_check_options(lua_State *L, int index, const char *const *known, s
 size_t jox_test_read_texts(lua_State *L, int index, const char *name, bool pairs,
                            const char *out[64]);
 
+/* Returns the argument at `index`, which must be the name of a state of some machine. Raises an
+   error in Lua if none has it. In state_counts.c. */
+const char *jox_test_check_state(lua_State *L, const JoxMachineRun *machines, int index);
+/* Counts the agents of a group (-1: of all) in a state (NULL: in any). */
+uint32_t jox_test_count_in_state(const JoxMachineRun *machines, const char *state, int32_t group);
+/* Returns how many agents of a group (-1: of all) have a machine without a state of this name. */
+uint32_t jox_test_count_without(const JoxMachineRun *machines, const char *state, int32_t group);
+/* Pushes the number of agents in each state, "Walk 3, Rest 2". */
+void jox_test_push_counts(lua_State *L, const JoxMachineRun *machines, int32_t group);
+
 /* Present speed of an agent, m/s. */
 double jox_test_speed(const JoxAgents *agents, uint32_t i);
 /* Sets a field of the table on top of the stack. */

@@ -82,67 +82,22 @@ static int32_t read_group_option(lua_State *L, const Scene *t, int index) {
     return group;
 }
 
-/* Returns the argument at `index`, which must be the name of a state of some machine. */
-static const char *check_state_name(lua_State *L, const Scene *t, int index) {
-    const char *name = luaL_checkstring(L, index), *names[256];
-    const JoxMachineRun *machines = find_test_machines(L, t);
-    size_t count = 0;
-    for (uint32_t m = 0; m < machines->set->count; m++)
-        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
-            if (jox_state_is_in(&machines->set->items[m]->states[s], name))
-                return name;
-            if (count < 256)
-                names[count++] = machines->set->items[m]->states[s].name;
-        }
-    const char *near = jox_suggest(name, names, count);
-    luaL_error(L, "no machine of the scene has a state '%s'%s%s", name,
-               near ? "; did you mean " : "", near ? near : "");
-    return NULL;
-}
-
 /* ---- reading ---- */
-
-/* Counts the agents of a group (-1: of all) in a state (NULL: in any). */
-static uint32_t count_agents_in_state(const JoxMachineRun *machines, const char *state,
-                                      int32_t group) {
-    const JoxAgents *a = machines->agents;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < a->count; i++)
-        count +=
-            (group < 0 || a->group[i] == group) &&
-            (!state ||
-             (a->machine[i] != JOX_NO_MACHINE &&
-              jox_state_is_in(&machines->set->items[a->machine[i]]->states[a->state[i]], state)));
-    return count;
-}
-
-/* Pushes the number of agents in each state, "Walk 3, Rest 2". */
-static void push_counts(lua_State *L, const JoxMachineRun *machines, int32_t group) {
-    JoxText text = {0};
-    for (uint32_t m = 0; m < machines->set->count; m++)
-        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
-            const char *name = machines->set->items[m]->states[s].name;
-            uint32_t people = count_agents_in_state(machines, name, group);
-            if (people)
-                jox_text_printf(&text, "%s%s %u", text.length ? ", " : "", name, people);
-        }
-    lua_pushstring(L, text.length ? text.data : "nobody is left");
-    jox_text_free(&text);
-}
 
 /* s:count([state [, { agents = "group" }]]): the number of agents. */
 static int scene_count(lua_State *L) {
     Scene *t = check_scene_handle(L);
-    const char *state = lua_isnoneornil(L, 2) ? NULL : check_state_name(L, t, 2);
+    const char *state =
+        lua_isnoneornil(L, 2) ? NULL : jox_test_check_state(L, find_test_machines(L, t), 2);
     lua_pushinteger(
-        L, count_agents_in_state(find_test_machines(L, t), state, read_group_option(L, t, 3)));
+        L, jox_test_count_in_state(find_test_machines(L, t), state, read_group_option(L, t, 3)));
     return 1;
 }
 
 /* s:entered(state [, { agents = "group" }]): the number of agents that have been in a state. */
 static int scene_entered(lua_State *L) {
     Scene *t = check_scene_handle(L);
-    const char *state = check_state_name(L, t, 2);
+    const char *state = jox_test_check_state(L, find_test_machines(L, t), 2);
     lua_pushinteger(L, jox_test_history_been(&t->history, state, read_group_option(L, t, 3), NULL));
     return 1;
 }
@@ -234,7 +189,7 @@ static int scene_run(lua_State *L) {
 static int scene_reaches(lua_State *L) {
     static const char *const OPTIONS[] = {"within", "agents", "count", "any"};
     Scene *t = check_scene_handle(L);
-    const char *state = check_state_name(L, t, 2);
+    const char *state = jox_test_check_state(L, find_test_machines(L, t), 2);
     jox_test_check_options(L, 3, OPTIONS, 4);
     int32_t group = read_group_option(L, t, 3);
     double within = jox_test_number_option(L, 3, "within", WITHIN);
@@ -263,16 +218,21 @@ static int scene_reaches(lua_State *L) {
     }
     jox_test_run_of(L)->wanted = state;
     jox_test_run_of(L)->wanted_group = group;
-    push_counts(L, machines, group);
-    return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
-                      (int)wanted, state, within, read_test_time(L, t), lua_tostring(L, -1));
+    jox_test_push_counts(L, machines, group);
+    const uint32_t without = jox_test_count_without(machines, state, group);
+    lua_pushfstring(L,
+                    "; the machine of %d of them has no such state: { agents = \"group\" } chooses",
+                    (int)without);
+    return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s%s",
+                      (int)been, (int)wanted, state, within, read_test_time(L, t),
+                      lua_tostring(L, -2), without && wanted == all ? lua_tostring(L, -1) : "");
 }
 
 /* s:never(state, { during = s, agents = "group" }); counts the time before the call too. */
 static int scene_never(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
     Scene *t = check_scene_handle(L);
-    const char *state = check_state_name(L, t, 2);
+    const char *state = jox_test_check_state(L, find_test_machines(L, t), 2);
     jox_test_check_options(L, 3, OPTIONS, 2);
     int32_t group = read_group_option(L, t, 3);
     const JoxMachineRun *machines = find_test_machines(L, t);

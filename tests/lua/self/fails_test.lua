@@ -107,6 +107,41 @@ end)
 test("a state that no machine has", function()
   scene(standing()):count("Stnd") --> no machine of the scene has a state 'Stnd'; did you mean Stand
 end)
+local function nested()
+  return {
+    groups = {
+      people = { at = { { 0, 0 } }, behaviour = [[
+        local mine = memory { laps = 0, friend = nobody }
+        return machine { name = "nested", start = "Guard", own = { shoe = 44 }, states = {
+          Guard = { runs = sequence { wait(9), wait(9) }, speed = own.shoe / 40, set = { friend = nobody },
+            { to = "Rest", when = same(mine.friend, nearest "anyone") } },
+          Rest = { steer = hold, set = { laps = mine.laps + 1 } } } }]] },
+      others = { at = { { 3, 0 } }, behaviour = [[return machine { name = "other", start = "Rest",
+        states = { Rest = { steer = hold } } }]] },
+    },
+  }
+end
+test("a state of a nested machine by its last name", function()
+  scene(nested()):count("1 wait") --> has a state '1 wait'; did you mean Guard.1 wait
+end)
+test("a field that an agent does not have", function()
+  equal(scene(nested()):agents("people")[1].lap, nil) --> an agent has no 'lap'; did you mean laps
+end)
+test("an own value as a field of the agent", function()
+  equal(scene(nested()):agents("people")[1].shoe, 44) --> an agent has no 'shoe'; it is an own value: own.shoe
+end)
+test("memory as an own value", function()
+  equal(scene(nested()):agents("people")[1].own.laps, nil) --> 'laps' is no own value; memory and parameters are fields
+end)
+test("an own value that an agent does not have", function()
+  equal(scene(nested()):agents("people")[1].own.sho, nil) --> the agent has no own value 'sho'; did you mean own.shoe
+end)
+test("a state that some machines do not have", function()
+  scene(nested()):reaches("Guard", { within = 1 }) --> the machine of 1 of them has no such state
+end)
+test("agents in states of one name of two machines are counted once", function()
+  scene(nested()):reaches("Guard", { within = 1 }) --> t = 1.0 s: Rest 1, Guard.1 wait 1; the
+end)
 test("a group that the scene lacks", function()
   scene(standing()):agents("poeple") --> the scene has no group 'poeple'
 end)

@@ -89,6 +89,7 @@ test("groups give placed agents teams, own values and memory, which are seen", f
   equal(b.group, "away") equal(b.team, "blue") equal(b.own.shoe, 40) equal(b.own.room, "yard")
   truthy(b.own.rest >= 1 and b.own.rest <= 2)
   equal(c.team, nil)
+  fails(function() return a.coin end, "an agent has no 'coin'; did you mean coins")
   s:run(1.5)
   equal(s:agent(a.id).state, "Join") equal(s:agent(a.id).team, "visitors") equal(s:agent(b.id).team, "blue")
 end)
