@@ -190,11 +190,11 @@ static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *ac
         lua_rawgeti(L, top, 1);
         type = lua_type(L, -1);
     }
-    if (type == LUA_TSTRING && lua_rawlen(L, -1) <= 60)
+    if (type == LUA_TSTRING && lua_rawlen(L, -1) > 0 && lua_rawlen(L, -1) <= 60)
         actions->signal = jox_build_name(b, lua_tostring(L, -1), JOX_NAME_SIGNALLED);
     else if (type != LUA_TNIL || lua_gettop(L) > top)
         jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: signal = \"alarm\"",
-                        "a signal is a name");
+                        "a signal is a name of 1 to 60 bytes");
     lua_settop(L, top - 1);
 }
 

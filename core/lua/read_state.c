@@ -155,10 +155,10 @@ void jox_read_id(lua_State *L, int index, int nth, char id[128]) {
     const JoxNode *node = jox_node_get(L, -1);
     const bool back = node && node->kind == JOX_NODE_BACK;
     snprintf(id, 100, "%s",
-             lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1)
-             : lua_isnil(L, -1)             ? "reaction"
-             : back                         ? "back"
-                                            : "?");
+             lua_type(L, -1) == LUA_TSTRING && lua_rawlen(L, -1) ? lua_tostring(L, -1)
+             : lua_isnil(L, -1)                                  ? "reaction"
+             : back                                              ? "back"
+                                                                 : "?");
     lua_pop(L, 1);
     if (nth > 1)
         snprintf(id + strlen(id), 28, "#%d", nth);
@@ -186,7 +186,7 @@ static JoxPosition locate_value(JoxBuild *b, const char *path) {
 /* Returns whether an item does anything besides leading to a state; one that rests on messages uses
    them up. */
 static bool does_something(const JoxMachine *m, const JoxTransition *t) {
-    return jox_asks_for_messages(m, t->when) || t->does.set_count || t->does.signal >= 0 ||
+    return jox_asks_for_messages(m, t->rests) || t->does.set_count || t->does.signal >= 0 ||
            t->does.tell || t->does.sets_team || t->does.sets_tags || t->on_take >= 0;
 }
 
@@ -302,6 +302,9 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
                    false);
     read_destination(b, index, path, state, t);
     read_item_condition(b, index, path, t);
+    t->rests = t->when;
+    for (int32_t hook = t->when_hook; hook >= 0; hook = b->script->hooks[hook].previous)
+        t->rests = b->script->hooks[hook].expression;
     jox_read_join(full, path, "chance");
     if (jox_read_field(L, index, "chance") == LUA_TNIL)
         lua_pop(L, 1);

@@ -91,12 +91,14 @@ void jox_read_tell(JoxBuild *b, int index, const char *path, JoxActions *actions
         const size_t errors = b->script->diagnostics->errors;
         JoxTell tell = {.to = -1, .name = -1};
         read_receiver(b, table, full, &tell);
-        if (lua_rawgeti(L, table, 2) == LUA_TSTRING && lua_rawlen(L, -1) <= 60)
+        if (lua_rawgeti(L, table, 2) == LUA_TSTRING && lua_rawlen(L, -1) > 0 &&
+            lua_rawlen(L, -1) <= 60)
             tell.name =
                 jox_build_name_at(b, lua_tostring(L, -1), JOX_NAME_SENT, jox_read_at(b, full));
         else
-            jox_build_error(b, jox_read_at(b, full), "bad-value", EXAMPLE,
-                            "tell needs the name of the message as its second item");
+            jox_build_error(
+                b, jox_read_at(b, full), "bad-value", EXAMPLE,
+                "tell needs the name of the message as its second item, of 1 to 60 bytes");
         lua_pop(L, 1);
         for (const char *key = NULL; (key = find_next_key(L, table, key));) {
             if (strcmp(key, "sender") == 0) {
@@ -104,9 +106,9 @@ void jox_read_tell(JoxBuild *b, int index, const char *path, JoxActions *actions
                                 "`sender` is who told the message");
                 break;
             }
-            if (tell.count == JOX_MOST_CARRIED || strlen(key) > 60) {
+            if (tell.count == JOX_MOST_CARRIED || strlen(key) > 60 || !*key) {
                 jox_build_error(b, jox_read_at(b, full), "too-many", NULL,
-                                "a message carries at most %d values, with names of at most 60 "
+                                "a message carries at most %d values, with names of 1 to 60 "
                                 "bytes",
                                 JOX_MOST_CARRIED);
                 break;

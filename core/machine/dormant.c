@@ -166,7 +166,7 @@ void jox_dormant_tell(const JoxMachine *old, const JoxMachine *next, const char 
         const JoxMemorySlot *now = &next->memory[s];
         const int32_t from = jox_memory_before(old, next, s);
         const JoxMemorySlot *was = from < 0 ? NULL : &old->memory[from];
-        if (was && !was->dormant && now->capacity < was->capacity)
+        if (was && !was->dormant && !now->dormant && now->capacity < was->capacity)
             jox_text_printf(out,
                             " the list '%.60s' holds at most %u items now: where there are more, "
                             "the oldest are dropped\n",

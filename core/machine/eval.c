@@ -201,7 +201,7 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
     case JOX_OP_OF:
         return jox_target_measure(run, i, in->target, (JoxNow)in->arg);
     case JOX_OP_EXISTS:
-        return jox_target_who(run, i, in->target) != JOX_NOBODY;
+        return jox_target_exists(run, i, in->target);
     case JOX_OP_LIST_HAS:
     case JOX_OP_LIST_SIZE:
     case JOX_OP_LIST_FIRST:

@@ -59,7 +59,7 @@ JoxState jox_state_blank(char *name) {
 
 JoxTransition jox_transition_blank(char *id) {
     return (JoxTransition){
-        .id = id, .when = -1, .when_hook = -1, .on_take = -1, .does = {.signal = -1}};
+        .id = id, .when = -1, .when_hook = -1, .rests = -1, .on_take = -1, .does = {.signal = -1}};
 }
 
 static void free_state(JoxState *state) {
@@ -96,10 +96,17 @@ const char *jox_machine_renamed(const JoxMachine *m, JoxPart part, const char *n
     return NULL;
 }
 
+static bool is_of_message(const JoxMachine *machine, int32_t target) {
+    return target >= 0 && machine->targets[target].kind == JOX_TARGET_MESSAGE;
+}
+
 bool jox_asks_for_messages(const JoxMachine *machine, int32_t when) {
-    for (uint32_t k = 0; when >= 0 && k < machine->expressions[when].count; k++)
-        if (machine->expressions[when].code[k].op == JOX_OP_TOLD)
+    for (uint32_t k = 0; when >= 0 && k < machine->expressions[when].count; k++) {
+        const JoxInstruction *in = &machine->expressions[when].code[k];
+        if (in->op == JOX_OP_TOLD || in->op == JOX_OP_MESSAGE ||
+            is_of_message(machine, in->target) || is_of_message(machine, in->place))
             return true;
+    }
     return false;
 }
 

@@ -137,6 +137,8 @@ typedef struct JoxTransition {
     JoxActions does;
     int32_t when;      /* index of an expression; -1: always (unless when_hook) */
     int32_t when_hook; /* index of a Lua function; -1 none */
+    int32_t rests;     /* the expression on whose messages it rests: `when`, or the condition that
+                          the function extends; -1: none */
     JoxValue chance;   /* UNSET: certain */
     int32_t on_take;   /* hook or -1 */
     int32_t line;

@@ -151,8 +151,10 @@ void jox_sightings_note_agent(const JoxMachineRun *run, uint32_t agent);
 /* Returns who or what a target is for an agent. What it remembers, holds or was struck by it knows
    out of sight, too, unless the target has a filter. */
 double jox_target_who(const JoxMachineRun *run, uint32_t agent, int32_t index);
-/* Does the same, but draws a member of the set that a target `one_of` names. Draws in one step with
-   the same `number` are the same. */
+/* Returns whether there is anybody, a body, a place or a point that a target means. */
+bool jox_target_exists(const JoxMachineRun *run, uint32_t agent, int32_t index);
+/* Does as jox_target_who, but draws a member of the set that a target `one_of` names. Draws in one
+   step with the same `number` are the same. */
 double jox_target_draw_who(const JoxMachineRun *run, uint32_t agent, int32_t index,
                            uint32_t number);
 /* Draws a member of the set of a target `one_of`; -1 for other targets, and if there is none. */

@@ -80,7 +80,8 @@ static void keep_given(const JoxMachine *old, JoxMachine *next) {
 /* Returns whether slot `slot` of the new version is a list that held more items before. */
 static bool shortens_list(const JoxReplacement *r, uint32_t slot) {
     const int32_t was = r->memory[slot];
-    return was >= 0 && r->next->memory[slot].capacity < r->old->memory[was].capacity;
+    return was >= 0 && !r->next->memory[slot].dormant &&
+           r->next->memory[slot].capacity < r->old->memory[was].capacity;
 }
 
 /* Maps own values and memory of the new version to old slots, and draws own values whose

@@ -252,6 +252,13 @@ double jox_target_who(const JoxMachineRun *run, uint32_t i, int32_t index) {
     return spot.found ? find_spot_who(run, &spot) : JOX_NOBODY;
 }
 
+bool jox_target_exists(const JoxMachineRun *run, uint32_t i, int32_t index) {
+    const JoxTarget *target = index < 0 ? NULL : &jox_machine_of(run, i)->targets[index];
+    return target && (target->kind == JOX_TARGET_HOME || target->kind == JOX_TARGET_LAST_SEEN)
+               ? jox_target_find(run, i, index).found
+               : jox_target_who(run, i, index) != JOX_NOBODY;
+}
+
 /* Updates where an agent last saw whom it remembers. */
 static void note_sighting(const JoxMachineRun *run, const JoxSighting *sighting, uint32_t i) {
     const JoxAgents *a = run->agents;

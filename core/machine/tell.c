@@ -231,24 +231,47 @@ void jox_messages_deliver(JoxMachineRun *run) {
 /* Bits of an agent's messages that the value in each register rests on. */
 typedef uint32_t Rests[JOX_MOST_REGISTERS];
 
-/* Returns the bits that the result of an instruction rests on: of AND both sides', of OR those of
-   the first side that holds. */
-static uint32_t find_rest(const JoxMachine *machine, const JoxInstruction *in, const Rests rests,
-                          JoxRegisters values, const JoxMessage *first, uint32_t count) {
-    if (in->op == JOX_OP_AND)
-        return rests[in->a] | rests[in->b];
-    if (in->op == JOX_OP_OR)
-        return values[in->a][0] != 0.0 ? rests[in->a] : rests[in->b];
-    for (uint32_t m = 0; in->op == JOX_OP_TOLD && m < count; m++)
-        if (first[m].name == machine->names[in->name].number && !(first[m].used & JOX_MESSAGE_USED))
+/* Returns the bit of the message of a name that conditions read; 0 if none waits. */
+static uint32_t find_read_message(uint32_t name, const JoxMessage *first, uint32_t count) {
+    for (uint32_t m = 0; m < count; m++)
+        if (first[m].name == name && !(first[m].used & JOX_MESSAGE_USED))
             return 1u << m;
     return 0;
+}
+
+/* Returns the bits that a target of an instruction rests on: whom or what a message carries. */
+static uint32_t find_target_rest(const JoxMachine *machine, int32_t target, const JoxMessage *first,
+                                 uint32_t count) {
+    if (target < 0 || machine->targets[target].kind != JOX_TARGET_MESSAGE)
+        return 0;
+    return find_read_message(machine->names[machine->targets[target].arg].number, first, count);
+}
+
+/* Returns the bits that the result of an instruction rests on: of AND those of both sides, or of
+   the sides that do not hold; of OR those of the first side that holds. */
+static uint32_t find_rest(const JoxMachine *machine, const JoxInstruction *in, const Rests rests,
+                          JoxRegisters values, const JoxMessage *first, uint32_t count) {
+    const bool a = values[in->a][0] != 0.0, b = values[in->b][0] != 0.0;
+    if (in->op == JOX_OP_AND)
+        return (a && !b ? 0 : rests[in->a]) | (b && !a ? 0 : rests[in->b]);
+    if (in->op == JOX_OP_OR)
+        return a ? rests[in->a] : b ? rests[in->b] : rests[in->a] | rests[in->b];
+    if (in->op == JOX_OP_EITHER)
+        return rests[in->a] | rests[a ? in->b : in->c];
+    uint32_t bits = find_target_rest(machine, in->target, first, count) |
+                    find_target_rest(machine, in->place, first, count);
+    if (in->op == JOX_OP_TOLD || in->op == JOX_OP_MESSAGE)
+        bits |= find_read_message(machine->names[in->name].number, first, count);
+    const uint8_t from[] = {in->a, in->b, in->c};
+    for (uint32_t k = 0; k < jox_op_inputs((JoxOp)in->op); k++)
+        bits |= rests[from[k]];
+    return bits;
 }
 
 void jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
                       uint32_t i) {
     static _Thread_local JoxRegisters values;
-    const JoxExpression *expression = &machine->expressions[t->when];
+    const JoxExpression *expression = &machine->expressions[t->rests];
     Rests rests = {0};
     uint32_t count;
     const JoxMessage *first = jox_messages_of(run, i, &count);
@@ -258,7 +281,7 @@ void jox_messages_use(JoxMachineRun *run, const JoxMachine *machine, const JoxTr
         const JoxExpression one = {&in, 1};
         const uint32_t rest = find_rest(machine, &in, rests, values, first, count);
         jox_eval(run, machine, &one, &i, 1, values);
-        rests[in.to] = values[in.to][0] != 0.0 ? rest : 0;
+        rests[in.to] = rest;
     }
     for (uint32_t m = 0; m < count; m++)
         if (rests[0] >> m & 1) {

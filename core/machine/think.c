@@ -237,7 +237,7 @@ static void use_messages_of(JoxMachineRun *run, uint32_t i) {
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         const bool due = reacts >> k & 1 || run->scratch->fired[i] == (int16_t)k;
-        if (due && jox_asks_for_messages(machine, t->when))
+        if (due && jox_asks_for_messages(machine, t->rests))
             jox_messages_use(run, machine, t, i);
     }
 }

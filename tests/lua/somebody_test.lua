@@ -322,3 +322,32 @@ test("a list that is declared wrongly is told once", function()
   truthy(not pcall(refused, wrong, "unknown key"))
   truthy(not pcall(refused, wrong, "always taken"))
 end)
+
+test("an item rests on a message by its values, too, and uses it up", function()
+  for _, when in ipairs { '(told "x").v:above(0)', 'exists((told "x").sender)', 'either(told "x", 1, 0):above(0)',
+    '~(~told "x")', 'told "x" & told("x").v:is(1)', '~told "y" & told "x"' } do
+    local s = scene { groups = { people = { at = { { 0, 0 }, { 1, 0 } }, behaviour = [[
+      local mine = memory { n = 0, home = false, seen = false, other = nobody }
+      return machine { name = "people", start = "A", defaults = { perception = 9 }, states = {
+        A = { steer = seek(home), tell = { neighbours "anyone", "x", v = 1 },
+          { when = ]] .. when .. [[, set = { n = mine.n + 1 } },
+          { when = after(9) & told "y", set = { n = 0 } },
+          { every = 0.5, when = exists(home), set = { home = true, other = nearest "anyone" } },
+          { every = 0.5, when = exists(last_seen(mine.other)), set = { seen = true } } } } }]] } } }
+    s:run(2)
+    for _, one in ipairs(s:agents("people")) do
+      equal(one.n, 1)
+      truthy(one.home)
+      truthy(one.seen)
+    end
+  end
+end)
+
+test("a name is not empty", function()
+  for _, item in ipairs { 'when = told ""', 'when = heard ""', 'signal = ""', 'tell = { nearest "anyone", "" }',
+    'tell = { nearest "anyone", "x", [""] = 1 }', 'when = sees(nearest("anyone"):in_state "")' } do
+    refused({ groups = { people = { at = { { 0, 0 } }, behaviour = [[
+      return machine { name = "people", start = "A", states = { A = { steer = hold, { to = "B", ]] .. item .. [[ } },
+        B = { steer = hold } } }]] } } }, "name")
+  end
+end)

@@ -74,7 +74,7 @@ static JoxNodeFilter *push_filtered_target(lua_State *L, const char *method) {
 /* Returns a filter by name, which argument 2 is; NULL with an error pushed. */
 static JoxNodeFilter *push_named_target(lua_State *L, const char *method) {
     JoxNodeFilter *filter = push_filtered_target(L, method);
-    if (filter && (lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60))
+    if (filter && (lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60 || lua_rawlen(L, 2) == 0))
         jox_word_error(L, method, "bad-operand", "Example: nearest(\"people\"):in_state(\"Exit\")",
                        ":%s takes a name, which %s is not", method, jox_node_kind(L, 2));
     else if (filter && filter->flies)
@@ -389,7 +389,7 @@ int jox_node_index(lua_State *L) {
                 return lua_pushcfunction(L, m->func), 1;
         return index_list(L, of, name);
     }
-    if (of->kind == JOX_NODE_CONDITION && of->op == JOX_OP_TOLD && strlen(name) <= 60)
+    if (of->kind == JOX_NODE_CONDITION && of->op == JOX_OP_TOLD && *name && strlen(name) <= 60)
         return index_message(L, of, name);
     if (of->kind == JOX_NODE_TARGET)
         return index_target(L, name, names, count);

@@ -186,7 +186,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
                   {'c', "a condition"},
                   {'d', "a plain number"},
                   {'g', "a tag"},
-                  {'s', "a name"},
+                  {'s', "a name of 1 to 60 bytes"},
                   {'w', "the name of walls"}};
     JoxNode *node = jox_node_get(L, index);
     if (node && node->kind == JOX_NODE_ERROR) {
@@ -216,7 +216,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     if (letter == 'w' && lua_type(L, index) == LUA_TSTRING && !check_gate_name(L, index))
         return NULL;
     if ((letter == 's' || letter == 'w') && lua_type(L, index) == LUA_TSTRING &&
-        lua_rawlen(L, index) <= 60) {
+        lua_rawlen(L, index) > 0 && lua_rawlen(L, index) <= 60) {
         result = jox_node_push(L, JOX_NODE_TARGET); /* only carries the name */
         result->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, index));
         result->written = jox_word_place(L, result->name);
@@ -236,6 +236,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
                    lua_isnoneornil(L, index)                ? "nothing"
                    : letter == 'm' && names_place(L, index) ? "a place"
                    : node                                   ? "another value"
+                   : lua_type(L, index) == LUA_TSTRING      ? "this text"
                                                             : luaL_typename(L, index));
     return NULL;
 }
