@@ -195,12 +195,29 @@ static void lists_and_people_are_kept(void **state) {
         "  C = { steer = hold, { when = mine.hours.size:is(2) & mine.hours.first:is(5)\n"
         "    & mine.hours.last:is(7) & exists(mine.met.first) & same(mine.met.first, mine.prey)\n"
         "    & distance(last_seen(mine.prey)):above(0), set = { ok = 1 } } } } }\n";
+    static const char WITHOUT[] = /* dormant meanwhile */
+        "local mine = memory { ok = 0 }\n" MACHINE_START
+        "\"A\", states = { A = {}, B = {}, C = { steer = hold, { every = 1, set = { ok = mine.ok } "
+        "} } } }\n";
+    static const char AGAIN[] =
+        "local mine = memory { hours = list(3), met = list(2, nobody), ok = 0 }\n" MACHINE_START
+        "\"A\", states = { A = {}, B = {}, C = { steer = hold,\n"
+        "  { when = mine.hours.size:is(2) & mine.hours.first:is(5) & mine.met.size:is(1),\n"
+        "    set = { ok = 2 } } } } }\n";
     JoScene *scene = load_scene_text(YARD_WITH_PEOPLE(5), BEFORE);
     step_scene(scene, 8);
     assert_true(reload_behaviour(scene, 0, AFTER));
     step_scene(scene, 2);
     for (uint32_t i = 0; i < 5; i++)
         assert_true(read_memory_value(scene, i, "ok") == 1.0);
+    for (int k = 0; k < 2; k++) {
+        assert_true(reload_behaviour(scene, 0, WITHOUT));
+        step_scene(scene, 2);
+        assert_true(reload_behaviour(scene, 0, AGAIN));
+        step_scene(scene, 2);
+    }
+    for (uint32_t i = 0; i < 5; i++)
+        assert_true(read_memory_value(scene, i, "ok") == 2.0);
     jo_scene_free(scene);
 }
 
