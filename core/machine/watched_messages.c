@@ -57,7 +57,7 @@ void jox_watch_used_message(const JoxMachineRun *run, const JoxMessage *message,
         return;
     came->fate = JOX_CAME_USED;
     came->tick = run->tick;
-    if (!item)
+    if (!machine || !item)
         snprintf(came->by, sizeof came->by, "a function");
     else if (item->stays)
         snprintf(came->by, sizeof came->by, "a reaction (%.60s:%d)",
