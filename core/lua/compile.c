@@ -288,8 +288,6 @@ static void use_outer_clock(Code *code, JoxInstruction *in) {
     code->without_machine |= in->op == JOX_OP_DONE && level < 0;
     if (in->op == JOX_OP_DONE)
         in->arg = level < 0 ? 0 : level;
-    if (in->op == JOX_OP_STUCK)
-        in->arg = level < 0 ? -1 : (int32_t)m->clock[level] - 1;
     if (level < 0)
         return;
     const bool time = in->op == JOX_OP_NOW && in->arg == JOX_NOW_time_in_state;

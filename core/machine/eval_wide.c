@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "machine/kernels.h"
-#include "machine/stuck_time.h"
 #include "simd/lanes.h"
 
 enum { BYTES = JOX_WIDTH > 4 ? 4 * JOX_WIDTH : 16, NUMBERS = BYTES / sizeof(double), PACKET = 8 };
@@ -168,7 +167,7 @@ bool JOX_WIDE(jox_eval_numbers)(const JoxMachineRun *run, const JoxInstruction *
     case JOX_OP_OUTER_TIME:
         EACH_AGENT(jox_time_since(run, i, arg));
     case JOX_OP_STUCK:
-        EACH_AGENT(jox_time_stuck(run, i, arg) >= a[n] - 1e-9);
+        EACH_AGENT(g->still[i] >= a[n]);
     case JOX_OP_FALLEN:
         EACH_AGENT(g->fallen[i] > 0.0f);
     default:

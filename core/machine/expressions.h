@@ -60,8 +60,7 @@ typedef enum JoxNow {
    arrived there keep it off. NEAR: target is nearer than a metres. CROSSES: the last move crossed
    line `place` from its right to its left. FIRST_IN: the agent heads its queue. JOINED: it has its
    place in its queue. AFTER: time in state is at least a. LASTED: the drawn duration of the state
-   is over. STUCK: the agent has not moved 0.25 m for a seconds in the state, or in the
-   outer state whose clock is memory slot `arg` (-1: none). FALLEN: the agent lies after a
+   is over. STUCK: the agent has not moved 0.25 m for a seconds. FALLEN: the agent lies after a
    fall. TOUCHES: the gap to target is below 0.05 m. GROUNDED: target, a body, touches the ground.
    KICKED: the agent kicked target, or a body with its tag, in the last step. HIT_BY: target, faster
    than 1 m/s, touches the agent, or such a body hit it in the last step. INCOMING: target, at its

@@ -47,7 +47,6 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT((op != JOX_OP_OUTER_AFTER && op != JOX_OP_OUTER_LASTED && op != JOX_OP_OUTER_TIME &&
                 op != JOX_OP_OUTER_EVERY) ||
                (uint32_t)in->arg < m->memory_count);
-    JOX_ASSERT(op != JOX_OP_STUCK || is_index(in->arg, m->memory_count));
     JOX_ASSERT(op != JOX_OP_DONE || (in->arg >= 0 && in->arg < JOX_MOST_LEVELS));
 }
 

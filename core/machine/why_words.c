@@ -1,5 +1,4 @@
 #include "machine/why_words.h"
-#include "machine/stuck_time.h"
 
 #include <math.h>
 #include <string.h>
@@ -157,8 +156,8 @@ void jox_why_measure(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
                     "s");
         break;
     case JOX_OP_STUCK:
-        set_measure(term, jox_time_stuck(run, i, in->arg), ">=", a, "s");
-        jox_text_add(&term->note, "time in the state without moving 0.25 m");
+        set_measure(term, (double)agents->still[i], ">=", a, "s");
+        jox_text_add(&term->note, "time without moving 0.25 m");
         break;
     case JOX_OP_INSIDE:
     case JOX_OP_ARRIVED:

@@ -494,7 +494,7 @@ lasted = nil
 ---@type jostle.Condition
 done = nil
 
---- `stuck(seconds)`: the agent has not moved by 0.25 m for this time in the state, s
+--- `stuck(seconds)`: the agent has not moved by 0.25 m for this time, s
 ---@param seconds jostle.Value
 ---@return jostle.Condition
 function stuck(seconds) end
@@ -926,7 +926,7 @@ function sequence(steps) end
 ---@return any
 function wait(seconds) end
 
---- `back`: for `to`: the state that the agent left when it entered the present one, other than by `back`; if there is none, the state in which the machine begins. That state begins anew: its time, `wait`, `after` and `lasts` count from 0
+--- `back`: for `to`: the state that the agent left when it entered the present one, other than by `back`; if there is none, the state in which the machine begins
 ---@type jostle.Back
 back = nil
 

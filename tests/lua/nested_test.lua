@@ -165,19 +165,3 @@ test("a behaviour may be a sequence itself", function()
   s:run(0.5)
   equal(s:count(), 0)
 end)
-
--- `stuck` counts within the state, or within the outer state that asks, and not what was before it.
-test("stuck counts from when the state was entered", function()
-  local s = scene { groups = { people = { at = { { 0, 0 } }, behaviour = [[
-    return machine { name = "m", start = "A", states = {
-      A = { steer = hold, { to = "B", when = after(5) } },
-      B = { runs = machine { start = "C", states = {
-              C = { steer = hold, { to = "D", when = stuck(2) } }, D = { steer = hold, { to = "E", when = stuck(2) } },
-              E = { steer = hold } } },
-        { to = "Out", when = stuck(5) } },
-      Out = { steer = hold } } }]] } } }
-  s:reaches("B", { within = 6 })
-  near(s:reaches("B.D", { within = 3 }), 7, 0.11)
-  near(s:reaches("B.E", { within = 3 }), 9, 0.21)
-  near(s:reaches("Out", { within = 3 }), 10, 0.21)
-end)

@@ -38,7 +38,7 @@ const JoxWord jox_words[] = {
     {"done", NULL, CONDITION, JOX_OP_DONE, 0, "done", "",
      "the machine that this state runs has ended: it is in a state with `ends = true`", "done"},
     {"stuck", "n", CONDITION, JOX_OP_STUCK, 0, "stuck(seconds)", "",
-     "the agent has not moved by 0.25 m for this time in the state, s", "stuck(3)"},
+     "the agent has not moved by 0.25 m for this time, s", "stuck(3)"},
     {"fallen", NULL, CONDITION, JOX_OP_FALLEN, 0, "fallen", "",
      "the agent lies after a fall (see `balance`); `now.fallen` is the time since then", "fallen"},
     {"hit_by", "m", CONDITION, JOX_OP_HIT_BY, 0, "hit_by(target)", "",
@@ -261,8 +261,7 @@ const JoxWord jox_words[] = {
      "sequence { wait(uniform(1, 2)), seek \"post\" }"},
     {"back", NULL, 0, 0, 0, "back", "",
      "for `to`: the state that the agent left when it entered the present one, other than by `back`; if there is "
-     "none, the state in which the machine begins. That state begins anew: its time, `wait`, `after` and `lasts` count "
-     "from 0", "back"},
+     "none, the state in which the machine begins", "back"},
     {"patch", "*", 0, 0, 0, "patch \"behaviour\" { ... }", "",
      "in a mod: changes a behaviour's table, key by key; returned by the file",
      "patch \"stander\" { defaults = { perception = 2 } }"},
