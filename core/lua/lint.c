@@ -145,15 +145,6 @@ static const JoxInstruction *find_required(const JoxMachine *m, int32_t expressi
                : find_operation(m, expression, op);
 }
 
-/* Writes the path of a transition, in the table of the state that lists it. */
-static void write_transition_path(const JoxMachine *m, const JoxState *state,
-                                  const JoxTransition *t, char path[256]) {
-    char around[256], item[160];
-    jox_state_path(jox_state_on_level(m, state, t->level), around);
-    snprintf(item, sizeof item, "%u", t->item + 1u);
-    jox_read_join(path, around, item);
-}
-
 /* Warns of transitions that never fire. Those of the outer states around are checked there. */
 static void check_firing(JoxBuild *b, const JoxState *state) {
     const JoxMachine *m = b->machine;
@@ -162,7 +153,7 @@ static void check_firing(JoxBuild *b, const JoxState *state) {
         const JoxTransition *taken = &state->transitions[t];
         if (taken->level < state->depth)
             continue;
-        write_transition_path(m, state, taken, full);
+        jox_read_item_path(m, state, taken, full);
         const bool known = b->script->diagnostics->errors == 0; /* else a `when` may be missing */
         if (t > 0 && known && is_unconditional(&state->transitions[t - 1])) {
             add_warning(b, full, "never-fires", "Put it before that one",
@@ -213,7 +204,7 @@ static void check_queues(JoxBuild *b, const JoxState *state) {
             const JoxInstruction *in = find_required(m, taken->when, ASKS[k].op);
             if (!in || taken->level < state->depth || may_queue(m, state, in->place))
                 continue;
-            write_transition_path(m, state, taken, item);
+            jox_read_item_path(m, state, taken, item);
             jox_read_join(full, item, "when");
             snprintf(text, sizeof text,
                      "`%s` never holds here: the agent does not queue in this state", ASKS[k].word);
@@ -239,7 +230,7 @@ static void check_done(JoxBuild *b, uint32_t outer) {
     for (uint32_t t = 0; t < state->transition_count && !can_end(m, outer); t++) {
         if (!find_operation(m, state->transitions[t].when, JOX_OP_DONE))
             continue;
-        write_transition_path(m, state, &state->transitions[t], item);
+        jox_read_item_path(m, state, &state->transitions[t], item);
         jox_read_join(full, item, "when");
         snprintf(text, sizeof text,
                  "`done` never holds here: no state of the machine that '%.80s' runs ends it",
@@ -289,7 +280,7 @@ static void check_distances(JoxBuild *b, const JoxState *state) {
                 continue;
             if (in->op == JOX_OP_NEAR && !jox_target_kind_moves(m->targets[in->target].kind))
                 continue;
-            write_transition_path(m, state, &state->transitions[t], full);
+            jox_read_item_path(m, state, &state->transitions[t], full);
             snprintf(text, sizeof text,
                      "nobody is seen or heard as far as %g m: perception is %g m", asked->number,
                      most);

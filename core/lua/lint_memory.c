@@ -98,15 +98,6 @@ static void check_unset_memory(JoxBuild *b) {
 
 /* ---- items ---- */
 
-/* Writes the path of an item, in the table of the state that lists it. */
-static void write_item_path(const JoxMachine *m, const JoxState *state, const JoxTransition *t,
-                            char path[256]) {
-    char around[256], item[16];
-    jox_state_path(jox_state_on_level(m, state, t->level), around);
-    snprintf(item, sizeof item, "%u", t->item + 1u);
-    jox_read_join(path, around, item);
-}
-
 /* Warns of a condition that wants more items of a list than it can hold. */
 static void check_list_sizes(JoxBuild *b, const char *path, const JoxTransition *t) {
     const JoxMachine *m = b->machine;
@@ -129,12 +120,21 @@ static void check_list_sizes(JoxBuild *b, const char *path, const JoxTransition 
     }
 }
 
-/* Returns whether an expression has an operation on a message of this name. */
-static bool has_message_operation(const JoxMachine *m, int32_t expression, JoxOp op, int16_t name) {
+static bool is_target_of_message(const JoxMachine *m, int32_t target, int16_t name) {
+    return target >= 0 && m->targets[target].kind == JOX_TARGET_MESSAGE &&
+           m->targets[target].arg == name;
+}
+
+/* Returns whether an expression reads a message of this name, or, if `asks`, asks for one. */
+static bool has_message(const JoxMachine *m, int32_t expression, int16_t name, bool asks) {
     const JoxExpression *e = expression < 0 ? NULL : &m->expressions[expression];
-    for (uint32_t k = 0; e && k < e->count; k++)
-        if (e->code[k].op == op && e->code[k].name == name)
+    for (uint32_t k = 0; e && k < e->count; k++) {
+        const JoxInstruction *in = &e->code[k];
+        const bool named = in->op == JOX_OP_MESSAGE || (asks && in->op == JOX_OP_TOLD);
+        if ((named && in->name == name) || is_target_of_message(m, in->target, name) ||
+            is_target_of_message(m, in->place, name))
             return true;
+    }
     return false;
 }
 
@@ -142,9 +142,8 @@ static bool has_message_operation(const JoxMachine *m, int32_t expression, JoxOp
 static bool is_of_message(const JoxMachine *m, const JoxValue *value, int16_t target,
                           int16_t name) {
     if (target >= 0)
-        return m->targets[target].kind == JOX_TARGET_MESSAGE && m->targets[target].arg == name;
-    return value->kind == JOX_VALUE_EXPRESSION &&
-           has_message_operation(m, value->index, JOX_OP_MESSAGE, name);
+        return is_target_of_message(m, target, name);
+    return value->kind == JOX_VALUE_EXPRESSION && has_message(m, value->index, name, false);
 }
 
 /* Returns whether what an item sets or tells reads a message of this name. */
@@ -162,14 +161,14 @@ static bool reads_message(const JoxMachine *m, const JoxActions *does, int16_t n
     return reads;
 }
 
-/* Warns of an item that reads a message for which its condition does not ask. */
+/* Warns of an item that reads a message which its condition does not name. */
 static void check_messages_read(JoxBuild *b, const char *path, const JoxTransition *t) {
     const JoxMachine *m = b->machine;
-    for (uint32_t n = 0; n < m->name_count && t->when_hook < 0; n++) {
+    for (uint32_t n = 0; n < m->name_count && (t->when_hook < 0 || t->rests >= 0); n++) {
         const JoxName *name = &m->names[n];
         char text[200], hint[120];
         if (!(name->uses & JOX_NAME_TOLD) || !reads_message(m, &t->does, (int16_t)n) ||
-            has_message_operation(m, t->when, JOX_OP_TOLD, (int16_t)n))
+            has_message(m, t->rests, (int16_t)n, true))
             continue;
         snprintf(text, sizeof text,
                  "this reads message '%.60s', and is done also while none waits: its sender is "
@@ -192,7 +191,7 @@ void jox_lint_memory(JoxBuild *b) {
                 char path[256];
                 if (item->level < lists[l][s].depth)
                     continue;
-                write_item_path(m, &lists[l][s], item, path);
+                jox_read_item_path(m, &lists[l][s], item, path);
                 check_list_sizes(b, path, item);
                 check_messages_read(b, path, item);
             }

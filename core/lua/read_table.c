@@ -74,6 +74,14 @@ void jox_read_join(char path[256], const char *prefix, const char *key) {
     snprintf(path, 256, "%.190s%s%.60s", prefix, *prefix ? "." : "", key);
 }
 
+void jox_read_item_path(const JoxMachine *m, const JoxState *state, const JoxTransition *t,
+                        char path[256]) {
+    char around[256], item[16];
+    jox_state_path(jox_state_on_level(m, state, t->level), around);
+    snprintf(item, sizeof item, "%u", t->item + 1u);
+    jox_read_join(path, around, item);
+}
+
 int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(index > 0 && lua_istable(L, index));

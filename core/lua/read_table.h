@@ -129,6 +129,9 @@ void jox_read_public(JoxBuild *build, int index, const char *path);
 void jox_read_id(lua_State *L, int index, int nth, char id[128]);
 /* Joins a path and a key with a dot. */
 void jox_read_join(char path[256], const char *prefix, const char *key);
+/* Writes the path of an item, in the table of the state that lists it. */
+void jox_read_item_path(const JoxMachine *machine, const JoxState *state, const JoxTransition *item,
+                        char path[256]);
 /* Pushes table[key] by raw access and returns its type. */
 int jox_read_field(lua_State *L, int index, const char *key);
 /* Reports string keys of a table that are not known; other keys too, unless `items`. */

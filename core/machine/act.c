@@ -155,20 +155,26 @@ static JoxV3 find_kick_impulse(JoxMachineRun *run, const JoxMachine *machine, co
     return kick;
 }
 
-JoxObstacle jox_find_kick_obstacle(const JoxMachineRun *run, const JoxState *state, uint32_t i,
-                                   JoxSpot *spot) {
-    const JoxAgents *a = run->agents;
-    *spot = jox_target_find(run, i, state->kick);
+/* Finds the body that an action is about; returns why it cannot be moved by hand or foot, if so. */
+static JoxObstacle find_body(const JoxMachineRun *run, int16_t target, uint32_t i, JoxSpot *spot) {
+    *spot = jox_target_find(run, i, target);
     if (spot->object < 0)
         return spot->found ? JOX_OBSTACLE_KIND : JOX_OBSTACLE_ABSENT;
     const JoxObject *object = &run->objects->rows[spot->object];
-    if (!object->moves)
-        return JOX_OBSTACLE_FIXED;
-    if (object->held)
-        return JOX_OBSTACLE_HELD;
+    return !object->moves ? JOX_OBSTACLE_FIXED
+           : object->held ? JOX_OBSTACLE_HELD
+                          : JOX_OBSTACLE_NONE;
+}
+
+JoxObstacle jox_find_kick_obstacle(const JoxMachineRun *run, const JoxState *state, uint32_t i,
+                                   JoxSpot *spot) {
+    const JoxAgents *a = run->agents;
+    const JoxObstacle found = find_body(run, state->kick, i, spot);
+    if (found != JOX_OBSTACLE_NONE)
+        return found;
     if (jox_spot_gap(run, i, spot) >= JOX_KICK_REACH)
         return JOX_OBSTACLE_FAR;
-    if (!object->in_band)
+    if (!run->objects->rows[spot->object].in_band)
         return JOX_OBSTACLE_HIGH;
     const bool hidden =
         jox_is_hidden(run, jox_v2(a->x[i], a->y[i]), jox_v2(spot->x, spot->y), true);
@@ -226,15 +232,10 @@ static bool hands_reach(const JoxMachineRun *run, uint32_t i, const JoxSpot *bod
 JoxObstacle jox_find_take_obstacle(const JoxMachineRun *run, const JoxState *state, uint32_t i,
                                    JoxSpot *spot) {
     const JoxAgents *a = run->agents;
-    *spot = jox_target_find(run, i, state->take);
-    if (spot->object < 0)
-        return spot->found ? JOX_OBSTACLE_KIND : JOX_OBSTACLE_ABSENT;
-    const JoxObject *object = &run->objects->rows[spot->object];
+    const JoxObstacle found = find_body(run, state->take, i, spot);
     const JoxV2 relative = {spot->vx - a->vx[i], spot->vy - a->vy[i]};
-    if (!object->moves)
-        return JOX_OBSTACLE_FIXED;
-    if (object->held)
-        return JOX_OBSTACLE_HELD;
+    if (found != JOX_OBSTACLE_NONE)
+        return found;
     if (!(jox_spot_gap(run, i, spot) < JOX_TAKE_REACH))
         return JOX_OBSTACLE_FAR;
     if (!(spot->z < 2.0f))

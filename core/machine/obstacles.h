@@ -1,5 +1,5 @@
-/* What keeps the actions of states from their targets. act.c and grasp.c decide by it, why_deeds.c
-   tells it. */
+/* Reasons why an action of a state does not reach its target. act.c and grasp.c decide by them,
+   why_deeds.c tells them. */
 #ifndef JOX_MACHINE_OBSTACLES_H
 #define JOX_MACHINE_OBSTACLES_H
 

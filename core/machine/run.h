@@ -157,8 +157,8 @@ typedef struct JoxWatched {
         uint32_t name, count; /* number of the name; messages that came */
         uint32_t sent, from;  /* tick; id */
         enum { JOX_CAME_WAITS, JOX_CAME_USED, JOX_CAME_LOST } fate;
-        uint32_t tick; /* of its fate */
-        char by[96];   /* what used it, as "its transition to It (tag.lua:12)" */
+        uint32_t tick; /* when that happened */
+        char by[96];   /* its user, as "its transition to It (tag.lua:12)" */
     } * came;
     uint32_t came_count;
     size_t came_capacity;

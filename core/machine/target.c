@@ -66,7 +66,7 @@ void jox_target_places(const JoxMachineRun *run, const JoxMachine *machine, int3
     const JoxOwnColumn *own =
         target && target->kind == JOX_TARGET_OWN_PLACE ? &run->agents->own[target->arg] : NULL;
     const bool same = own ? !own->mask : !target || target->kind == JOX_TARGET_PLACE;
-    const int32_t first = target ? resolve_place(run, target, agents[0]) : -1;
+    const int32_t first = target && same ? resolve_place(run, target, agents[0]) : -1;
     if (same)
         for (uint32_t n = 0; n < count; n++)
             places[n] = first;

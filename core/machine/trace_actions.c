@@ -1,4 +1,4 @@
-/* What the items that a trace shows have done: memory, messages, signals. signals.c calls it. */
+/* Appends to a trace what its items have set, told and called. signals.c calls it. */
 #include "machine/machine_parts.h"
 
 enum { MOST_RECEIVERS = 4 }; /* named of one message */

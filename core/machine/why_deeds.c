@@ -1,5 +1,5 @@
-/* What the state of an agent does: where its steering leads, and which of its actions something
-   keeps from their targets. run/why/ calls it. */
+/* Tells where the steering of an agent's state leads, and why its actions do not work. run/why/
+   calls it. */
 #include "machine/obstacles.h"
 #include "machine/why_words.h"
 

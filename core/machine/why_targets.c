@@ -1,5 +1,5 @@
-/* What a target is for an agent, in words; where it is not found, which candidates there are, and
-   what each of them lacks. why_words.c and why.c call it. */
+/* Tells what a target is for an agent; if it is not found, which candidates there are, and why each
+   of them does not match. why_words.c and why.c call it. */
 #include <stdio.h>
 #include <string.h>
 

@@ -11,6 +11,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
+#include "machine/why.h"
 #include "picture/graphviz.h"
 #include "picture/palette.h"
 #include "run/messages.h"
@@ -175,17 +176,9 @@ static void print_tint(JoxText *out, JoxInk ink, double white) {
 
 /* Adds the steering or duration of a step, which no file has as a key of a state. */
 static void add_step_line(Graph *g, const JoxState *state, const char *key) {
-    static const char *const WORDS[JOX_STEER_FUNCTION + 1] = {[JOX_STEER_HOLD] = "hold",
-                                                              [JOX_STEER_SEEK] = "seek",
-                                                              [JOX_STEER_FIELD] = "field",
-                                                              [JOX_STEER_QUEUE] = "queue"};
-    const JoxSteerTerm *steer = &state->steer[0];
     JoxText line = {0};
-    if (strcmp(key, "steer") == 0 && state->steer_count == 1 && WORDS[steer->kind]) {
-        jox_text_add(&line, WORDS[steer->kind]);
-        if (steer->target >= 0)
-            jox_text_printf(&line, " %s", g->machine->targets[steer->target].name);
-    }
+    if (strcmp(key, "steer") == 0)
+        jox_why_spell_steering(g->machine, state, &line);
     if (strcmp(key, "lasts") == 0 && state->has_lasts) {
         jox_text_add(&line, "lasts ");
         jox_dist_print(&state->lasts, &line);

@@ -64,7 +64,7 @@ return machine { name = "steps", start = "Leave", states = {
   Leave = { runs = sequence { seek "door", wait(2) }, { to = "Gone", when = done } }, Gone = { removes = true } } }
 END
 expect "steps of a sequence follow one another" 0 'label=<when it is over<' "$JOSTLE" graph "$work/steps.lua" --dot
-dot_has "  with steering and seconds" '<b>1 seek door</b><br/><font point-size="9">seek door<' '<b>2 wait</b><br/><font point-size="9">hold<br align="left"/>lasts 2 s<'
+dot_has "  with steering and seconds" '<b>1 seek door</b><br/><font point-size="9">seek(door)<' '<b>2 wait</b><br/><font point-size="9">hold<br align="left"/>lasts 2 s<'
 dot_has "  in a frame" '<b>1 seek door</b>' '<b>2 wait</b>' 'label=<done<'
 
 # ---- pictures ----

@@ -4,7 +4,7 @@
 # says NAME TEXT: `check` of the scene $work/s.yaml prints a text that holds TEXT, and passes
 says() { expect "$1" 0 "$2" "$JOSTLE" check "$work/s.yaml"; }
 # silent NAME TEXT: it does not print TEXT
-silent() { "$JOSTLE" check "$work/s.yaml" >"$work/said"; ! grep -q "$2" "$work/said"; verdict "$1" $?; }
+silent() { "$JOSTLE" check "$work/s.yaml" >"$work/said" 2>&1; ! grep -q "$2" "$work/said"; verdict "$1" $?; }
 
 # ---- memory that nothing sets ----
 cat >"$work/m.lua" <<'END_OF_LUA'
@@ -47,3 +47,9 @@ behaviour a '{ to = "B", when = own.pain:above(0) }'
 fails "  and memory of that name" "It is in memory: mine.pain"
 behaviour a '{ to = "B", when = arrived "goal" }'
 fails "check says that goal is a word" "The word stands without quotes: arrived(goal)"
+
+# ---- messages that an item reads ----
+behaviour a '{ to = "B", when = exists(told("pass").sender), set = { pain = told("pass").hops } }'
+silent "an item may name its message by who told it" "done also while none waits"
+sed -i 's/when = exists(told("pass").sender)/when = after(1)/' "$work/a.lua"
+says "  but must name it" "done also while none waits"

@@ -56,7 +56,7 @@ static void call_back(uint32_t depth, Heard *heard) {
     }
     const JoxHeap *used = jox_heap_used();
     const JoxOutside outside = jox_guard_leave();
-    assert_null(jox_heap_used()); /* what the program allocates is its own */
+    assert_null(jox_heap_used()); /* the program owns its memory */
     hear(heard, "");
     jox_guard_return(outside);
     assert_ptr_equal(jox_heap_used(), used);

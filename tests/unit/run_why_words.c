@@ -47,8 +47,7 @@ static void candidates_are_counted_by_what_they_lack(void **state) {
     jo_scene_free(scene);
 }
 
-/* Of an agent that is followed, calls are measured from where it was; the one that is heard now is
-   named. */
+/* Calls are measured from where a followed agent was; the one that it hears now is named. */
 static void calls_are_measured_from_where_the_agent_was(void **state) {
     (void)state;
     write_test_file(
@@ -84,7 +83,7 @@ static void calls_are_measured_from_where_the_agent_was(void **state) {
     jo_scene_free(scene);
 }
 
-/* What became of messages: of one agent if it is followed, else over the scene. */
+/* The use or loss of messages is told: of one agent if it is followed, else of the scene. */
 static void told_messages_are_accounted_for(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(

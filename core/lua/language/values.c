@@ -184,7 +184,7 @@ static int memory_index(lua_State *L) {
     for (uint32_t i = 0; i < script->memory_count; i++) {
         names[i] = script->memory[i].name;
         if (strcmp(script->memory[i].name, name) == 0) {
-            if (script->memory[i].dormant) /* what it begins as is wrong */
+            if (script->memory[i].dormant) /* its first value is wrong */
                 return jox_node_push_error(L);
             static const JoxNodeKind KINDS[] = {[JOX_MEMORY_NUMBER] = JOX_NODE_NUMBER,
                                                 [JOX_MEMORY_BOOLEAN] = JOX_NODE_CONDITION,
