@@ -11,9 +11,10 @@ PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
 # Folder where the program finds its Lua library, behaviours and scenes: this tree, unless it is installed.
 DATADIR ?= $(CURDIR)
-# Folders of the live page's files, and of three.js, which the page uses (Debian: libjs-three).
-PAGEDIR ?= $(CURDIR)/core/view/page
-THREEDIR ?= /usr/share/javascript/three
+# Folder of the live page: core/view/page with its modules and three.js in one bundle, which needs npm. A release
+# archive (`make dist`) has the page bundled, in `bundled`.
+PAGE    := $(if $(wildcard bundled/main.js),bundled,build/page)
+PAGEDIR ?= $(CURDIR)/$(PAGE)
 # CROSS=aarch64-linux-gnu- builds for another machine; its libraries are expected where Debian's multiarch puts them.
 CROSS   ?=
 ifneq ($(CROSS),)
@@ -89,8 +90,8 @@ CFLAGS  ?=
 CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -D_GNU_SOURCE
 # Folders of the installation, defined only for the files that name them (PLACED) and for tests, so that all other
 # objects can be shared.
-PLACES  := -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"' -DJOX_THREEDIR='"$(THREEDIR)"'
-PLACED  := $(shell grep -lE 'JOX_(DATADIR|PAGEDIR|THREEDIR)' $(SRC_C) $(SRC_CC) $(SRC_CLI))
+PLACES  := -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"'
+PLACED  := $(shell grep -lE 'JOX_(DATADIR|PAGEDIR)' $(SRC_C) $(SRC_CC) $(SRC_CLI))
 # Static variables of inline C++ functions must not become symbols that all libraries of a process share.
 UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
 CFLAGS_ALL  = -std=c17 $(OPT) $(HARD) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
@@ -126,7 +127,7 @@ FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.
 
 .PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install install-built uninstall dist deb deb-check clean test-all format
 LIBRARIES := jostle jostle-tools
-all: $(B)/jostle $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
+all: $(B)/jostle $(if $(filter 0,$(VIEW)),,$(PAGE)/main.js) $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
 # The two commands of the README. Both first install missing packages, and build on all processors.
 AT_ONCE = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
@@ -241,7 +242,7 @@ $(B)/internal.a: $(OBJ)
 	@rm -f $@
 	$(call say,AR,$@)
 	$(Q)$(CROSS)ar rcs $@ $^
-$(B)/jostle: $(OBJ_CLI) $(B)/internal.a
+$(B)/jostle: $(OBJ_CLI) $(B)/internal.a | $(if $(filter 0,$(VIEW)),,$(PAGE)/main.js)
 	$(call say,LINK,$@)
 	$(Q)$(LINK) $^ -o $@ $(LIBS)
 # The libraries export the public functions alone: hidden symbols become local.
@@ -267,6 +268,24 @@ $(LUA_MODULE): $(B)/lua/%.o: scripts/lua/%.c Makefile
 $(B)/lua/jostle.so: $(LUA_MODULE) $(B)/libjostle.a
 	$(call say,LINK,$@)
 	$(Q)$(LINK) -shared -Wl,--as-needed -Wl,--exclude-libs,ALL $(LUA_MODULE) $(B)/libjostle.a -o $@ $(LIBS_jostle)
+# The live page: one bundle of its modules and of three.js, by esbuild; build/node has both, and ESLint, in the versions
+# of core/view/page/package-lock.json.
+NODE       := build/node/node_modules/.package-lock.json
+PAGE_FILES := $(wildcard core/view/page/*.html core/view/page/*.css core/view/page/*.svg)
+$(NODE): core/view/page/package-lock.json core/view/page/package.json
+	@command -v npm >/dev/null || { echo "The live page is bundled with npm, which is not installed: install Node.js and npm, or build without the page, by VIEW=0." >&2; exit 1; }
+	@mkdir -p build/node && cp core/view/page/package*.json build/node/
+	$(call say,NPM,$<)
+	$(Q)cd build/node && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error >npm.log 2>&1 || { cat npm.log >&2; \
+	    echo "npm could not install what the live page is bundled from (it needs its registry once). VIEW=0 builds without the page." >&2; exit 1; }
+	@touch $@
+build/page/main.js: $(NODE) $(PAGE_FILES) $(shell find core/view/page -name '*.js')
+	@rm -rf $(@D) && mkdir -p $(@D)
+	$(call say,PAGE,core/view/page)
+	$(Q)cp $(PAGE_FILES) $(@D)/
+	$(Q)cp build/node/node_modules/three/LICENSE $(@D)/three.LICENSE.txt
+	$(Q)NODE_PATH=build/node/node_modules build/node/node_modules/.bin/esbuild core/view/page/main.js --bundle --format=esm \
+	    --minify-whitespace --minify-syntax --legal-comments=none --log-level=warning --outfile=$@
 # Each unit test has a main of its own, and may be linked as a program, $(B)/unit/NAME. $(B)/units has all of
 # them in one program, their mains renamed: `units NAME...` runs those tests.
 $(B)/unit/%.o: tests/unit/%.c Makefile
@@ -333,7 +352,7 @@ install: install-built
 	install -m 644 scripts/jostle.1 $(D)/share/man/man1/
 	$(foreach l,$(LIBRARIES),printf 'prefix=%s\nlibdir=%s\nName: %s\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -l%s\nLibs.private: %s\n' '$(PREFIX)' '$(LIBDIR:$(PREFIX)/%=$${prefix}/%)' $(l) '$(VERSION)' $(l) '$(LIBS_$(l)) -lstdc++' > $(L)/pkgconfig/$(l).pc;)
 	install -d $(D)/share/jostle/page
-	if [ -d core/view/page ]; then cp -R core/view/page/. $(D)/share/jostle/page; fi
+	if [ -f $(PAGE)/main.js ]; then cp -R $(PAGE)/. $(D)/share/jostle/page; fi
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
 	rm -rf $(D)/share/jostle/scripts/debian $(D)/share/jostle/scripts/python $(D)/share/jostle/scripts/lua
 uninstall:
@@ -342,9 +361,12 @@ uninstall:
 	rm -f $(LIBRARIES:%=$(L)/pkgconfig/%.pc) $(D)/share/man/man1/jostle.1
 # Makes build/out/jostle-VERSION.tar.gz of the current commit, the same bytes each time, and its SHA-256 sum.
 DIST := build/out/jostle-$(VERSION).tar.gz
-dist:
+dist: $(PAGE)/main.js
 	@mkdir -p build/out
-	git archive --format=tar --prefix=jostle-$(VERSION)/ HEAD | gzip -n9 > $(DIST)
+	git archive --format=tar --prefix=jostle-$(VERSION)/ HEAD > $(DIST:.gz=)
+	tar --append --file=$(DIST:.gz=) --sort=name --owner=0 --group=0 --numeric-owner --mode=u=rwX,go=rX \
+	    --mtime=@$$(git log -1 --format=%ct) --transform='s,^$(PAGE),jostle-$(VERSION)/bundled,' $(PAGE)
+	gzip -n9f $(DIST:.gz=)
 	cd build/out && sha256sum $(notdir $(DIST)) > SHA256SUMS
 # Makes Debian packages of that archive in build/deb. `make deb-check` checks them with lintian, installs them into a
 # root folder of their own, and runs what was installed.

@@ -113,7 +113,6 @@ static const CliOption OPTIONS[] = {
      "and act on the run; nothing is encrypted",
      CLI_TO(Run, live.address)},
     {"page", "DIR", "folder of the page's files", CLI_TO(Run, live.page)},
-    {"three", "DIR", "folder of three.js", CLI_TO(Run, live.three)},
 };
 
 /* Prints an error, unless the library already sent it as a message; returns the exit status. */
@@ -381,9 +380,8 @@ static const char *find_run_misuse(const Run *run) {
                ? "--view cannot be combined with --seeds, --report, --data, --trace or "
                  "--profile-lua"
            : run->view && run->has_steps ? "--view goes with --for S, not with --steps"
-           : !run->view &&
-                   (live->address || live->page || live->three || live->fast || run->has_wait)
-               ? "--fast, --view-wait, --view-address, --page and --three go with --view"
+           : !run->view && (live->address || live->page || live->fast || run->has_wait)
+               ? "--fast, --view-wait, --view-address and --page go with --view"
                : NULL;
 }
 

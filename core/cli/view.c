@@ -19,7 +19,6 @@ static const CliOption OPTIONS[] = {
      "listen at this address, not at 127.0.0.1: others can then reach the page",
      CLI_TO(View, def.address)},
     {"page", "DIR", "folder of the page's files", CLI_TO(View, def.page)},
-    {"three", "DIR", "folder of three.js", CLI_TO(View, def.three)},
     {"fps", "N", "frames per second, if the recording does not say", CLI_TO(View, def.fps),
      CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, if it does not say", .kind = CLI_READ,
@@ -32,7 +31,6 @@ static void confine_view(const View *view) {
     cli_reach_file(&reach, view->def.recording);
     cli_reach_scene(&reach, view->def.scene);
     cli_reach_folder(&reach, view->def.page ? view->def.page : JOX_PAGEDIR);
-    cli_reach_folder(&reach, view->def.three ? view->def.three : JOX_THREEDIR);
     cli_confine_work(&reach, view->trusted);
 }
 

@@ -169,7 +169,6 @@ typedef struct JoViewDef {
     const char *address; /* address to listen at; NULL: 127.0.0.1, for this machine alone */
     int port;            /* 0: 8730, or the next free port */
     const char *page;    /* folder of the page's files; NULL: where they were installed */
-    const char *three;   /* folder of three.js; NULL: that of Debian's package */
     bool fast;           /* run as fast as possible, not in real time */
     double wait;         /* s: the run begins when a browser has opened the page, and at the latest
                             after this time; default 0. Ignored with `fast` */
@@ -207,9 +206,8 @@ typedef struct JoViewRecordingDef {
     const char *scene;
     double fps;          /* frames a second; 0: as the recording says */
     double unit;         /* m: unit of the recording's lengths; 0: as it says */
-    const char *address; /* address, page, three and port are as in JoViewDef */
+    const char *address; /* address, page and port are as in JoViewDef */
     const char *page;
-    const char *three;
     int port;
     const volatile int *stop; /* the call returns once this int is not 0; NULL: only on errors */
     JoMessage *opened;        /* receives the page's address once it can be opened; may be NULL */

@@ -156,11 +156,9 @@ static void take_commands(JoxLivePage *page) {
 /* ---- opening, closing, running ---- */
 
 bool jox_live_page_open(JoxLivePage *page, const char *address, int port, const char *folder,
-                        const char *three, JoError *error) {
-    const JoxViewOptions options = {.address = address,
-                                    .port = port,
-                                    .page = folder ? folder : JOX_PAGEDIR,
-                                    .three = three ? three : JOX_THREEDIR};
+                        JoError *error) {
+    const JoxViewOptions options = {
+        .address = address, .port = port, .page = folder ? folder : JOX_PAGEDIR};
     JoxText why = {0};
     page->session.speed = 1.0;
     page->server = jox_view_open(&options, &why);

@@ -34,10 +34,10 @@ typedef struct JoxLivePage {
     JoxText text;                   /* scratch */
 } JoxLivePage;
 
-/* Starts the server. `folder`, `three`: folders of the page's files and of three.js; NULL: those of
-   the installation. False with `error` if the address cannot be served. */
+/* Starts the server. `folder`: of the page's files; NULL: that of the installation. False with
+ * `error` if the address cannot be served. */
 bool jox_live_page_open(JoxLivePage *page, const char *address, int port, const char *folder,
-                        const char *three, JoError *error);
+                        JoError *error);
 /* Ends all connections and frees the page's buffers. A page that was not opened is fine. */
 void jox_live_page_close(JoxLivePage *page);
 /* Runs the loop until `*stop` is set (NULL: for ever): handles the commands of browsers, advances

@@ -119,12 +119,10 @@ int jox_http_serve_file(JoxView *view, struct lws *wsi, const char *path) {
     if (!fault)
         jox_http_drop_from_unknown(view, wsi);
     const char *name = strcmp(path, "/") == 0 ? "/index.html" : path;
-    bool three = strncmp(name, "/three/", 7) == 0;
     const char *type = jox_access_content_type(name);
     if (fault) {
         done = answer_text(wsi, REFUSED, fault);
-    } else if (!type || !jox_access_find_file(three ? view->three : view->page,
-                                              name + (three ? 6 : 0), file)) {
+    } else if (!type || !jox_access_find_file(view->page, name, file)) {
         done = answer_text(wsi, NOT_FOUND, "There is no such file.\n");
     } else {
         int n = format_headers(view, host, !remembered, headers, sizeof headers);

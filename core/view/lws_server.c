@@ -195,14 +195,9 @@ static bool has_file(const char *folder, const char *name) {
 static bool check_view_options(const JoxViewOptions *options, const char *address, JoxText *why) {
     if (!options->page || !has_file(options->page, "index.html"))
         jox_text_printf(why,
-                        "the live page is not in '%s' (no index.html there): install Jostle, or "
-                        "give its folder by --page",
+                        "the live page is not in '%s' (no index.html there): run make, which "
+                        "bundles it, install Jostle, or give its folder by --page",
                         options->page ? options->page : "");
-    else if (!options->three || !has_file(options->three, "build/three.module.js"))
-        jox_text_printf(why,
-                        "the live page needs three.js, which is not in '%s': install Debian's "
-                        "libjs-three, or give its folder by --three",
-                        options->three ? options->three : "");
     else if (options->port < 0 || options->port > 65535)
         jox_text_printf(why, "there is no port %d", options->port);
     else if (try_port(address, 0) == EINVAL)
@@ -318,7 +313,6 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     view->wake_transport = wake_server;
     view->any_host = options->address != NULL;
     snprintf(view->page, sizeof view->page, "%s", options->page);
-    snprintf(view->three, sizeof view->three, "%s", options->three);
     bool good =
         jox_access_make_token(view->token) && jox_access_make_token(view->pass) && view->wake >= 0;
     if (!good)

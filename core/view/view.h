@@ -34,7 +34,6 @@ typedef struct JoxViewOptions {
     const char *address; /* to listen at; NULL: 127.0.0.1, with requests for local names only */
     int port;            /* 0: the first free one from JOX_VIEW_PORT on */
     const char *page;    /* folder with index.html */
-    const char *three;   /* folder of three.js, served at /three/ */
     double patience;     /* s that a connection has to send its headers; 0: 5 */
 } JoxViewOptions;
 

@@ -82,8 +82,8 @@ struct JoxView {
     char token[33]; /* in the address: opens page and socket */
     char pass[33];  /* in the cookie: opens the page's files only */
     int port;
-    bool any_host;                /* an address was given: any Host header is accepted */
-    char page[4096], three[4096]; /* folders that are served */
+    bool any_host;   /* an address was given: any Host header is accepted */
+    char page[4096]; /* folder that is served */
     char address[320];
 };
 

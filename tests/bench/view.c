@@ -68,7 +68,7 @@ static double run_tawaf(bool client) {
     def.scene.path = "scenes/tawaf.yaml";
     def.scene.message = message;
     def.scene.named_mods_only = true;
-    def.page = def.three = folder;
+    def.page = folder;
     def.fast = true;
     def.watch = false;
     def.seconds = SECONDS;
@@ -100,14 +100,11 @@ static void write_empty_file(const char *name) {
 }
 
 int main(void) {
-    char build[300], path[300];
+    char path[300];
     double alone[ROUNDS], watched[ROUNDS];
     if (!mkdtemp(folder))
         return 1;
-    snprintf(build, sizeof build, "%s/build", folder);
-    mkdir(build, 0700);
     write_empty_file("index.html");
-    write_empty_file("build/three.module.js");
     for (int i = 0; i < ROUNDS; i++) {
         alone[i] = run_tawaf(false);
         watched[i] = run_tawaf(true);
@@ -122,8 +119,5 @@ int main(void) {
         frames / ROUNDS);
     snprintf(path, sizeof path, "%s/index.html", folder);
     unlink(path);
-    snprintf(path, sizeof path, "%s/build/three.module.js", folder);
-    unlink(path);
-    rmdir(build);
     return rmdir(folder);
 }

@@ -46,8 +46,8 @@ commands=(
     "mods mod list $scene"
     "reference reference scenes"
     "resume resume $work/saved --for 0.4 --quiet"
-    "view view $work/a.sqlite --page $PWD/core/view/page"
-    "live run $scene --view --view-wait 0 --fast --for 0.05 --quiet --page $PWD/core/view/page"
+    "view view $work/a.sqlite --page $PWD/build/page"
+    "live run $scene --view --view-wait 0 --fast --for 0.05 --quiet --page $PWD/build/page"
 )
 status=0
 

@@ -4,10 +4,9 @@
 set -u
 cd "$(dirname "$0")/../.."
 . tests/scenes/lib.sh
-mkdir -p "$work/page/build"
+mkdir -p "$work/page"
 echo "the page" >"$work/page/index.html"
-echo "three" >"$work/page/build/three.module.js"
-page="--page $work/page --three $work/page"
+page="--page $work/page"
 
 request() { # PORT PATH: prints the answer to a plain request
     exec 3<>"/dev/tcp/127.0.0.1/$1" || return 1
@@ -75,7 +74,6 @@ for command in "run scenes/circle.yaml --view" "view $work/r.sqlite"; do
     [ $? = 129 ]; verdict "SIGHUP ends ${command%% *}: status 129" $?
 done
 refuses "a page that is not there" 1 "give its folder by --page" scenes/circle.yaml --view --page /nowhere
-refuses "three.js that is not there" 1 "libjs-three" scenes/circle.yaml --view --page "$work/page" --three /nowhere
 refuses "an address that is none" 1 "no address" scenes/circle.yaml --view $page --view-address here
 refuses "a port that is none" 2 "whole number from 1 to 65535" scenes/circle.yaml --view=eighty
 refuses "pictures of a live run" 2 "--report" scenes/circle.yaml --view $page --report "$work/report"

@@ -191,7 +191,7 @@ static void live_page(void **state) {
     int before = engine_threads();
     JoViewDef def = jo_default_view_def();
     def.scene = def_of_scene();
-    def.page = def.three = folder;
+    def.page = folder;
     def.stop = &stop;
     def.opened = opened;
     def.opened_context = &before;
@@ -206,9 +206,7 @@ static int make_folder(void **state) {
     (void)state;
     if (!mkdtemp(folder))
         return -1;
-    mkdir(in_folder("build"), 0700);
     write_file("index.html", "page");
-    write_file("build/three.module.js", "three");
     write_file("scene.yaml", SCENE);
     return 0;
 }

@@ -39,7 +39,6 @@ static int make_session_folder(void **state) {
     if (make_test_folder(state) != 0)
         return -1;
     write_test_file("index.html", "page");
-    write_test_file("build/three.module.js", "three");
     return 0;
 }
 
@@ -96,7 +95,7 @@ static void begin_session(double seconds) {
     def->scene.message = keep_session_message;
     def->scene.message_context = &session;
     def->scene.named_mods_only = true;
-    def->page = def->three = test_folder;
+    def->page = test_folder;
     def->log_input = test_path("log.txt");
     def->seconds = seconds;
     def->stop = &session.stop;

@@ -28,20 +28,17 @@ static inline int make_page_folder(void **state) {
     write_test_file("page/.hidden.js", "hidden");
     write_test_file("page/notes.txt", "notes");
     write_test_file("secret.js", "secret");
-    write_test_file("three/three.js", "three");
-    mkdir(test_path("three/build"), 0700);
-    if (symlink("../three.js", test_path("three/build/three.module.js")) ||
+    write_test_file("page/parts/two.js", "two");
+    mkdir(test_path("page/links"), 0700);
+    if (symlink("../parts/two.js", test_path("page/links/two.js")) ||
         symlink(test_path("secret.js"), test_path("page/out.js")))
         return -1;
     return 0;
 }
 
 static inline JoxView *open_view_at(int at, const char *address, double patience) {
-    JoxViewOptions options = {.page = test_path("page"),
-                              .three = test_path("three"),
-                              .port = at,
-                              .address = address,
-                              .patience = patience};
+    JoxViewOptions options = {
+        .page = test_path("page"), .port = at, .address = address, .patience = patience};
     JoxText why = {0};
     JoxView *opened = jox_view_open(&options, &why);
     if (!opened)

@@ -23,33 +23,19 @@ static void page_is_served_with_security_headers(void **state) {
     assert_non_null(strstr(answer, expected));
     assert_int_equal(fetch_page("/parts/one.js"), 200);
     assert_non_null(strstr(answer, "content-type: text/javascript"));
-    /* A link to a file in the same folder */
-    assert_int_equal(fetch_page("/three/build/three.module.js"), 200);
-    assert_string_equal(get_body(), "three");
+    /* A link to a file in the page's folder */
+    assert_int_equal(fetch_page("/links/two.js"), 200);
+    assert_string_equal(get_body(), "two");
 }
 
 static void files_outside_the_folders_are_refused(void **state) {
     (void)state;
-    static const char *const PATHS[] = {"/parts",
-                                        "/nothing.js",
-                                        "/.hidden.js",
-                                        "/notes.txt",
-                                        "/out.js",
-                                        "/../secret.js",
-                                        "/%2e%2e/secret.js",
-                                        "/parts/../../secret.js",
-                                        "/three/",
-                                        "/..%2fsecret.js",
-                                        "/%2e%2e%2fsecret.js",
-                                        "/three/../../secret.js",
-                                        "/three",
-                                        "/parts/..\\secret.js",
-                                        "//etc/hostname.js",
-                                        "/three/../secret.js",
-                                        "/parts/one.js/",
-                                        "/index.html%00.js",
-                                        "/three/build/../../x",
-                                        "/three/%2e%2e/secret.js"};
+    static const char *const PATHS[] = {
+        "/parts",         "/nothing.js",          "/.hidden.js",         "/notes.txt",
+        "/out.js",        "/../secret.js",        "/%2e%2e/secret.js",   "/parts/../../secret.js",
+        "/links/",        "/..%2fsecret.js",      "/%2e%2e%2fsecret.js", "/links/../../secret.js",
+        "/links",         "/parts/..\\secret.js", "//etc/hostname.js",   "/links/../secret.js",
+        "/parts/one.js/", "/index.html%00.js",    "/links/two/../../x",  "/links/%2e%2e/secret.js"};
     for (size_t i = 0; i < sizeof PATHS / sizeof *PATHS; i++) {
         int status = fetch_page(PATHS[i]);
         if (status != 404 && status != 403 && status != 0)
@@ -327,20 +313,16 @@ static void bad_ports_and_folders_are_reported(void **state) {
     assert_true(next > port); /* the first port is in use */
     jox_view_close(second);
     JoxText why = {0};
-    JoxViewOptions options = {.page = test_path("page"), .three = "/nowhere", .port = port};
-    assert_null(jox_view_open(&options, &why));
-    assert_non_null(strstr(why.data, "libjs-three"));
-    jox_text_free(&why);
-    const char *page = test_path("page"), *three = test_path("three");
-    options = (JoxViewOptions){.page = page, .three = three, .port = port};
+    const char *page = test_path("page");
+    JoxViewOptions options = {.page = page, .port = port};
     assert_null(jox_view_open(&options, &why));
     assert_non_null(strstr(why.data, "Address already in use"));
     jox_text_free(&why);
-    options = (JoxViewOptions){.page = "/nowhere", .three = three};
+    options = (JoxViewOptions){.page = "/nowhere"};
     assert_null(jox_view_open(&options, &why));
     assert_non_null(strstr(why.data, "--page"));
     jox_text_free(&why);
-    options = (JoxViewOptions){.page = page, .three = three, .address = "not.an.address"};
+    options = (JoxViewOptions){.page = page, .address = "not.an.address"};
     assert_null(jox_view_open(&options, &why));
     assert_non_null(strstr(why.data, "no address"));
     jox_text_free(&why);
@@ -378,7 +360,7 @@ static void servers_started_at_once_find_different_ports(void **state) {
                 /* Waits until the parent closes the pipe */
                 bool waited = read(begin[0], &c, 1) == 0;
                 JoxText why = {0};
-                JoxViewOptions options = {.page = "page", .three = "three"};
+                JoxViewOptions options = {.page = "page"};
                 JoxView *opened =
                     waited && !chdir(test_folder) ? jox_view_open(&options, &why) : NULL;
                 if (!opened)

@@ -8,7 +8,7 @@ JoxView *fuzz_server(void) {
     static JoxLivePage page;
     if (!page.server) {
         JoError error = {0};
-        if (!jox_live_page_open(&page, NULL, 0, "core/view/page", NULL, &error))
+        if (!jox_live_page_open(&page, NULL, 0, "build/page", NULL, &error))
             abort();
     }
     return page.server;

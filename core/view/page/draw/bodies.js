@@ -1,6 +1,6 @@
 // Bodies: all parts of all bodies in one mesh, their edges in another; their poses are a texture.
-import * as THREE from "/three/build/three.module.js";
-import { ConvexBufferGeometry } from "/three/examples/jsm/geometries/ConvexGeometry.js";
+import * as THREE from "three";
+import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { readPoses } from "../net/crowd.js";
 import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_SHADE_FRAGMENT, BODY_SHADE_VERTEX, BODY_VERTEX } from "./shaders.js";
 import { meetsBox } from "./sightline.js";
@@ -16,25 +16,25 @@ function makePart(part) {
         new THREE.Vector3(...(part.at ?? [0, 0, 0])), new THREE.Quaternion(...(part.turn ?? [0, 0, 0, 1])), new THREE.Vector3(1, 1, 1));
     const box = new THREE.Box3().setFromBufferAttribute(geometry.attributes.position), middle = box.getCenter(new THREE.Vector3());
     geometry.userData = {
-        into: new THREE.Matrix4().getInverse(frame.clone().multiply(new THREE.Matrix4().setPosition(middle))),
+        into: frame.clone().multiply(new THREE.Matrix4().setPosition(middle)).invert(),
         half: box.getSize(new THREE.Vector3()).multiplyScalar(0.5).toArray(),
     };
-    geometry.applyMatrix(frame);
+    geometry.applyMatrix4(frame);
     return geometry;
 }
 
 function shapeOf({ shape, size = [], points = [] }) {
-    if (shape === "sphere") return new THREE.SphereBufferGeometry(size[0], 14, 10);
+    if (shape === "sphere") return new THREE.SphereGeometry(size[0], 14, 10);
     if (shape === "cylinder") { // along z; three.js has it along y
-        return new THREE.CylinderBufferGeometry(size[0], size[0], size[1], 14).rotateX(Math.PI / 2);
+        return new THREE.CylinderGeometry(size[0], size[0], size[1], 14).rotateX(Math.PI / 2);
     }
     if (shape === "hull" && points.length >= 4) {
-        const hull = new ConvexBufferGeometry(points.map((p) => new THREE.Vector3(...p)));
+        const hull = new ConvexGeometry(points.map((p) => new THREE.Vector3(...p)));
         // Points of one plane have no hull.
         if (hull.attributes.position.count >= 12) return { toNonIndexed: () => hull }; // already without an index
     }
     const [x, y, z] = size.length === 3 ? size : [0.3, 0.3, 0.3];
-    return new THREE.BoxBufferGeometry(x, y, z);
+    return new THREE.BoxGeometry(x, y, z);
 }
 
 export class Bodies {

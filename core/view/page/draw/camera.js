@@ -1,5 +1,5 @@
 // Chooses the camera's position and direction so that a scene fills the window.
-import * as THREE from "/three/build/three.module.js";
+import * as THREE from "three";
 
 const TURNS = [0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75, -90, 90]; // candidate directions: degrees from the south, eastwards
 const RISES = [36, 48, 60]; // candidate elevations: degrees above the floor

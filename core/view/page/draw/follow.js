@@ -2,7 +2,7 @@
 // otherwise it turns and rises to a free direction. A wall or body hides the person only
 // until the camera has come nearer.
 
-import * as THREE from "/three/build/three.module.js";
+import * as THREE from "three";
 
 const NEAR = 14; // m: distance from which a person is followed
 const LEAST = 1.5; // m: least distance, if something is in between

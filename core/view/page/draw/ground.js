@@ -1,5 +1,5 @@
 // The static parts of the picture: the floor with its field, walls, gates, places and regions.
-import * as THREE from "/three/build/three.module.js";
+import * as THREE from "three";
 import { boxOf } from "./camera.js";
 import { table } from "./palette.js";
 import { bakeShade } from "./shade.js";
@@ -52,9 +52,9 @@ export class Ground {
         this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 }, edge: { value: 0.4 } };
         const material = new THREE.ShaderMaterial({
             uniforms: this.uniforms, vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT,
-            extensions: { derivatives: true }, depthWrite: false,
+            depthWrite: false,
         });
-        this.floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(1, 1), material);
+        this.floor = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), material);
         this.floor.frustumCulled = false;
         this.floor.renderOrder = -1;
         this.materials = new Map(); // kept across scene messages, as a new material compiles its shader again
@@ -78,7 +78,7 @@ export class Ground {
         const [[x0, y0], [x1, y1]] = scene.area;
         const margin = 3 * Math.max(x1 - x0, y1 - y0);
         this.floor.geometry.dispose();
-        this.floor.geometry = new THREE.PlaneBufferGeometry(x1 - x0 + 2 * margin, y1 - y0 + 2 * margin);
+        this.floor.geometry = new THREE.PlaneGeometry(x1 - x0 + 2 * margin, y1 - y0 + 2 * margin);
         this.floor.geometry.translate((x0 + x1) / 2, (y0 + y1) / 2, 0);
         this.uniforms.spacing.value = Math.max(x1 - x0, y1 - y0) > 80 ? 10 : 1;
         this.group.add(this.floor);
@@ -199,7 +199,7 @@ export class Ground {
             old.needsUpdate = true;
         } else {
             old?.dispose();
-            this.uniforms.field.value = texture(field.cells, field.columns, field.rows, THREE.LuminanceFormat);
+            this.uniforms.field.value = texture(field.cells, field.columns, field.rows, THREE.RedFormat);
         }
         this.uniforms.gain.value = field.most / scale;
         this.uniforms.cover.value.set(field.x0, field.y0, field.columns * field.cell, field.rows * field.cell);

@@ -1,6 +1,6 @@
 // People: everyone as a point, those near the eye as figures, and the shade around their feet. Three
 // draw calls for any number.
-import * as THREE from "/three/build/three.module.js";
+import * as THREE from "three";
 import { NOBODY, PERSON } from "../net/crowd.js";
 import { makeFigure } from "./figure.js";
 import { FIGURE_FRAGMENT, FIGURE_VERTEX, POINT_FRAGMENT, POINT_VERTEX, SHADE_FRAGMENT, SHADE_VERTEX } from "./shaders.js";
@@ -53,8 +53,6 @@ export class People {
         for (const buffer of [...this.buffers, ...this.chests]) buffer.setUsage(THREE.DynamicDrawUsage);
         this.points = new THREE.Points(geometry, this.pointMaterial ??= this.material(POINT_VERTEX, POINT_FRAGMENT));
         this.points.frustumCulled = false;
-        this.created = false; // whether buffers are on the card; until then, frames are copied into arrays of full size
-        this.points.onAfterRender = () => (this.created = true);
         this.shades = new THREE.Points(geometry, this.shadeMaterial ??= this.material(SHADE_VERTEX, SHADE_FRAGMENT, {
             transparent: true, depthWrite: false,
         }));
@@ -110,8 +108,9 @@ export class People {
 
     write(which, frame) {
         const buffer = this.buffers[which];
-        if (this.created) buffer.array = frame.bytes; // uploaded without a copy
-        else buffer.array.set(frame.bytes);
+        buffer.array.set(frame.bytes);
+        buffer.clearUpdateRanges();
+        buffer.addUpdateRange(0, frame.bytes.length);
         if (frame.slots > 0) buffer.needsUpdate = true;
         if (frame.chests) {
             this.chests[which].array.set(frame.chests);
@@ -126,12 +125,13 @@ export class People {
         u.eye.value.copy(eye);
         const reach = top ? 0 : this.reachOf(frame, eye, (1.7 * pixels) / FIGURE_PIXELS);
         const count = reach > 0 ? this.collect(crowd, eye, reach) : 0;
-        this.figures.geometry.maxInstancedCount = count;
+        this.figures.geometry.instanceCount = count;
         this.figures.visible = count > 0 && frame !== null;
         u.nearer.value = count > 0 ? reach : 0;
         for (const [buffer, size] of [[this.near[0], 8], [this.near[1], 8], [this.nearPersons, PERSON], [this.nearLooks, 1],
             [this.nearChests[0], 1], [this.nearChests[1], 1]]) {
-            buffer.updateRange.count = size * count;
+            buffer.clearUpdateRanges();
+            buffer.addUpdateRange(0, size * count);
             if (count > 0) buffer.needsUpdate = true;
         }
     }

@@ -1,6 +1,6 @@
 // The shade on the floor around walls: a texture seen from above, which the floor's shader
 // reads. It has the ambient occlusion of walls and a soft shadow to one side.
-import * as THREE from "/three/build/three.module.js";
+import * as THREE from "three";
 
 const MOST = 1024; // texels along the longer side
 const FINEST = 32; // texels a metre

@@ -1,12 +1,13 @@
 // The picture: renderer and cameras; decides when to draw, and maps points to the screen.
-import { OrbitControls } from "/three/examples/jsm/controls/OrbitControls.js";
-import * as THREE from "/three/build/three.module.js";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import * as THREE from "three";
 import { Bodies } from "./bodies.js";
 import { fitBox, heightOf, sceneBox, standAt } from "./camera.js";
 import { Ground } from "./ground.js";
 import { COLOURS, table } from "./palette.js";
 import { People } from "./people.js";
 
+THREE.ColorManagement.enabled = false; // colours are sRGB all along, as in pictures
 const FIELD_OF_VIEW = 34; // degrees
 const LEAST_FIGURES = 500, MOST_FIGURES = 4096; // people drawn as figures
 const SLOW = 60; // ms per picture from which on fewer figures are drawn
@@ -21,7 +22,7 @@ export class View {
         this.bodies = new Bodies();
         this.ground = new Ground();
         this.scene.add(this.ground.group, this.people.group, this.bodies.group);
-        this.scene.autoUpdate = false; // everything is placed by shaders
+        this.scene.matrixWorldAutoUpdate = false; // everything is placed by shaders
         this.perspective = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 5000);
         this.flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 5000);
         this.perspective.up.set(0, 0, 1);
@@ -41,7 +42,6 @@ export class View {
 
     makeControls(camera) {
         const controls = new OrbitControls(camera, this.canvas);
-        controls.enableKeys = false; // keys are the page's own
         controls.screenSpacePanning = camera === this.flat;
         if (camera === this.perspective) controls.maxPolarAngle = 0.495 * Math.PI; // not below the floor
         controls.minDistance = 0.5;
@@ -299,11 +299,11 @@ function drawsSlowly() {
 function makeRenderer(canvas) {
     const slow = drawsSlowly();
     const wanted = { antialias: !slow, alpha: false, powerPreference: "high-performance" };
-    const context = canvas.getContext("webgl2", wanted) || canvas.getContext("webgl", wanted);
-    if (!context) throw new Error("This browser shows no 3-D graphics (WebGL). Turn on hardware acceleration, or try another browser.");
+    const context = canvas.getContext("webgl2", wanted);
+    if (!context) throw new Error("This browser shows no 3-D graphics (WebGL 2). Turn on hardware acceleration, or try another browser.");
     const renderer = new THREE.WebGLRenderer({ canvas, context });
+    renderer.outputColorSpace = THREE.LinearSRGBColorSpace; // the shaders compute with colours as they are shown
     renderer.slow = slow;
-    context.getExtension("OES_texture_float");
     return renderer;
 }
 

@@ -1,6 +1,6 @@
 // Walls: upright blocks. Each vertex has the middle of its block and the extent across,
 // by which the shader lowers blocks that would hide the crowd.
-import * as THREE from "/three/build/three.module.js";
+import * as THREE from "three";
 import { boxOf } from "./camera.js";
 import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./shaders.js";
 
