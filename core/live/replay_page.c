@@ -237,9 +237,8 @@ void jox_replay_page_end(JoxReplayPage *p) {
 
 static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
     JoxReplayPage p = {.def = def};
-    const bool good =
-        jox_replay_page_load(&p, error) &&
-        jox_live_page_open(&p.page, def->address, def->port, def->page, error);
+    const bool good = jox_replay_page_load(&p, error) &&
+                      jox_live_page_open(&p.page, def->address, def->port, def->page, error);
     if (good && def->opened)
         jox_run_send_message(def->opened, def->opened_context, jox_view_address(p.page.server));
     if (good) {
