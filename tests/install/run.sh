@@ -37,6 +37,9 @@ verdict "a picture by the library with tools" $?
 (cd "$dir" && "$top/bin/jostle" run "$top/share/jostle/scenes/running-through.yaml" --steps 10 --quiet)
 verdict "an installed scene runs" $?
 [ -s "$top/share/man/man1/jostle.1" ]; verdict "the man page" $?
-[ -s "$top/share/jostle/page/index.html" ]; verdict "the live page" $?
+[ -s "$top/share/jostle/page/index.html" ] && [ -s "$top/share/jostle/page/main.js" ] &&
+    [ -s "$top/share/jostle/page/three.LICENSE.txt" ] &&
+    ! grep -qE '(^|[;}])import *[{*"a-zA-Z]|(src|href)="?(https?:)?//' "$top/share/jostle/page/"{index.html,style.css,main.js}
+verdict "the live page, in one bundle that loads nothing from elsewhere" $?
 make -s uninstall PREFIX=/opt/jostle-test DESTDIR="$dir" >/dev/null
 [ -z "$(find "$top" -type f -o -type l)" ]; verdict "uninstall leaves nothing" $?
