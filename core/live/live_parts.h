@@ -3,6 +3,7 @@
 #ifndef JOX_LIVE_LIVE_PARTS_H
 #define JOX_LIVE_LIVE_PARTS_H
 
+#include "base/hash.h"
 #include "live/live.h"
 #include "run/run.h"
 
@@ -75,6 +76,10 @@ void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxJson *json);
 void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson *json);
 /* `spec` may be NULL: the camera is null then. */
 void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json);
+/* live_scenery.c: "floor" and "scenery"; a plain floor and none for NULL. */
+void jox_live_add_scenery(const JoxSceneSpec *spec, JoxJson *json);
+/* Adds them to a hash, which tells whether a scene message has changed. */
+void jox_live_hash_scenery(const JoxSceneSpec *spec, JoxHash *hash);
 void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json);
 /* A group, or a state of a machine. */
 typedef struct JoxLiveNamed {

@@ -352,6 +352,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     add_scene_bodies(&json, world->state.bodies);
     add_scene_tools(&json, scene);
     jox_live_add_camera(spec, &json);
+    jox_live_add_scenery(spec, &json);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field, &json);
     add_charts(&json, spec);
@@ -369,6 +370,7 @@ uint64_t jox_live_version(const JoScene *scene) {
         jox_hash_add(&hash, &scene->spec->groups[g].colour, sizeof(JoxColour));
     jox_hash_add(&hash, scene->spec->camera.position, sizeof scene->spec->camera.position);
     jox_hash_add(&hash, scene->spec->camera.target, sizeof scene->spec->camera.target);
+    jox_live_hash_scenery(scene->spec, &hash);
     for (uint32_t m = 0; m < world->model.machines.count; m++)
         jox_hash_add(&hash, &world->model.machines.items[m], sizeof world->model.machines.items[m]);
     jox_hash_add(&hash, &world->machines.edits_made, sizeof world->machines.edits_made);

@@ -122,6 +122,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     add_recorded_bodies(&json, r);
     add_disabled_tools(&json);
     jox_live_add_camera(spec, &json);
+    jox_live_add_scenery(spec, &json);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r), &json);
     jox_json_array(&json, "charts");

@@ -19,6 +19,7 @@
 #include "run/read_scene.h"
 #include "run/run.h"
 #include "run/scene_machines.h"
+#include "run/scenery_checks.h"
 #include "run/standstill.h"
 #include "run/starting_people.h"
 #include "run/starting_torsos.h"
@@ -165,6 +166,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_check_step_length(scene, diagnostics);
         jox_run_start_torsos(scene, diagnostics);
         jox_run_check_sources(scene, diagnostics);
+        jox_run_check_scenery(scene, diagnostics);
         jox_run_check_journeys(scene, diagnostics);
         jox_run_number_event_signals(scene, diagnostics);
         jox_run_collect_regions(scene);

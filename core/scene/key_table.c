@@ -33,6 +33,11 @@
 #define CHOICE(enumerator, name) "|" name
 #define FILLS (&(JOX_FILLS(CHOICE))[1])
 #define TOOLS (&(JOX_TOOLS(CHOICE))[1])
+#define FLOORS (&(JOX_FLOORS(CHOICE))[1])
+#define KIND(enumerator, name, form, x, y, z, meaning) "|" name
+#define KIND_ROW(enumerator, name, form, x, y, z, meaning)                                         \
+    "\n| `" name "` | " #x ", " #y ", " #z " | " meaning " |"
+#define SCENERY (&(JOX_SCENERY_KINDS(KIND))[1])
 
 /* Names of a report's files, which a probe must not have. */
 #define REPORT_FILES                                                                               \
@@ -114,6 +119,9 @@ static const JoxKey KEYS[] = {
     {"scene", "events", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, events, event_count), .example = "events: [{at: 20, open: gate}]", .content = "event[]", .meaning = "what happens at given times"},
     {"scene", "tally", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, tallies, tally_count), .example = "tally: {red: {memory: hits, group: blue}}", .content = "tally*", .meaning = "scores, printed in the last lines of a run"},
 
+    {"scene", "floor", TEXT, "", 0, 0, "plain", TO(JoxSceneSpec, floor), .choices = FLOORS, .meaning = "material of the floor on the live page"},
+    {"scene", "scenery", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, scenery, scenery_count), .example = "scenery: [{kind: tree, at: [2, 3]}]", .content = "scenery[]", .meaning = "things that the live page draws around people; no obstacles"},
+
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", TO(JoxSceneSpec, literal), .choices = "physical|literal",
      .meaning = "literal: the equations as they were printed (core/paper.md); parameters that they do not have are noted, as they then have no effect"},
@@ -121,24 +129,16 @@ static const JoxKey KEYS[] = {
     {"walking", #name, NUMBER, unit, least, greatest, #value, TO(JoxWalkLaw, name), .meaning = meant},
     JOX_WALK_CONSTANTS(X)
 #undef X
-    {"guard", "people", TEXT, "", 0, 0, "end", TO(JoxSceneSpec, lost_people), .choices = LOST,
-     .meaning = "reaction to a person with a number that is not finite, or farther than 10 km from the origin"},
-    {"guard", "bodies", TEXT, "", 0, 0, "remove", TO(JoxSceneSpec, lost_bodies), .choices = LOST,
-     .meaning = "reaction to such a body, or one that falls through the ground or passes a wall"},
-    {"limits", "instructions", WHOLE, "", 1000, 1e9, "100000", TO(JoxSceneLimits, instructions),
-     .meaning = "instructions of one call of a Lua function"},
-    {"limits", "step_instructions", WHOLE, "", 10000, 1e12, "20000000", TO(JoxSceneLimits, step_instructions),
-     .meaning = "instructions of all functions of a behaviour in a step"},
-    {"limits", "load_instructions", WHOLE, "", 10000, 1e9, "20000000", TO(JoxSceneLimits, load_instructions),
-     .meaning = "instructions for loading one behaviour"},
+    {"guard", "people", TEXT, "", 0, 0, "end", TO(JoxSceneSpec, lost_people), .choices = LOST, .meaning = "reaction to a person with a number that is not finite, or farther than 10 km from the origin"},
+    {"guard", "bodies", TEXT, "", 0, 0, "remove", TO(JoxSceneSpec, lost_bodies), .choices = LOST, .meaning = "reaction to such a body, or one that falls through the ground or passes a wall"},
+    {"limits", "instructions", WHOLE, "", 1000, 1e9, "100000", TO(JoxSceneLimits, instructions), .meaning = "instructions of one call of a Lua function"},
+    {"limits", "step_instructions", WHOLE, "", 10000, 1e12, "20000000", TO(JoxSceneLimits, step_instructions), .meaning = "instructions of all functions of a behaviour in a step"},
+    {"limits", "load_instructions", WHOLE, "", 10000, 1e9, "20000000", TO(JoxSceneLimits, load_instructions), .meaning = "instructions for loading one behaviour"},
     {"limits", "memory", NUMBER, "MB", 1, 1024, "32", TO(JoxSceneLimits, memory), .meaning = "memory of one behaviour"},
-    {"limits", "block", NUMBER, "MB", 0.1, 1024, "2", TO(JoxSceneLimits, block),
-     .meaning = "memory of one text or table of a behaviour"},
+    {"limits", "block", NUMBER, "MB", 0.1, 1024, "2", TO(JoxSceneLimits, block), .meaning = "memory of one text or table of a behaviour"},
     {"limits", "source", NUMBER, "KB", 1, 16384, "256", TO(JoxSceneLimits, source), .meaning = "size of one Lua file"},
-    {"limits", "print", WHOLE, "", 0, 1000, "20", TO(JoxSceneLimits, print),
-     .meaning = "lines that a behaviour may print in a second"},
-    {"heatmap", "area", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_heatmap_area), .content = "xy[2]",
-     .meaning = "two opposite corners"},
+    {"limits", "print", WHOLE, "", 0, 1000, "20", TO(JoxSceneLimits, print), .meaning = "lines that a behaviour may print in a second"},
+    {"heatmap", "area", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_heatmap_area), .content = "xy[2]", .meaning = "two opposite corners"},
     {"heatmap", "from", NUMBER, "s", 0, 1e6, "0", TO(JoxSceneSpec, heatmap_from), .meaning = "start of averaging"},
     {"camera", "position", POINT3, "m", -FAR, FAR, "", TO(JoxSceneCamera, position), .meaning = "position of the camera"},
     {"camera", "target", POINT3, "m", -FAR, FAR, "", TO(JoxSceneCamera, target), .meaning = "point that it looks at"},
@@ -149,6 +149,15 @@ static const JoxKey KEYS[] = {
                 "if behaviours have three or more in all; else their group, if there are two to eight; else their speed"},
     {"view", "field", TEXT, "", 0, 0, "none", TO(JoxSceneView, field), .choices = "density|pressure|none",
      .meaning = "field shown on the floor"},
+
+    {"scenery", "kind", TEXT, "", 0, 0, "!", TO(JoxScenery, kind), .choices = SCENERY, .meaning = "what it is; a table below has their sizes"},
+    {"scenery", "at", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_read_scenery_at, JoxScenery, at, at_count), .content = "spots", .meaning = "its centre, or those of several copies; with `body`: from the body's own centre"},
+    {"scenery", "through", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_read_points, JoxScenery, through, through_count), .content = "xy[2]", .meaning = "points of a line, parapet, fence or hedge, and corners of an area"},
+    {"scenery", "turn", NUMBER, "deg", -1e4, 1e4, "0", TO(JoxScenery, turn), .meaning = "rotation about the vertical axis, anti-clockwise"},
+    {"scenery", "size", POINT3, "m", 0, 1000, "", TO(JoxScenery, size), .meaning = "its own lengths along x, y and z; of what goes through points, y is the width. 0 and no size: those of its kind"},
+    {"scenery", "colour", TEXT, "", 0, 0, "", READ_TO(jox_key_read_colour, JoxScenery, colour, colour), .meaning = "colour in place of that of its kind: " JOX_COLOUR_RULE},
+    {"scenery", "doors", WHOLE, "", 0, 12, "4", TO(JoxScenery, doors), .meaning = "of a train: number of its doors, at even distances"},
+    {"scenery", "body", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxScenery, body, body), .meaning = "body that carries it, as a train that moves"},
 
     {"place", "point", POINT, "m", -FAR, FAR, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_POINT), .meaning = "its centre"},
     {"place", "radius", NUMBER, "m", 0.01, 1000, "0.5", TO(JoxPlace, radius),
@@ -227,12 +236,10 @@ static const JoxKey KEYS[] = {
     {"sphere", "radius", NUMBER, "m", 0.01, 100, "!", TO(JoxShape, size[0]), .meaning = "radius of the ball"},
     {"cylinder", "radius", NUMBER, "m", 0.01, 100, "!", TO(JoxShape, size[0]), .meaning = "radius of the cylinder"},
     {"cylinder", "height", NUMBER, "m", 0.01, 100, "!", TO(JoxShape, size[1]), .meaning = "whole height"},
-    {"hull", "points", LIST, "m", -1000, 1000, "!", READ(jox_key_read_hull), .content = "xyz[4]",
-     .meaning = "4 to 256 points, relative to the centre of the body"},
+    {"hull", "points", LIST, "m", -1000, 1000, "!", READ(jox_key_read_hull), .content = "xyz[4]", .meaning = "4 to 256 points, relative to the centre of the body"},
     {"blocks", "size", POINT3, "m", 0.01, 1000, "!", TO(JoxShape, size), .meaning = "lengths of one block along x, y and z"},
     {"blocks", "count", POINT3, "", 1, 4096, "!", READ(jox_key_read_block_count), .meaning = "number of blocks along x, y and z; at most 4096 in all"},
-    {"blocks", "bond", NUMBER, "N", 0.001, 1e9, "!", TO(JoxShape, bond),
-     .meaning = "force that breaks the glue between two blocks: tension and shear together; pressure never does"},
+    {"blocks", "bond", NUMBER, "N", 0.001, 1e9, "!", TO(JoxShape, bond), .meaning = "force that breaks the glue between two blocks: tension and shear together; pressure never does"},
     {"blocks", "block_mass", NUMBER, "kg", 0.001, 1e6, "", IN_DRAFT(block_mass), .meaning = "mass of one block, in place of the body's mass"},
     {"part", "shape", TABLE, "", 0, 0, "!", READ(jox_key_read_part_shape), .content = "shape",
      .meaning = "as of a body, but neither a compound nor blocks"},
@@ -373,24 +380,16 @@ static const JoxKey KEYS[] = {
     {"mod", "title", TEXT, "", 0, 0, "", TO(JoxMod, title), .meaning = "title for people"},
     {"mod", "version", TEXT, "", 0, 0, "!", TO(JoxMod, version), .meaning = "three numbers: 1.2.0"},
     {"mod", "api", WHOLE, "", 1, 1, "!", CHECKED, .meaning = "version of the engine's interface for mods"},
-    {"mod", "depends", NAMES, "", 0, 0, "", EARLIER,
-     .meaning = "mods that it needs, which come before it: NAME, or \"NAME >= 1.2\""},
-    {"mod", "optional", NAMES, "", 0, 0, "", EARLIER,
-     .meaning = "mods that it uses if they are applied, which come before it"},
+    {"mod", "depends", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that it needs, which come before it: NAME, or \"NAME >= 1.2\""},
+    {"mod", "optional", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that it uses if they are applied, which come before it"},
     {"mod", "conflicts", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that cannot be applied together with it"},
-    {"mod", "load_after", NAMES, "", 0, 0, "", EARLIER,
-     .meaning = "mods that come before it if they are applied"},
-    {"mod", "settings", TABLE, "", 0, 0, "", READ(jox_key_read_settings), .content = "setting*",
-     .meaning = "values that a scene may choose for it"},
-    {"setting", "value", TEXT, "", 0, 0, "!", TO(JoxModSetting, written), .content = "plain",
-     .meaning = "value, unless the scene or --set gives another; its kind is that of the setting"},
-    {"setting", "choices", NAMES, "", 0, 0, "", READ(jox_key_read_setting_choices),
-     .meaning = "the texts of which the value is one"},
+    {"mod", "load_after", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that come before it if they are applied"},
+    {"mod", "settings", TABLE, "", 0, 0, "", READ(jox_key_read_settings), .content = "setting*", .meaning = "values that a scene may choose for it"},
+    {"setting", "value", TEXT, "", 0, 0, "!", TO(JoxModSetting, written), .content = "plain", .meaning = "value, unless the scene or --set gives another; its kind is that of the setting"},
+    {"setting", "choices", NAMES, "", 0, 0, "", READ(jox_key_read_setting_choices), .meaning = "the texts of which the value is one"},
     {"setting", "unit", TEXT, "", 0, 0, "", TO(JoxModSetting, unit), .meaning = "unit of a number, as m/s"},
-    {"setting", "least", NUMBER, "", -1e12, 1e12, "-1e12", TO(JoxModSetting, least),
-     .meaning = "the smallest number that may be chosen"},
-    {"setting", "greatest", NUMBER, "", -1e12, 1e12, "1e12", TO(JoxModSetting, greatest),
-     .meaning = "the largest number that may be chosen"},
+    {"setting", "least", NUMBER, "", -1e12, 1e12, "-1e12", TO(JoxModSetting, least), .meaning = "the smallest number that may be chosen"},
+    {"setting", "greatest", NUMBER, "", -1e12, 1e12, "1e12", TO(JoxModSetting, greatest), .meaning = "the largest number that may be chosen"},
     {"setting", "meaning", TEXT, "", 0, 0, "", TO(JoxModSetting, meaning), .meaning = "what the setting does, in a sentence"},
 };
 
@@ -413,6 +412,10 @@ static const JoxOwner OWNERS[] = {
     {"view", "view", "Of the live page, `jostle run SCENE --view`; the simulation does not use it. A tool is "
      "offered if there is something to use it on: gates that have names, signals that somebody hears, a `player`.",
      .struct_size = sizeof(JoxSceneView)},
+    {"scenery", "Scenery", "Things that the live page draws. They are no obstacles: where people can walk, a wall belongs under each of those that are "
+     "solid, and `jostle check` warns of one that lacks it. Neither people nor bodies nor the hash of a run depend on them.\n\n"
+     "| kind | size [m] | |\n| --- | --- | --- |" JOX_SCENERY_KINDS(KIND_ROW),
+     .struct_size = sizeof(JoxScenery), .position_offset = AT(JoxScenery, position), .finish = jox_finish_scenery, .resolve = jox_resolve_scenery},
     {"place", "Places", "`places` maps names to places. The key of a place tells its kind:",
      .struct_size = sizeof(JoxPlace), .kind_offset = AT(JoxPlace, kind), .kind_error = "bad-place", .name_offset = AT(JoxPlace, name),
      .finish = jox_finish_place, .resolve = jox_resolve_place},

@@ -13,6 +13,7 @@
 #include "body/body.h"
 #include "geom/place.h"
 #include "geom/walls.h"
+#include "scene/scenery.h"
 #include "world/exits.h"
 #include "world/population.h"
 #include "world/probe.h"
@@ -130,6 +131,9 @@ typedef struct JoxSceneSpec {
     uint32_t event_count;
     JoxTally *tallies;
     uint32_t tally_count;
+    JoxScenery *scenery;
+    uint32_t scenery_count;
+    uint32_t floor;                    /* index of jox_floor_names */
     int32_t player_group;              /* -1: none */
     uint32_t player_agent;             /* index within that group */
     bool forces;                       /* false: collision avoidance alone */

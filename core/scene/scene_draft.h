@@ -95,6 +95,11 @@ JoxKeyRead jox_key_read_bodies, jox_key_read_turn, jox_key_read_hull, jox_key_re
     jox_key_read_block_count, jox_key_read_copies;
 JoxKeyRead jox_key_read_part_shape;
 
+/* scenery.c */
+JoxKeyRead jox_key_read_scenery_at;
+JoxOwnerFinish jox_finish_scenery;
+void jox_resolve_scenery(const JoxReader *reader, const JoxYaml *map, void *item);
+
 /* groups.c, group_values.c, group_positions.c, group_starts.c */
 JoxKeyRead jox_key_read_behaviour, jox_key_read_mix, jox_key_read_values, jox_key_read_facing,
     jox_key_read_fills, jox_key_read_starts;

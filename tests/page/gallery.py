@@ -126,14 +126,19 @@ def write_page(out):
     return len(items)
 
 
-def work(names, out, failed):
-    """Takes scenes from the queue until it is empty."""
+def scenes_named(chosen):
+    """The scenes chosen, else all shipped ones."""
+    return chosen or sorted(os.path.basename(path)[:-5] for path in glob.glob(os.path.join(ROOT, "scenes", "*.yaml")))
+
+
+def work(names, make, failed):
+    """Calls make(browser, name) for scenes of the queue until it is empty."""
     browser = Browser()
     try:
         while True:
             name, begun = names.get_nowait(), time.monotonic()
             try:
-                show(browser, name, out)
+                make(browser, name)
                 print(f"{name}: {time.monotonic() - begun:.0f} s", flush=True)
             except (Failure, WebDriverException, OSError, subprocess.CalledProcessError) as error:
                 failed.append(name)
@@ -144,23 +149,29 @@ def work(names, out, failed):
         browser.close()
 
 
-def main():
-    out, chosen = os.path.abspath(sys.argv[1]), sys.argv[2:]
-    chosen = chosen or sorted(os.path.basename(path)[:-5] for path in glob.glob(os.path.join(ROOT, "scenes", "*.yaml")))
-    os.makedirs(out, exist_ok=True)
-    names, failed, begun = queue.Queue(), [], time.monotonic()
+def make_all(chosen, make):
+    """Calls make(browser, name) for each scene, in two browsers; returns the scenes that failed."""
+    names, failed = queue.Queue(), []
     for name in chosen:
         names.put(name)
-    workers = [threading.Thread(target=work, args=(names, out, failed)) for _ in range(min(BROWSERS, len(chosen)))]
+    workers = [threading.Thread(target=work, args=(names, make, failed)) for _ in range(min(BROWSERS, len(chosen)))]
     for worker in workers:
         worker.start()
     for worker in workers:
         worker.join()
-    left, count, used = names.qsize(), write_page(out), resource.getrusage(resource.RUSAGE_CHILDREN)
+    return failed + [names.get() for _ in range(names.qsize())]
+
+
+def main():
+    out, chosen, begun = os.path.abspath(sys.argv[1]), scenes_named(sys.argv[2:]), time.monotonic()
+    os.makedirs(out, exist_ok=True)
+    failed = make_all(chosen, lambda browser, name: show(browser, name, out))
+    count, used = write_page(out), resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"{os.path.join(out, 'index.html')}: {count} scenes; {len(chosen)} made in {(time.monotonic() - begun) / 60:.1f} minutes, "
           f"{(used.ru_utime + used.ru_stime) / 60:.0f} of a processor")
-    if failed or left:
-        sys.exit(f"without {', '.join(failed + [names.get() for _ in range(left)])}")
+    if failed:
+        sys.exit(f"without {', '.join(failed)}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -344,6 +344,10 @@ expect "  it is a fault if it is behind the one that opens" 0 "nobody of group '
 expect "  a run names it too" 1 "nobody can reach 'out': gate 'east' is closed" "$JOSTLE" run "$work/row.yaml" --for 6 --quiet
 printf 'jostle: 1\nbounds: [[0, 0], [12, 4]]\nperiodic: x\nplaces: {src: {polygon: [[8, 1], [11, 1], [11, 3], [8, 3]]}, out: {point: [2, 2]}}\nwalls:\n  - {line: [[0, 0], [0, 4]], name: seam}\n  - {line: [[0, 0], [12, 0]]}\n  - {line: [[0, 4], [12, 4]]}\n  - {line: [[6, 0], [6, 4]]}\ngroups: {g: {count: 3, in: src, journey: [{exit: out}]}}\n' >"$work/seam.yaml"
 expect "  also at a joined edge, from its other side" 0 "nobody of group 'g' can reach 'out': gate 'seam' is closed at (0.0, 2.0) m, and nothing opens it" "$JOSTLE" check "$work/seam.yaml"
+printf 'jostle: 1\nwalls: [{line: [[0, 0], [12, 0], [12, 6], [0, 6]], closed: true}, {solid: [[8, 2], [10, 2], [10, 4], [8, 4]]}]\nscenery:\n  - {kind: bench, at: [[14, 2], [9, 3], [4, 3]]}\n  - {kind: hedge, through: [[3, 1], [3, 5]]}\n  - {kind: parapet, through: [[0, 0], [12, 0]]}\n  - {kind: ring, at: [4, 3]}\ngroups: {g: {behaviour: stander.lua, at: [[1, 1]]}}\n' >"$work/walked.yaml"
+expect "check warns of solid scenery that people can walk through" 0 "walked.yaml:4:5: warning: people can walk through this bench, at (" "$JOSTLE" check "$work/walked.yaml"
+expect "  also along a line" 0 "walked.yaml:5:5: warning: people can walk through this hedge, at (3.0, 1.0) m" "$JOSTLE" check "$work/walked.yaml"
+expect "  not of what stands outside, in a wall or on one, or lies flat" 0 "0 errors, 2 warnings" "$JOSTLE" check "$work/walked.yaml"
 sed 's/{exit: out}/{until: alarm}, {wait: 1, open: east}, {exit: hall}/' "$work/west.yaml" >"$work/waits.yaml"
 expect "check warns of a journey step that waits for a gate that nothing opens" 0 "waits.yaml:8:60: warning: gate 'east' is closed, and nothing opens it" "$JOSTLE" check "$work/waits.yaml"
 expect "  or for a signal that nothing gives" 0 "waits.yaml:8:44: warning: no machine of the scene gives the signal 'alarm'" "$JOSTLE" check "$work/waits.yaml"

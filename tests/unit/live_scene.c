@@ -173,6 +173,46 @@ static void version_changes_with_bodies_but_not_with_gates(void **state) {
     jo_scene_free(scene);
 }
 
+#define WALK                                                                                       \
+    "jostle: 1\n"                                                                                  \
+    "places: {out: {point: [9, 2], radius: 1}}\n"                                                  \
+    "bodies: [{name: coach, shape: {box: {size: [4, 2, 2]}}, kinematic: true, at: [5, 9, 1]}]\n"   \
+    "groups: {g: {at: [[1, 1], [1, 2], [1, 3]], journey: [{exit: out}]}}\n"
+
+/* Scenery is sent to the page, changes the version of the message, and moves nobody. */
+static void scenery_is_sent_and_does_not_enter_the_hash(void **state) {
+    (void)state;
+    JoxText text = {0};
+    JoScene *bare = load_scene_text(WALK, "");
+    step_scene(bare, 60);
+    JoScene *dressed = load_scene_text(
+        WALK "floor: marble\n"
+             "scenery:\n"
+             "  - {kind: bush, at: [5, 2]}\n"
+             "  - {kind: hedge, through: [[0, 0], [3, 0]], size: [0, 0, 2], colour: sky}\n"
+             "  - {kind: train, at: [[0, 0], [0, 3]], turn: 90, doors: 2, body: coach}\n",
+        "");
+    assert_true(jox_live_version(dressed) != jox_live_version(bare));
+    step_scene(dressed, 60);
+    assert_true(jo_world_hash(dressed->world) == jo_world_hash(bare->world));
+    jox_live_scene(dressed, &text);
+    parse_numbers(&text);
+    check_part(&text, "\"floor\": \"marble\"");
+    check_part(&text, "\"colour\": \"#56b4e9\"");
+    check_part(&text, "\"body\": \"coach\"");
+    assert_near(number_at("scenery.0.at.0.0", 0, 0, 0), 5, 1e-6);
+    assert_near(number_at("scenery.0.size.0", 0, 0, 0), 1.2, 1e-6);
+    assert_near(number_at("scenery.1.through.1.0", 0, 0, 0), 3, 1e-6);
+    assert_near(number_at("scenery.1.size.1", 0, 0, 0), 0.7, 1e-6);
+    assert_near(number_at("scenery.1.size.2", 0, 0, 0), 2, 1e-6);
+    assert_near(number_at("scenery.2.at.1.1", 0, 0, 0), 3, 1e-6);
+    assert_near(number_at("scenery.2.turn", 0, 0, 0), 90, 1e-6);
+    assert_near(number_at("scenery.2.doors", 0, 0, 0), 2, 0);
+    jox_text_free(&text);
+    jo_scene_free(dressed);
+    jo_scene_free(bare);
+}
+
 static void scene_message_has_states_that_run_machines(void **state) {
     (void)state;
     JoScene *scene = load_scene_file("tests/data/nested.yaml", NULL, 0);
@@ -200,6 +240,7 @@ int main(void) {
         cmocka_unit_test(scene_message_of_bodies_and_a_player),
         cmocka_unit_test(scene_message_escapes_names),
         cmocka_unit_test(version_changes_with_bodies_but_not_with_gates),
+        cmocka_unit_test(scenery_is_sent_and_does_not_enter_the_hash),
         cmocka_unit_test(scene_message_has_states_that_run_machines),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);

@@ -54,10 +54,11 @@ struct JoxKey {
     const char *default_text; /* "": no default; "!": the key is required */
     const char *meaning;      /* for the reference */
     /* Type of the values of a TABLE, LIST, POINTS or VALUES: the name of an owner, or "xy", "xyz"
-       (points), "start" (time and place, optionally velocity), "quantity" (number with any unit),
-       "weight", "draw" (number or distribution), "value" (draw or place). Suffixes, read from left
-       to right: "*" a map of names to it, "[n]" a list of at least n. "xy[2][2]": a list of at
-       least two lists of at least two points. NULL: `type` says all. */
+       (points), "spots" (a point, or a list of them), "start" (time and place, optionally
+       velocity), "quantity" (number with any unit), "weight", "draw" (number or distribution),
+       "value" (draw or place). Suffixes, read from left to right: "*" a map of names to it, "[n]" a
+       list of at least n. "xy[2][2]": a list of at least two lists of at least two points. NULL:
+       `type` says all. */
     const char *content;
     const char *choices; /* allowed values of a TEXT or NAMES, "this|that"; NULL: any */
     JoxStore store;

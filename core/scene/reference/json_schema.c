@@ -192,6 +192,19 @@ static void write_content(const JoxKey *key, size_t length, JoxJson *json) {
         write_vector(key->type == JOX_TYPE_POINTS ? key : &metres, 2, json);
     } else if (length == 3 && !strncmp(content, "xyz", 3)) {
         write_vector(key, 3, json);
+    } else if (length == 5 && !strncmp(content, "spots", 5)) {
+        jox_json_array(json, "anyOf");
+        jox_json_object(json, NULL);
+        write_vector(key, 2, json);
+        jox_json_end(json);
+        jox_json_object(json, NULL);
+        write_type(json, "array");
+        jox_json_object(json, "items");
+        write_vector(key, 2, json);
+        jox_json_end(json);
+        jox_json_integer(json, "minItems", 1);
+        jox_json_end(json);
+        jox_json_end(json);
     } else if (length == 5 && !strncmp(content, "start", 5)) {
         write_type(json, "array");
         jox_json_object(json, "items");

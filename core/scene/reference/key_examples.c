@@ -29,6 +29,8 @@ const JoxExample jox_scene_examples[] = {
      "regions: {middle: [[-2, -2], [2, -2], [2, 2], [-2, 2]]}\n"
      "walls: [{line: [[-10, -5], [10, -5]]}]\n"
      "bodies: [{shape: {sphere: {radius: 0.2}}, mass: 2, at: [0, 3, 0.2]}]\n"
+     "floor: grass\n"
+     "scenery: [{kind: bush, at: [12, 0]}]\n"
      "groups: {standing: {tags: [crowd]}} # one more key for a group of the included scene\n"
      "sources: [{at: door, like: standing, rate: 0.5}]\n"
      "sinks: [{at: goal}]\n"
@@ -83,6 +85,16 @@ const JoxExample jox_scene_examples[] = {
      "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
      "  - {line: [[9, 5], [0, 5]], name: fence, open: true}\n"
      "  - {file: hall.wkt, unit: 1 cm, origin: [-3000, 0]}   # drawn in centimetres; 30 m further east\n"
+     STANDER},
+    {"scenery", OPENING
+     "floor: asphalt\n"
+     "scenery:\n"
+     "  - {kind: tree, at: [[-6, 8], [0, 8.5], [6, 8]], size: [5, 5, 8]}\n"
+     "  - {kind: house, at: [0, 14], turn: 10, colour: '#c9a27a'}\n"
+     "  - {kind: line, through: [[-8, 0], [8, 0]], size: [0, 0.12, 0], colour: yellow}\n"
+     "  - {kind: area, through: [[-8, -6], [8, -6], [8, -3], [-8, -3]], colour: green}\n"
+     "  - {kind: train, at: [0, 0], size: [12, 2.6, 3.2], doors: 3, body: coach}\n"
+     "bodies: [{name: coach, shape: {box: {size: [12, 2.6, 3]}}, kinematic: true, at: [-20, -4.5, 1.5], velocity: [1, 0, 0]}]\n"
      STANDER},
     {"body", OPENING
      "bodies:\n"

@@ -58,6 +58,7 @@ static void print_type(const JoxKey *key, JoxText *out) {
         {"plain", "number, true or false, or text"},
         {"quantity[1]", "list of numbers"},
         {"quantity[2][2]", "list of [s, 1/s]"},
+        {"spots", "[x, y], or list of these"},
         {"start[1]", "list of [s, x, y] or [s, x, y, vx, vy]"},
         {"xy[2][2]", "two lists of [x, y]"},
         {"quantity**", "map: mod to map of values"}};
