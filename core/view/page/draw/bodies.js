@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { readPoses } from "../net/crowd.js";
-import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_SHADE_FRAGMENT, BODY_SHADE_VERTEX, BODY_VERTEX } from "./shaders.js";
+import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_SHADE_FRAGMENT, BODY_SHADE_VERTEX, BODY_VERTEX } from "./body_shaders.js";
 import { meetsBox } from "./sightline.js";
 
 const EDGE = 30; // degrees between two faces from which their edge is drawn

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { boxOf } from "./camera.js";
 import { table } from "./palette.js";
 import { bakeShade } from "./shade.js";
-import { FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED } from "./shaders.js";
+import { FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED } from "./ground_shaders.js";
 import { meetsBlock } from "./sightline.js";
 import { Prism, wallMaterial } from "./walls.js";
 

@@ -2,7 +2,7 @@
 // by which the shader lowers blocks that would hide the crowd.
 import * as THREE from "three";
 import { boxOf } from "./camera.js";
-import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./shaders.js";
+import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./ground_shaders.js";
 
 const THIN = 0.12; // m, drawn thickness of walls that have none
 const LANDMARK = 3.5; // m: solid blocks of this height are what the scene is about, and are never lowered
