@@ -27,6 +27,35 @@ bool jox_access_is_token(const char *given, const char *token) {
     return difference == 0;
 }
 
+const char *jox_access_skip_token(const char *path, const char *token) {
+    char first[33];
+    const size_t n = sizeof first - 1;
+    if (*path != '/' || strlen(path) < n + 2 || path[n + 1] != '/')
+        return NULL;
+    memcpy(first, path + 1, n);
+    first[n] = 0;
+    return jox_access_is_token(first, token) ? path + 1 + n : NULL;
+}
+
+bool jox_access_sources_are_clean(const char *sources, size_t capacity) {
+    static const char *const QUOTED[] = {"'self'", "'none'"};
+    const size_t length = strlen(sources);
+    if (length == 0 || length >= capacity)
+        return false;
+    while (*sources) {
+        sources += strspn(sources, " ");
+        size_t n = strcspn(sources, " ");
+        bool clean = strspn(sources, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                     "0123456789.-_:/*") >= n;
+        for (int q = 0; q < 2; q++)
+            clean |= strlen(QUOTED[q]) == n && strncmp(sources, QUOTED[q], n) == 0;
+        if (!clean)
+            return false;
+        sources += n;
+    }
+    return true;
+}
+
 bool jox_access_find_cookie(const char *header, const char *name, char *value, size_t capacity) {
     size_t n = strlen(name);
     while (*header) {

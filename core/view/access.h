@@ -10,6 +10,12 @@
 bool jox_access_make_token(char token[33]);
 /* Compares a text with a token, in constant time, so that timing does not reveal the token. */
 bool jox_access_is_token(const char *given, const char *token);
+/* Returns the rest of a path behind "/TOKEN", which begins with '/'; NULL if the path has another
+   first part. */
+const char *jox_access_skip_token(const char *path, const char *token);
+/* Returns whether a text names sources of Content-Security-Policy alone, separated by spaces, and
+   fits `capacity` bytes; it becomes part of a header. */
+bool jox_access_sources_are_clean(const char *sources, size_t capacity);
 /* Finds the value of a cookie in the text of a Cookie header; false if it is missing or does not
    fit. */
 bool jox_access_find_cookie(const char *header, const char *name, char *value, size_t capacity);

@@ -30,12 +30,19 @@ static bool copy_header(struct lws *wsi, enum lws_token_indexes token, char *out
     return n > 0 && (size_t)n < size && lws_hdr_copy(wsi, out, (int)size, token) == n;
 }
 
-/* Returns whether the request has the token in its query or, for a file, the pass in the page's
-   cookie (*remembered). The cookie opens no socket, because browsers send cookies of 127.0.0.1 to
-   any server on that host. */
-static bool has_token(const JoxView *view, struct lws *wsi, bool socket, bool *remembered) {
+/* Returns whether the request has the token in its query or, for a file (a socket has path NULL),
+   in its path (*path then becomes what is behind it) or the pass in the page's cookie
+   (*remembered). The cookie opens no socket, because browsers send cookies of 127.0.0.1 to any
+   server on that host. A page for frames knows neither query nor cookie for its files. */
+static bool has_token(const JoxView *view, struct lws *wsi, const char **path, bool *remembered) {
     char given[80], name[32], cookies[2048];
+    const bool socket = !path;
     *remembered = false;
+    if (!socket && *view->frame) {
+        const char *rest = jox_access_skip_token(*path, view->token);
+        *path = rest ? rest : *path;
+        return rest;
+    }
     const char *asked = lws_get_urlarg_by_name(wsi, "token=", given, sizeof given);
     if (asked)
         return jox_access_is_token(asked, view->token);
@@ -48,17 +55,17 @@ static bool has_token(const JoxView *view, struct lws *wsi, bool socket, bool *r
     return *remembered;
 }
 
-/* Returns why a request is refused, or NULL. */
-static const char *find_fault(const JoxView *view, struct lws *wsi, bool socket, char host[256],
-                              bool *remembered) {
+/* Returns why a request is refused, or NULL. `path`: as of has_token. */
+static const char *find_fault(const JoxView *view, struct lws *wsi, const char **path,
+                              char host[256], bool *remembered) {
     if (!copy_header(wsi, WSI_TOKEN_HOST, host, 256) || !jox_access_host_is_clean(host))
         return "This request does not say which host it asks.\n";
     if (!view->any_host && !jox_access_is_local_host(host, view->port))
         return "Jostle answers at 127.0.0.1 and localhost only; --view-address ADDRESS changes "
                "that.\n";
-    if (!has_token(view, wsi, socket, remembered))
-        return "This is a live page of Jostle. Open the whole address that 'jostle run --view' "
-               "printed, with its token.\n";
+    if (!has_token(view, wsi, path, remembered))
+        return "This is a live page of Jostle. Open the whole address that 'jostle run --view' or "
+               "your program gave, with its token.\n";
     return NULL;
 }
 
@@ -76,7 +83,7 @@ int jox_http_check_upgrade(JoxView *view, struct lws *wsi, const char *to) {
     bool remembered;
     if (strcasecmp(to, "websocket") != 0)
         return -1;
-    const char *fault = find_fault(view, wsi, true, host, &remembered);
+    const char *fault = find_fault(view, wsi, NULL, host, &remembered);
     if (!fault && (!copy_header(wsi, WSI_TOKEN_ORIGIN, origin, sizeof origin) ||
                    !jox_access_is_same_origin(origin, host)))
         fault = "This socket is for the page of the same address.\n";
@@ -88,19 +95,21 @@ int jox_http_check_upgrade(JoxView *view, struct lws *wsi, const char *to) {
     return 0;
 }
 
-/* Formats the headers of a file and, if `cookie`, the cookie that opens the page's other files. */
+/* Formats the headers of a file and, if `cookie`, the cookie that opens the page's other files. A
+   page for frames has no cookie: its files are opened by the token in their paths alone, so that
+   nothing that a browser sends by itself lets a foreign page show them. */
 static int format_headers(const JoxView *view, const char *host, bool cookie, char *out,
                           size_t size) {
     int n = snprintf(
         out, size,
         "content-security-policy: default-src 'none'; script-src 'self'; style-src 'self'; "
         "img-src 'self' data: blob:; font-src 'self'; connect-src 'self' ws://%s; "
-        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n"
+        "base-uri 'none'; form-action 'none'; frame-ancestors %s\r\n"
         "x-content-type-options: nosniff\r\nreferrer-policy: no-referrer\r\n"
         "cross-origin-resource-policy: same-origin\r\ncross-origin-opener-policy: same-origin\r\n"
         "cache-control: no-store\r\n",
-        host);
-    if (cookie)
+        host, *view->frame ? view->frame : "'none'");
+    if (cookie && !*view->frame)
         n += snprintf(out + n, size - (size_t)n,
                       "set-cookie: jostle_%d=%s; Path=/; SameSite=Strict; HttpOnly\r\n", view->port,
                       view->pass);
@@ -115,7 +124,7 @@ int jox_http_serve_file(JoxView *view, struct lws *wsi, const char *path) {
         answer_text(wsi, NO_METHOD, "Only GET is answered.\n");
         return -1; /* closes the connection, and ignores a body */
     }
-    const char *fault = find_fault(view, wsi, false, host, &remembered);
+    const char *fault = find_fault(view, wsi, &path, host, &remembered);
     if (!fault)
         jox_http_drop_from_unknown(view, wsi);
     const char *name = strcmp(path, "/") == 0 ? "/index.html" : path;

@@ -198,6 +198,12 @@ static bool check_view_options(const JoxViewOptions *options, const char *addres
                         "the live page is not in '%s' (no index.html there): run make, which "
                         "bundles it, install Jostle, or give its folder by --page",
                         options->page ? options->page : "");
+    else if (options->frame &&
+             !jox_access_sources_are_clean(options->frame, sizeof((JoxView *)0)->frame))
+        jox_text_printf(why,
+                        "'%s' does not name pages that may show this one in a frame: a list as "
+                        "'http://localhost:8888 https://notes.example', separated by spaces",
+                        options->frame);
     else if (options->port < 0 || options->port > 65535)
         jox_text_printf(why, "there is no port %d", options->port);
     else if (try_port(address, 0) == EINVAL)
@@ -313,6 +319,7 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     view->wake_transport = wake_server;
     view->any_host = options->address != NULL;
     snprintf(view->page, sizeof view->page, "%s", options->page);
+    snprintf(view->frame, sizeof view->frame, "%s", options->frame ? options->frame : "");
     bool good =
         jox_access_make_token(view->token) && jox_access_make_token(view->pass) && view->wake >= 0;
     if (!good)
@@ -331,8 +338,9 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     /* If it listens at all addresses, the page is opened by a local one. */
     bool any = !strcmp(address, "0.0.0.0") || !strcmp(address, "::");
     bool six = strchr(address, ':') && !any;
-    snprintf(view->address, sizeof view->address, "http://%s%s%s:%d/?token=%s", six ? "[" : "",
-             any ? "127.0.0.1" : address, six ? "]" : "", view->port, view->token);
+    snprintf(view->address, sizeof view->address, "http://%s%s%s:%d/%s%s%s", six ? "[" : "",
+             any ? "127.0.0.1" : address, six ? "]" : "", view->port,
+             options->frame ? "" : "?token=", view->token, options->frame ? "/" : "");
     return view;
 }
 

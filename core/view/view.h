@@ -35,6 +35,10 @@ typedef struct JoxViewOptions {
     int port;            /* 0: the first free one from JOX_VIEW_PORT on */
     const char *page;    /* folder with index.html */
     double patience;     /* s that a connection has to send its headers; 0: 5 */
+    /* Pages that may show this page in a frame: sources as of the directive frame-ancestors of
+       Content-Security-Policy, separated by spaces. The address then has its token in the path,
+       and no cookie is set: browsers send none to a frame of another site. NULL: no page may. */
+    const char *frame;
 } JoxViewOptions;
 
 typedef struct JoxView JoxView;
@@ -43,7 +47,8 @@ typedef struct JoxView JoxView;
 JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why);
 /* Closes all connections, ends the thread, and frees the view. NULL is fine. */
 void jox_view_close(JoxView *view);
-/* Returns the page's address with its token: "http://127.0.0.1:8730/?token=...". */
+/* Returns the page's address with its token: "http://127.0.0.1:8730/?token=...", or
+   "http://127.0.0.1:8730/TOKEN/" of a page for frames. */
 const char *jox_view_address(const JoxView *view);
 /* Returns the number of connected browsers. */
 uint32_t jox_view_clients(const JoxView *view);

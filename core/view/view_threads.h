@@ -83,6 +83,7 @@ struct JoxView {
     char pass[33];  /* in the cookie: opens the page's files only */
     int port;
     bool any_host;   /* an address was given: any Host header is accepted */
+    char frame[512]; /* JoxViewOptions.frame; "" if no page may frame this one */
     char page[4096]; /* folder that is served */
     char address[320];
 };

@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "view/view_threads.h"
+
 static void page_is_served_with_security_headers(void **state) {
     (void)state;
     char expected[64];
@@ -89,6 +91,46 @@ static void cookie_opens_files_but_no_socket(void **state) {
     assert_int_equal(fetch_with_headers("GET", "/socket", cookie), 403);
     snprintf(path, sizeof path, "/socket?token=%s", pass);
     assert_int_equal(fetch_with_headers("GET", path, cookie), 403);
+}
+
+/* A page for frames has its token in the path, which its modules' relative addresses repeat:
+   cookies and queries open nothing, so that only who knows the address can show it. */
+static void page_for_frames_is_opened_by_its_path_alone(void **state) {
+    (void)state;
+    char path[256], cookie[512], wrong[64];
+    JoxText why = {0};
+    JoxViewOptions options = {.page = test_path("page"),
+                              .frame = "http://localhost:* vscode-webview:"};
+    JoxView *framed = jox_view_open(&options, &why);
+    const int before = port;
+    assert_non_null(framed);
+    assert_int_equal(
+        sscanf(jox_view_address(framed), "http://127.0.0.1:%d/%63[0-9a-f]/", &port, wrong), 2);
+    snprintf(path, sizeof path, "/%s/", wrong);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 200);
+    assert_string_equal(get_body(), HELLO);
+    assert_non_null(strstr(answer, "frame-ancestors http://localhost:* vscode-webview:\r\n"));
+    assert_null(strstr(answer, "set-cookie"));
+    snprintf(path, sizeof path, "/%s/parts/one.js", wrong);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 200);
+    snprintf(path, sizeof path, "/%s/../%s/../secret.js", wrong, wrong);
+    assert_int_not_equal(fetch_with_headers("GET", path, ""), 200);
+    snprintf(path, sizeof path, "/?token=%s", wrong);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 403);
+    snprintf(cookie, sizeof cookie, "Cookie: jostle_%d=%s\r\n", port, framed->pass);
+    assert_int_equal(fetch_with_headers("GET", "/parts/one.js", cookie), 403);
+    snprintf(path, sizeof path, "/%s", wrong);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 403);
+    int fd = open_socket(port, wrong);
+    assert_true(fd >= 0);
+    close(fd);
+    wrong[0] = wrong[0] == '0' ? '1' : '0';
+    snprintf(path, sizeof path, "/%s/", wrong);
+    assert_int_equal(fetch_with_headers("GET", path, ""), 403);
+    jox_view_close(framed);
+    port = before;
+    assert_int_equal(fetch_page("/"), 200); /* other pages: none may show them */
+    assert_non_null(strstr(answer, "frame-ancestors 'none'"));
 }
 
 static void other_hosts_and_methods_are_refused(void **state) {
@@ -390,6 +432,7 @@ int main(void) {
         WITH_VIEW(files_outside_the_folders_are_refused),
         WITH_VIEW(requests_without_token_are_refused),
         WITH_VIEW(cookie_opens_files_but_no_socket),
+        WITH_VIEW(page_for_frames_is_opened_by_its_path_alone),
         WITH_VIEW(other_hosts_and_methods_are_refused),
         WITH_VIEW(sockets_of_other_pages_are_refused),
         WITH_VIEW(commands_arrive_and_garbage_is_dropped),

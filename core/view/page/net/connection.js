@@ -2,9 +2,12 @@
 
 const WAITS = [0.3, 0.6, 1, 2, 4]; // s, between attempts
 
-// The token is kept in this tab only, and removed from the address bar.
+// The token is kept in this tab only, and removed from the address bar. A page for frames has it in its path, as
+// browsers may keep nothing for a frame of another site.
 const KEY = "jostle-token";
 function token() {
+    const inPath = /^\/([0-9a-f]{32})\//.exec(location.pathname);
+    if (inPath) return inPath[1];
     const given = new URLSearchParams(location.search).get("token");
     if (given) {
         sessionStorage.setItem(KEY, given);
