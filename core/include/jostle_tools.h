@@ -16,6 +16,7 @@
 #define JOSTLE_TOOLS_H
 
 #include "jostle.h"
+#include "jostle_live.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -159,67 +160,6 @@ JO_API void jo_scene_vet(JoScene *scene, const JoVetter *vetter);
    would, and discards the result. `scene` must be loaded with JoSceneDef.dry. Returns true also if
    the files have errors; false if memory ran out. */
 JO_API bool jo_scene_try(JoScene *scene, const JoVetting *what);
-
-/* ---- live pages -------------------------------------------------------------------------- */
-
-/* Definition of a live page: a browser on this machine shows a running scene and lets people act
-   on it. */
-typedef struct JoViewDef {
-    JoSceneDef scene;
-    const char *address; /* address to listen at; NULL: 127.0.0.1, for this machine alone */
-    int port;            /* 0: 8730, or the next free port */
-    const char *page;    /* folder of the page's files; NULL: where they were installed */
-    bool fast;           /* run as fast as possible, not in real time */
-    double wait;         /* s: the run begins when a browser has opened the page, and at the latest
-                            after this time; default 0. Ignored with `fast` */
-    bool watch;          /* reload edited files; default true */
-    /* reads edited files first, and all files at a restart; NULL: no vetting */
-    const JoVetter *vetter;
-    double seconds;     /* simulated time, s, after which the run pauses; 0: the scene's duration */
-    const char *record; /* file for trajectories, or NULL; a restart overwrites it */
-    double record_every;       /* s between recorded frames, as for jo_scene_record */
-    const char *log_input;     /* file for the input log, or NULL; a restart overwrites it */
-    const char *const *breaks; /* breakpoints, as of jo_scene_break, at which the page pauses */
-    size_t break_count;
-    const volatile int *stop; /* the call returns once this int is not 0; NULL: only on errors */
-    JoMessage *opened;        /* receives the page's address once it can be opened; may be NULL */
-    void *opened_context;
-    /* Called with the scene before its first step, and again after each restart, to set up further
-       outputs such as jo_scene_checkpoint; may be NULL. False with `error`: the run does
-       not begin; jo_view fails with this error, or after a restart the page shows it. */
-    bool (*begun)(void *context, JoScene *scene, JoError *error);
-    void *begun_context;
-    char **summary; /* receives jo_scene_summary at the end of the run, to be freed with jo_free;
-                       may be NULL */
-    uint32_t cookie;
-} JoViewDef;
-JO_API JoViewDef jo_default_view_def(void);
-/* Runs the scene and serves the page until `stop`. False with `error` if the page cannot be served,
-   the scene does not load, or the run ended with troubles (jo_scene_troubles); every error of the
-   scene went to the scene's `message`. */
-JO_API bool jo_view(const JoViewDef *def, JoError *error);
-
-/* Definition of a live page that shows a recording, in any format that jo_report reads. */
-typedef struct JoViewRecordingDef {
-    const char *recording;
-    /* scene whose walls, places and bodies are drawn; NULL: the recording's walls */
-    const char *scene;
-    double fps;          /* frames a second; 0: as the recording says */
-    double unit;         /* m: unit of the recording's lengths; 0: as it says */
-    const char *address; /* address, page and port are as in JoViewDef */
-    const char *page;
-    int port;
-    const volatile int *stop; /* the call returns once this int is not 0; NULL: only on errors */
-    JoMessage *opened;        /* receives the page's address once it can be opened; may be NULL */
-    void *opened_context;
-    JoMessage *message; /* NULL: to stderr */
-    void *message_context;
-    uint32_t cookie;
-} JoViewRecordingDef;
-JO_API JoViewRecordingDef jo_default_view_recording_def(void);
-/* Serves the page until `stop`. False with `error` if the page cannot be served or the recording
-   cannot be read; every error in the recording went to `message`. */
-JO_API bool jo_view_recording(const JoViewRecordingDef *def, JoError *error);
 
 /* ---- recordings, pictures, costs --------------------------------------------------------- */
 

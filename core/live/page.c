@@ -155,11 +155,10 @@ static void take_commands(JoxLivePage *page) {
 
 /* ---- opening, closing, running ---- */
 
-bool jox_live_page_open(JoxLivePage *page, const char *address, int port, const char *folder,
-                        JoError *error) {
-    const JoxViewOptions options = {
-        .address = address, .port = port, .page = folder ? folder : JOX_PAGEDIR};
+bool jox_live_page_open(JoxLivePage *page, const JoxViewOptions *given, JoError *error) {
+    JoxViewOptions options = *given;
     JoxText why = {0};
+    options.page = options.page ? options.page : JOX_PAGEDIR;
     page->session.speed = 1.0;
     page->server = jox_view_open(&options, &why);
     if (!page->server)
@@ -175,14 +174,17 @@ void jox_live_page_close(JoxLivePage *page) {
     jox_text_free(&page->text);
 }
 
+double jox_live_page_turn(JoxLivePage *page) {
+    take_commands(page);
+    double wait = fmin(page->source->advance(page->self, jox_clock_wall()), IDLE);
+    JOX_ASSERT(wait >= 0.0 && page->session.speed > 0.0);
+    send_due_messages(page);
+    if (page->changed && jox_view_clients(page->server)) /* a frame is still to be sent */
+        wait = fmin(wait, fmax(page->last_frame + FRAME - jox_clock_wall(), 0.001));
+    return wait;
+}
+
 void jox_live_page_run(JoxLivePage *page, const volatile int *stop) {
-    while (!stop || !__atomic_load_n(stop, __ATOMIC_RELAXED)) {
-        take_commands(page);
-        double wait = fmin(page->source->advance(page->self, jox_clock_wall()), IDLE);
-        JOX_ASSERT(wait >= 0.0 && page->session.speed > 0.0);
-        send_due_messages(page);
-        if (page->changed && jox_view_clients(page->server)) /* a frame is still to be sent */
-            wait = fmin(wait, fmax(page->last_frame + FRAME - jox_clock_wall(), 0.001));
-        jox_view_wait(page->server, wait);
-    }
+    while (!stop || !__atomic_load_n(stop, __ATOMIC_RELAXED))
+        jox_view_wait(page->server, jox_live_page_turn(page));
 }

@@ -34,14 +34,15 @@ typedef struct JoxLivePage {
     JoxText text;                   /* scratch */
 } JoxLivePage;
 
-/* Starts the server. `folder`: of the page's files; NULL: that of the installation. False with
- * `error` if the address cannot be served. */
-bool jox_live_page_open(JoxLivePage *page, const char *address, int port, const char *folder,
-                        JoError *error);
+/* Starts the server. A folder of NULL in `options` is that of the installation. False with
+   `error` if the address cannot be served. */
+bool jox_live_page_open(JoxLivePage *page, const JoxViewOptions *options, JoError *error);
 /* Ends all connections and frees the page's buffers. A page that was not opened is fine. */
 void jox_live_page_close(JoxLivePage *page);
-/* Runs the loop until `*stop` is set (NULL: for ever): handles the commands of browsers, advances
-   the source, and sends what is due. */
+/* Does one turn of the loop: handles the commands of browsers, advances the source, and sends what
+   is due. Returns the time until the next turn is due, s. */
+double jox_live_page_turn(JoxLivePage *page);
+/* Runs the loop until `*stop` is set (NULL: for ever). */
 void jox_live_page_run(JoxLivePage *page, const volatile int *stop);
 /* Sends all browsers the scene message, and forgets what was sent before: the source shows another
    scene or run from now on. */

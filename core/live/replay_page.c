@@ -236,9 +236,11 @@ void jox_replay_page_end(JoxReplayPage *p) {
 }
 
 static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
+    const JoxViewOptions options = {
+        .address = def->address, .port = def->port, .page = def->page, .frame = def->frame};
     JoxReplayPage p = {.def = def};
-    const bool good = jox_replay_page_load(&p, error) &&
-                      jox_live_page_open(&p.page, def->address, def->port, def->page, error);
+    const bool good =
+        jox_replay_page_load(&p, error) && jox_live_page_open(&p.page, &options, error);
     if (good && def->opened)
         jox_run_send_message(def->opened, def->opened_context, jox_view_address(p.page.server));
     if (good) {

@@ -45,6 +45,10 @@ void jox_scene_page_restart(void *self, const JoxLiveRequest *request) {
         jox_live_refuse(request, "a seed is a whole number from 0 to 9007199254740991");
         return;
     }
+    if (s->embedded) {
+        jox_live_refuse(request, "the program that shows this scene begins it anew: load it there");
+        return;
+    }
     JoSceneDef before = s->scene_def;
     if (seed == seed) {
         s->scene_def.has_seed = true;

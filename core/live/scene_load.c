@@ -8,8 +8,7 @@
 #include "run/load_scene.h"
 #include "run/messages.h"
 
-/* Forwards a message of the scene to the terminal, and to browsers unless they have it as data. */
-static void forward_scene_message(void *context, const char *text) {
+void jox_scene_page_forward(void *context, const char *text) {
     JoxScenePage *s = context;
     const JoSceneDef *def = &s->def->scene;
     jox_run_send_message(def->message, def->message_context, text);
@@ -67,7 +66,7 @@ static JoScene *reload_scene(JoxScenePage *s, JoError *error) {
 }
 
 bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
-    s->scene_def.message = forward_scene_message;
+    s->scene_def.message = jox_scene_page_forward;
     s->scene_def.message_context = s;
     /* the first time the caller's overlay is in use, with the files that it had read */
     JoScene *next =

@@ -181,7 +181,8 @@ static bool view_scene(const JoViewDef *def, JoError *error) {
     JoxScenePage s = {.def = def, .scene_def = def->scene};
     s.page.source = &jox_scene_page_source;
     s.page.self = &s;
-    if (!jox_live_page_open(&s.page, def->address, def->port, def->page, error))
+    const JoxViewOptions options = {.address = def->address, .port = def->port, .page = def->page};
+    if (!jox_live_page_open(&s.page, &options, error))
         return false;
     JoError ending = {0};
     bool good = run_scene_page(&s, error), ended = jox_scene_page_end(&s, good ? error : &ending);

@@ -38,6 +38,7 @@ typedef struct JoxScenePage {
     double began;     /* wall time at which the last step was due, s */
     double opened;    /* wall time of the first call of `advance`, s */
     bool has_started; /* the run no longer waits for its first browser */
+    bool embedded;    /* the scene belongs to the program (embedded_page.c) */
     bool failed;      /* the run cannot continue; `failure` says why */
     char failure[1024];
     bool reported; /* messages being printed are errors that browsers already have as data */
@@ -54,6 +55,9 @@ extern const JoxLiveSource jox_scene_page_source;
    watch. False with `error`; the scene that ran before goes on if the new one could not be
    loaded. */
 bool jox_scene_page_load(JoxScenePage *scene, JoError *error);
+/* Forwards a message of the scene to the caller's function, and to browsers unless they have it as
+   data; `page` is the JoxScenePage. */
+void jox_scene_page_forward(void *page, const char *text);
 /* Finishes recording and log, and frees the scene. False with `error` if a file is not whole. */
 bool jox_scene_page_end(JoxScenePage *scene, JoError *error);
 /* scene_errors.c: keeps the errors of loaded files and sends them; a JoxDiagnosed whose context is

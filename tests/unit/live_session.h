@@ -86,7 +86,7 @@ static void *run_session(void *context) {
 }
 
 /* Starts a session of the folder's scene.yaml; `seconds`: as in JoViewDef. */
-static void begin_session(double seconds) {
+static inline void begin_session(double seconds) {
     session = (Session){.def = jo_default_view_def(),
                         .lock = PTHREAD_MUTEX_INITIALIZER,
                         .opened = PTHREAD_COND_INITIALIZER};
@@ -109,7 +109,7 @@ static void begin_session(double seconds) {
     pthread_mutex_unlock(&session.lock);
 }
 
-static void join_session(void) {
+static inline void join_session(void) {
     int port;
     char token[64];
     if (session.done)
@@ -119,7 +119,7 @@ static void join_session(void) {
     assert_true(session.fd >= 0);
 }
 
-static void end_session(void) {
+static inline void end_session(void) {
     if (session.fd > 0)
         close(session.fd);
     __atomic_store_n(&session.stop, 1, __ATOMIC_RELAXED);
@@ -139,7 +139,7 @@ static void send_command(const char *format, ...) {
 /* Waits up to 20 s for a JSON message that has both texts (`second` may be NULL), and returns
    it. */
 static char last[1 << 20];
-static const char *wait_for_json(const char *first, const char *second) {
+static inline const char *wait_for_json(const char *first, const char *second) {
     for (double until = clock_now() + 20.0; clock_now() < until;) {
         int kind;
         size_t length;
@@ -159,7 +159,7 @@ static const char *wait_for_json(const char *first, const char *second) {
 }
 
 /* Waits up to 20 s for a frame and returns its tick. */
-static uint32_t wait_for_tick(void) {
+static inline uint32_t wait_for_tick(void) {
     for (double until = clock_now() + 20.0; clock_now() < until;) {
         int kind;
         size_t length;
