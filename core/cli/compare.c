@@ -19,10 +19,10 @@ typedef struct Compare {
     CliList labels;
     const char *json, *scene; /* scene: its probes measure recordings */
     double confidence, seconds;
-    uint64_t seeds, resamples;
+    uint64_t seeds, seed, resamples; /* seed: the first */
     uint32_t jobs;
     JoxOverlay files; /* vetted files of the scene that is run */
-    bool has_seconds, quiet, trusted;
+    bool has_seconds, has_seed, quiet, trusted;
     char **sides;   /* paths: recordings, and files of sweeps */
     char **folders; /* by side: folder whose recordings form one side, or NULL */
     Kind *kinds;
@@ -59,6 +59,8 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Compare, resamples), CLI_RANGE(100, 1000000)},
     {"all", NULL, "show all figures in the table, not only key figures", CLI_TO(Compare, def.all)},
     {"seeds", "N", "scenes only: seeds of each", "10", CLI_TO(Compare, seeds), CLI_RANGE(1, 10000)},
+    {"seed", "N", "scenes only: first seed", "1", CLI_TO(Compare, seed),
+     CLI_GIVEN(Compare, has_seed)},
     {"for", "S", "scenes only: simulate S seconds", "the scene's duration",
      CLI_TO(Compare, seconds), CLI_GIVEN(Compare, has_seconds), CLI_RANGE(0, 1e7)},
     {"jobs", "N", "scenes only: processes at once", "one for each processor", CLI_TO(Compare, jobs),
@@ -160,6 +162,10 @@ static int sweep_scene(Compare *compare, const char *given, char **out) {
     sweep.stop = &cli_signal;
     sweep.vet = compare->trusted ? NULL : vet_compared_scene;
     sweep.vet_context = compare;
+    if (compare->has_seed) {
+        sweep.scene.has_seed = true;
+        sweep.scene.seed = compare->seed;
+    }
     if (compare->has_seconds)
         sweep.seconds = compare->seconds;
     if (!compare->quiet)

@@ -13,7 +13,7 @@
 #include "jostle_tools.h"
 
 /* Version of the messages: a page that was loaded with another version reloads itself. */
-enum { JOX_LIVE_PROTOCOL = 4 };
+enum { JOX_LIVE_PROTOCOL = 5 };
 
 /* A growing byte buffer; zero-initialise, set `length = 0` to reuse, free by jox_bytes_free. */
 typedef struct JoxBytes {
@@ -22,27 +22,28 @@ typedef struct JoxBytes {
 } JoxBytes;
 void jox_bytes_free(JoxBytes *bytes);
 
-/* X(name, most, unit): the quantities that people can be coloured by. A frame has one byte `value`
-   per slot, 0 to 255 for 0 to `most`. */
+/* X(name, most, least, unit): the quantities that people can be coloured by. A frame has one byte
+   `value` per slot, 0 to 255 for 0 to the end of the range: `most` if ranges are fixed or `least`
+   is 0, else one that suits the scene, at least `least`. */
 #define JOX_LIVE_COLOURS(X)                                                                        \
-    X(state, 0, "") /* value is 0: a frame has the state besides */                                \
-    X(speed, 2, "m/s")                                                                             \
-    X(force, 500, "N") /* magnitude of the net force */                                            \
-    X(compression, 1000, "N/m")                                                                    \
-    X(load, 1112, "N") /* greatest push from any one direction */                                  \
-    X(density, 8, "1/m2")                                                                          \
-    X(group, 255, "")     /* value is the index of the group */                                    \
-    X(direction, 0, "")   /* value is 0: a frame has the heading besides */                        \
-    X(service, 8, "1/m2") /* density, shown by levels of service */
+    X(state, 0, 0, "") /* value is 0: a frame has the state besides */                             \
+    X(speed, 2, 0.5f, "m/s")                                                                       \
+    X(force, 500, 50, "N") /* magnitude of the net force */                                        \
+    X(compression, 1000, 10, "N/m")                                                                \
+    X(load, 1112, 10, "N") /* greatest push from any one direction */                              \
+    X(density, 8, 2, "1/m2")                                                                       \
+    X(group, 255, 0, "")     /* value is the index of the group */                                 \
+    X(direction, 0, 0, "")   /* value is 0: a frame has the heading besides */                     \
+    X(service, 8, 0, "1/m2") /* density, shown by levels of service */
 typedef enum JoxLiveColour {
-#define X(name, most, unit) JOX_LIVE_COLOUR_##name,
+#define X(name, most, least, unit) JOX_LIVE_COLOUR_##name,
     JOX_LIVE_COLOURS(X)
 #undef X
         JOX_LIVE_COLOUR_COUNT
 } JoxLiveColour;
 typedef struct JoxLiveColourInfo {
     const char *name, *unit;
-    float most;
+    float most, least;
 } JoxLiveColourInfo;
 extern const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT];
 /* JoxLiveColour of a name, or -1. */
@@ -57,13 +58,50 @@ typedef enum JoxLiveField {
 int jox_live_field_named(const char *name);
 const char *jox_live_field_name(JoxLiveField field);
 
+/* Why a run is over, for the member "end" of its status. */
+typedef enum JoxLiveEnd {
+    JOX_LIVE_GOES_ON,
+    JOX_LIVE_TIME_IS_UP,
+    JOX_LIVE_ALL_HAVE_LEFT, /* and nobody comes any more */
+    JOX_LIVE_FAILED_RUN     /* it cannot go on */
+} JoxLiveEnd;
+
+/* ---- ranges of values (live_scale.c) ---- */
+
+/* The range of one quantity. Zero-initialise. */
+typedef struct JoxLiveScale {
+    float most;                 /* end of the range; 0: not chosen yet */
+    double looked, small_since; /* wall time, s */
+} JoxLiveScale;
+/* The ranges of a page; all are as the tables say while `fixed`. */
+typedef struct JoxLiveScales {
+    bool fixed;
+    JoxLiveScale colours[JOX_LIVE_COLOUR_COUNT], fields[JOX_LIVE_FIELDS];
+} JoxLiveScales;
+enum { JOX_LIVE_SAMPLE = 2048 };
+typedef struct JoxLiveSample {
+    uint32_t count;
+    float values[JOX_LIVE_SAMPLE];
+} JoxLiveSample;
+/* Returns whether the range is to be adapted at wall time `now`, s. */
+bool jox_live_scale_is_due(const JoxLiveScale *scale, double now);
+/* Adds the i-th value if i is a multiple of `stride`. */
+void jox_live_sample_value(JoxLiveSample *sample, uint32_t stride, uint32_t i, float value);
+/* Widens the range as soon as 98 % of the values that are not about 0 do not fit, and narrows it
+   after 10 s of small ones, to a round number of at least `least`. */
+void jox_live_adapt_scale(JoxLiveScale *scale, const JoxLiveSample *sample, float least,
+                          double now);
+
 /* State of the page's loop that the status message reports: neither the scene nor the recording has
    it. */
 typedef struct JoxLiveSession {
     bool paused;
-    double speed;     /* wanted pace, simulated seconds per second */
-    uint64_t dropped; /* commands of browsers that the server refused so far */
-    uint64_t jumps;   /* recordings: how often playback jumped to a frame other than the next */
+    double speed;        /* wanted pace, simulated seconds per second */
+    uint64_t dropped;    /* commands of browsers that the server refused so far */
+    uint64_t jumps;      /* recordings: how often playback jumped to a frame other than the next */
+    bool fixed;          /* ranges of values are fixed */
+    JoxLiveEnd end;      /* scenes: why the loop has ended the run */
+    const char *failure; /* of a failed run: why */
 } JoxLiveSession;
 
 /* ---- messages of a running scene ---- */
@@ -80,11 +118,17 @@ uint64_t jox_live_version(const JoScene *scene);
 /* Writes {"type": "status", ...}. `fired` counts the transitions of the last second; stage times
    and failures are means over the steps since the last status. */
 void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out);
+/* Writes {"type": "reloaded", ...} of all that reloads changed since the last one; false: nothing,
+   `out` is as before. */
+bool jox_live_news(JoScene *scene, JoxText *out);
+/* Returns whether the scene is sending as text what jox_live_news tells. */
+bool jox_live_is_telling(JoScene *scene);
 /* Binary messages, each in place of the content of `out`: a frame (kind 1); radii and groups of all
-   people (kind 2; returns true if they differ from those that `out` held); a field (kind 3). */
-void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out);
+   people (kind 2; returns true if they differ from those that `out` held); a field (kind 3).
+   `scales`: ranges of values, adapted; NULL: colours as fixed, a field up to its greatest value. */
+void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxLiveScales *scales, JoxBytes *out);
 bool jox_live_people(JoScene *scene, JoxBytes *out);
-void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out);
+void jox_live_field(JoScene *scene, JoxLiveField field, JoxLiveScales *scales, JoxBytes *out);
 
 /* ---- packing of crowds, running or recorded ---- */
 
@@ -116,6 +160,7 @@ typedef struct JoxLiveHead {
     double time;     /* s */
     uint32_t bodies; /* rows of bodies, gone ones included */
     const JoxLiveArea *area;
+    JoxLiveScales *scales; /* adapted to the crowd; NULL: ranges are fixed */
 } JoxLiveHead;
 /* People as columns, in any order. A column that may be NULL is unknown then. */
 typedef struct JoxLiveCrowd {
@@ -162,9 +207,9 @@ float jox_live_density_max(const JoxLiveGrid *grid);
 /* R of the Gaussian, m: 1, more where the cells are wider than that; NAN before the first
    spread. */
 float jox_live_density_r(const JoxLiveGrid *grid);
-/* Writes a field message (kind 3) of values by cell of the grid. */
+/* Writes a field message (kind 3) of values by cell of the grid; `scales` as for jox_live_field. */
 void jox_live_pack_field(const struct JoxDensity *grid, const float *values, JoxLiveField field,
-                         JoxBytes *out);
+                         JoxLiveScales *scales, JoxBytes *out);
 void jox_live_free_grid(JoxLiveGrid *grid);
 
 /* Adds the member "walls" of a scene message, an array of chains. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/mem.h"
 #include "live/live.h"
 #include "record/fields/density.h"
@@ -86,17 +87,50 @@ static float find_block_maximum(const JoxDensity *d, const float *values, uint32
     return most;
 }
 
+/* Ranges of fields: fixed, and the least; 1/m2 and 1/s2. A crowd pressure of 0.02 1/s2 is critical
+   (Helbing, Johansson and Al-Abideen 2007). */
+static const struct {
+    float most, least;
+} RANGES[JOX_LIVE_FIELDS] = {
+    [JOX_LIVE_DENSITY] = {8.0f, 2.0f}, [JOX_LIVE_PRESSURE] = {0.1f, 0.02f}};
+
+/* Returns the value of byte 255, adapted to the field. */
+static float choose_field_range(JoxLiveScales *scales, const JoxDensity *d, const float *values,
+                                JoxLiveField field) {
+    const double now = jox_clock_wall();
+    const size_t cells = (size_t)d->columns * d->rows;
+    if (!scales) {
+        float most = 0.0f;
+        for (size_t c = 0; c < cells; c++)
+            most = values[c] > most ? values[c] : most;
+        return most > 0.0f ? most : 1.0f;
+    }
+    if (scales->fixed)
+        return RANGES[field].most;
+    JoxLiveScale *scale = &scales->fields[field];
+    if (jox_live_scale_is_due(scale, now)) {
+        /* Mostly nobody is about: cells without a value are not counted. */
+        const float trace = 0.02f * RANGES[field].least;
+        uint32_t count = 0, n = 0;
+        JoxLiveSample sample = {.count = 0};
+        for (size_t c = 0; c < cells; c++)
+            count += values[c] > trace;
+        for (size_t c = 0; c < cells; c++)
+            if (values[c] > trace)
+                jox_live_sample_value(&sample, count / JOX_LIVE_SAMPLE + 1, n++, values[c]);
+        jox_live_adapt_scale(scale, &sample, RANGES[field].least, now);
+    }
+    return scale->most;
+}
+
 void jox_live_pack_field(const JoxDensity *d, const float *values, JoxLiveField field,
-                         JoxBytes *out) {
+                         JoxLiveScales *scales, JoxBytes *out) {
     uint32_t by = 1;
-    float most = 0.0f;
     JOX_ASSERT(field < JOX_LIVE_FIELDS);
     while ((d->columns / by) * (d->rows / by) > MOST_SHOWN)
         by++;
     const uint32_t columns = (d->columns + by - 1) / by, rows = (d->rows + by - 1) / by;
-    for (size_t c = 0; c < (size_t)d->columns * d->rows; c++)
-        most = values[c] > most ? values[c] : most;
-    most = most > 0.0f ? most : 1.0f;
+    const float most = choose_field_range(scales, d, values, field);
     const uint32_t head[4] = {FIELD, (uint32_t)field, columns, rows};
     const float more[4] = {d->low.x, d->low.y, d->cell * (float)by, most};
     out->length = HEAD + (size_t)columns * rows;
@@ -108,5 +142,7 @@ void jox_live_pack_field(const JoxDensity *d, const float *values, JoxLiveField 
         at = put_little_endian(at, &more[i]);
     for (uint32_t r = 0; r < rows; r++)
         for (uint32_t c = 0; c < columns; c++)
-            *at++ = (uint8_t)(find_block_maximum(d, values, c, r, by) / most * 255.0f + 0.5f);
+            *at++ =
+                (uint8_t)(jox_minf(find_block_maximum(d, values, c, r, by) / most, 1.0f) * 255.0f +
+                          0.5f);
 }

@@ -77,12 +77,14 @@ static void release_live_listener(void *self) {
     jox_free(live->state);
     jox_free(live->flags);
     jox_free(live->force);
+    jox_text_free(&live->news);
 }
 
 static const JoxListenerKind LIVE = {.name = "live page",
                                      .size = sizeof(JoxLive),
                                      .begin = begin_live_listener,
                                      .frame = count_transitions,
+                                     .reloaded = jox_live_note_reload,
                                      .release = release_live_listener};
 
 JoxLive *jox_live_attach(JoScene *scene) {
@@ -224,7 +226,7 @@ static void add_torsos(JoScene *scene, JoxLiveCrowd *crowd) {
     crowd->contact_radius = frame->contact_radius;
 }
 
-void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
+void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxLiveScales *scales, JoxBytes *out) {
     JoxLive *live = jox_live_attach(scene);
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
@@ -244,7 +246,8 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     const JoxLiveHead head = {.tick = (uint32_t)world->state.tick,
                               .time = jo_world_time(world),
                               .bodies = jox_bodies_rows(world->state.bodies),
-                              .area = &live->area};
+                              .area = &live->area,
+                              .scales = scales};
     jox_live_pack_frame(&head, &crowd, colour, out);
     pack_scene_bodies(scene, a->slot_count, out);
 }
@@ -269,13 +272,13 @@ void jox_live_spread_crowd(JoScene *scene) {
     jox_live_spread(&live->grid, &live->area, &crowd);
 }
 
-void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {
+void jox_live_field(JoScene *scene, JoxLiveField field, JoxLiveScales *scales, JoxBytes *out) {
     if (field == JOX_LIVE_PRESSURE) { /* the run samples it from the first time it is shown */
         const JoxLocal *local = jox_run_collect_pressure(scene);
-        jox_live_pack_field(local->grid, jox_pressure_now(local->pressure), field, out);
+        jox_live_pack_field(local->grid, jox_pressure_now(local->pressure), field, scales, out);
         return;
     }
     jox_live_spread_crowd(scene);
     const JoxDensity *grid = jox_live_attach(scene)->grid.grid;
-    jox_live_pack_field(grid, grid->now, field, out);
+    jox_live_pack_field(grid, grid->now, field, scales, out);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/mem.h"
 #include "base/number/bits.h"
 #include "base/number/pi.h"
@@ -14,7 +15,7 @@ enum { PERSON = 2, PERSON_WITH_TORSO = 4, CHEST = 1 }; /* bytes of a slot */
 static const float RADIUS = 0.2f;                      /* m, for people whose radius is unknown */
 
 const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT] = {
-#define X(name, most, unit) {#name, unit, most},
+#define X(name, most, least, unit) {#name, unit, most, least},
     JOX_LIVE_COLOURS(X)
 #undef X
 };
@@ -151,10 +152,28 @@ static inline float find_colour_value(const JoxLiveCrowd *crowd, uint32_t i, Jox
     }
 }
 
+/* Returns the value of byte 255: the end of the colour's range, adapted to the crowd. */
+static float choose_range(JoxLiveScales *scales, const JoxLiveCrowd *crowd, JoxLiveColour colour) {
+    const JoxLiveColourInfo *info = &jox_live_colours[colour];
+    const double now = jox_clock_wall();
+    if (!scales || scales->fixed || info->least == 0.0f)
+        return info->most;
+    JoxLiveScale *scale = &scales->colours[colour];
+    if (jox_live_scale_is_due(scale, now)) {
+        const uint32_t stride = crowd->count / JOX_LIVE_SAMPLE + 1;
+        JoxLiveSample sample = {.count = 0};
+        for (uint32_t i = 0; i < crowd->count; i += stride)
+            jox_live_sample_value(&sample, stride, i, find_colour_value(crowd, i, colour));
+        jox_live_adapt_scale(scale, &sample, info->least, now);
+    }
+    return scale->most;
+}
+
 void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, JoxLiveColour colour,
                          JoxBytes *out) {
     const JoxLiveArea *area = head->area;
-    const float most = jox_live_colours[colour].most, scale = most > 0.0f ? 1.0f / most : 0.0f;
+    const float most = choose_range(head->scales, crowd, colour);
+    const float scale = most > 0.0f ? 1.0f / most : 0.0f;
     JOX_ASSERT(area->known && area->steps.x > 0.0f && area->steps.y > 0.0f);
     write_frame_head(out, head, crowd->slots, most, crowd->axis_x ? CHEST : 0);
     for (uint32_t i = 0; i < crowd->count; i++) {

@@ -41,6 +41,10 @@ struct JoxLive {
     size_t seen_capacity;
     uint64_t seen_tick; /* 1 + the tick of that frame; 0: none */
     double seen_time;   /* simulated time of that frame, s */
+    /* What reloads changed and was not sent yet: objects, joined by commas. `telling`: the same is
+       being sent as text. */
+    JoxText news;
+    bool telling;
     /* Scratch: number of people by state; states, flags and forces (N) of a frame's people. */
     uint32_t *people;
     uint8_t *state, *flags;
@@ -94,6 +98,12 @@ void jox_live_add_named(const char *key, const JoxLiveNamed *items, uint32_t cou
    "parts": [...]}, without parts if the row's body is gone. */
 void jox_live_add_part(const JoxBodyLook *look, JoxJson *json);
 void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json);
+/* live_end.c: returns why the run is over, also where the loop has not ended it; adds the member
+   "end" of a status, null while the run goes on. */
+JoxLiveEnd jox_live_find_end(const JoScene *scene, const JoxLiveSession *session);
+void jox_live_add_end(const JoScene *scene, const JoxLiveSession *session, JoxJson *json);
+/* live_news.c: what reloads changed, as JoxListenerKind.reloaded. */
+void jox_live_note_reload(void *live, JoScene *scene, const JoxReloadNews *news);
 /* live_status.c: adds type, time and the session's members to a status. */
 void jox_live_add_session(uint64_t tick, double time, const JoxLiveSession *session, JoxJson *json);
 

@@ -103,6 +103,7 @@ void jox_live_add_session(uint64_t tick, double time, const JoxLiveSession *sess
     jox_json_bool(json, "paused", session->paused);
     jox_json_number(json, "speed", session->speed);
     jox_json_whole(json, "dropped", session->dropped);
+    jox_json_bool(json, "fixed", session->fixed);
 }
 
 void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out) {
@@ -122,5 +123,6 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     add_costs(&json, live, scene);
     add_flows_and_gates(&json, scene);
     add_hints(&json, scene);
+    jox_live_add_end(scene, session, &json);
     jox_json_end(&json);
 }

@@ -25,6 +25,7 @@ typedef struct JoxLivePage {
     void *self; /* passed to the source's functions */
     JoxView *server;
     JoxLiveSession session;
+    JoxLiveScales scales;
     JoxLiveWatcher watchers[JOX_VIEW_CLIENTS];
     uint64_t version;               /* the source's version when the scene was last sent */
     double last_frame, last_status; /* wall time, s; 0: the next is due at once */

@@ -59,9 +59,19 @@ static void handle_speed(JoxLiveWatcher *watcher, const JoxLiveRequest *request)
     request->page->last_status = 0.0;
 }
 
+static void handle_scale(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
+    (void)watcher;
+    request->page->scales = (JoxLiveScales){
+        .fixed = jox_command_bool(request->command, "fixed", !request->page->scales.fixed)};
+    request->page->session.fixed = request->page->scales.fixed;
+    request->page->changed = true;
+    request->page->last_status = 0.0;
+}
+
 /* Commands that are the same for all sources, by verb. */
 static void (*const COMMON[JOX_LIVE_VERB_COUNT])(JoxLiveWatcher *, const JoxLiveRequest *) = {
     [JOX_LIVE_VERB_colour] = handle_colour,
+    [JOX_LIVE_VERB_scale] = handle_scale,
     [JOX_LIVE_VERB_field] = handle_field,
     [JOX_LIVE_VERB_speed] = handle_speed,
 };

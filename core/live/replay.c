@@ -254,7 +254,7 @@ static void pack_recorded_bodies(const JoxReplay *r, JoxBytes *out) {
     }
 }
 
-void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
+void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxLiveScales *scales, JoxBytes *out) {
     JoxLiveCrowd crowd = list_recorded_crowd(r);
     jox_replay_spread(r);
     for (uint32_t i = 0; i < r->count; i++) {
@@ -274,7 +274,8 @@ void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
     const JoxLiveHead head = {.tick = r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown,
                               .time = r->frame.time,
                               .bodies = r->row_count,
-                              .area = &r->area};
+                              .area = &r->area,
+                              .scales = scales};
     jox_live_pack_frame(&head, &crowd, colour, out);
     pack_recorded_bodies(r, out);
 }
@@ -311,14 +312,15 @@ static void sample_pressure(JoxReplay *r) {
     jox_local_frame(r->local, &frame, r->flags);
 }
 
-void jox_replay_field(JoxReplay *r, JoxLiveField field, JoxBytes *out) {
+void jox_replay_field(JoxReplay *r, JoxLiveField field, JoxLiveScales *scales, JoxBytes *out) {
     if (field == JOX_LIVE_PRESSURE) {
         sample_pressure(r);
-        jox_live_pack_field(r->local->grid, jox_pressure_now(r->local->pressure), field, out);
+        jox_live_pack_field(r->local->grid, jox_pressure_now(r->local->pressure), field, scales,
+                            out);
         return;
     }
     jox_replay_spread(r);
-    jox_live_pack_field(r->grid.grid, r->grid.grid->now, field, out);
+    jox_live_pack_field(r->grid.grid, r->grid.grid->now, field, scales, out);
 }
 
 JoxLiveColour jox_replay_colour(const JoxReplay *r) {

@@ -36,9 +36,10 @@ uint64_t jox_replay_version(const JoxReplay *replay);
 /* `factor`: the measured pace, simulated seconds per second. */
 void jox_replay_status(JoxReplay *replay, const JoxLiveSession *session, double factor,
                        JoxText *out);
-void jox_replay_frame(JoxReplay *replay, JoxLiveColour colour, JoxBytes *out);
+void jox_replay_frame(JoxReplay *replay, JoxLiveColour colour, JoxLiveScales *scales,
+                      JoxBytes *out);
 bool jox_replay_people(const JoxReplay *replay, JoxBytes *out);
-void jox_replay_field(JoxReplay *replay, JoxLiveField field, JoxBytes *out);
+void jox_replay_field(JoxReplay *replay, JoxLiveField field, JoxLiveScales *scales, JoxBytes *out);
 /* The colour and field that a page begins with: the scene's `view`, else defaults. */
 JoxLiveColour jox_replay_colour(const JoxReplay *replay);
 JoxLiveField jox_replay_first_field(const JoxReplay *replay);

@@ -107,7 +107,7 @@ static void write_recording_status(void *self, double now, JoxText *out) {
 
 static void pack_recorded_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
     JoxReplayPage *p = self;
-    jox_replay_frame(p->replay, colour, out);
+    jox_replay_frame(p->replay, colour, &p->page.scales, out);
 }
 
 static bool pack_recorded_people(void *self, JoxBytes *out) {
@@ -117,7 +117,7 @@ static bool pack_recorded_people(void *self, JoxBytes *out) {
 
 static void pack_recorded_field(void *self, JoxLiveField field, JoxBytes *out) {
     JoxReplayPage *p = self;
-    jox_replay_field(p->replay, field, out);
+    jox_replay_field(p->replay, field, &p->page.scales, out);
 }
 
 /* Publishes {"type": "time", ...}: first, last and present time of the recording, s. */

@@ -20,6 +20,8 @@ void jox_scene_page_pause(void *self, const JoxLiveRequest *request) {
     }
     if (!on && s->page.session.paused && jo_world_time(s->scene->world) >= s->until)
         s->until = INFINITY; /* continues beyond the scene's duration */
+    if (!on)
+        s->page.session.end = JOX_LIVE_GOES_ON;
     s->page.session.paused = on;
     s->steps = 0;
     s->page.last_status = 0.0; /* a status is sent at once */
@@ -34,6 +36,8 @@ void jox_scene_page_step(void *self, const JoxLiveRequest *request) {
         jox_live_refuse(request, "n is from 1 to 100,000 steps");
     else
         s->steps += (uint64_t)n;
+    if (s->steps > 0)
+        s->page.session.end = JOX_LIVE_GOES_ON;
     s->page.session.paused = true;
     s->steps = s->steps < MOST_STEPS ? s->steps : MOST_STEPS;
 }

@@ -12,7 +12,7 @@ void jox_scene_page_forward(void *context, const char *text) {
     JoxScenePage *s = context;
     const JoSceneDef *def = &s->def->scene;
     jox_run_send_message(def->message, def->message_context, text);
-    if (s->reported)
+    if (s->reported || (s->scene && jox_live_is_telling(s->scene)))
         return;
     size_t n = strlen(text);
     char *line = jox_strndup(text, n && text[n - 1] == '\n' ? n - 1 : n);
@@ -80,10 +80,10 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
         jox_live_say(&s->page, "error", ending.text);
     s->scene = next;
     jo_scene_vet(next, s->def->vetter);
-    s->failed = false;
-    s->page.session.paused = s->failed = !begin_outputs(s, error);
-    if (s->failed) {
-        snprintf(s->failure, sizeof s->failure, "%s", error->text);
+    s->failed = s->page.session.paused = false;
+    s->page.session.end = JOX_LIVE_GOES_ON;
+    if (!begin_outputs(s, error)) {
+        jox_scene_page_fail(s, error);
         jox_live_say(&s->page, "error", error->text);
     }
     s->steps = 0;

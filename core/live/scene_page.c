@@ -27,6 +27,7 @@ static void pause_at_end(JoxScenePage *s) {
         return;
     jox_run_say(s->scene, "%g s are over: the scene is paused. Continue or restart it\n", s->until);
     s->until = INFINITY;
+    s->page.session.end = JOX_LIVE_TIME_IS_UP;
     s->page.session.paused = true;
     s->steps = 0;
     s->page.last_status = 0.0;
@@ -44,6 +45,14 @@ static void pause_at_breakpoint(JoxScenePage *s) {
     s->page.last_status = 0.0;
 }
 
+void jox_scene_page_fail(JoxScenePage *s, const JoError *error) {
+    s->failed = s->page.session.paused = true;
+    snprintf(s->failure, sizeof s->failure, "%s", error->text);
+    s->page.session.end = JOX_LIVE_FAILED_RUN;
+    s->page.session.failure = s->failure;
+    s->page.last_status = 0.0;
+}
+
 /* Makes a step. If it fails, the run is paused for good and browsers are told. */
 static void step_page_scene(JoxScenePage *s) {
     JoError error = {0};
@@ -51,8 +60,7 @@ static void step_page_scene(JoxScenePage *s) {
         pause_at_breakpoint(s);
         pause_at_end(s);
     } else {
-        s->failed = s->page.session.paused = true;
-        snprintf(s->failure, sizeof s->failure, "%s", error.text);
+        jox_scene_page_fail(s, &error);
         s->steps = 0;
         jox_run_say(s->scene, "%s\n", error.text);
         jox_live_say(&s->page, "error", error.text);
@@ -122,7 +130,7 @@ static void write_scene_status(void *self, double now, JoxText *out) {
 
 static void pack_scene_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
     JoxScenePage *s = self;
-    jox_live_frame(s->scene, colour, out);
+    jox_live_frame(s->scene, colour, &s->page.scales, out);
 }
 
 static bool pack_scene_people(void *self, JoxBytes *out) {
@@ -132,7 +140,16 @@ static bool pack_scene_people(void *self, JoxBytes *out) {
 
 static void pack_scene_field(void *self, JoxLiveField field, JoxBytes *out) {
     JoxScenePage *s = self;
-    jox_live_field(s->scene, field, out);
+    jox_live_field(s->scene, field, &s->page.scales, out);
+}
+
+/* Sends what reloads have changed, and the agents that browsers inspect. */
+static void report_scene(void *self) {
+    JoxScenePage *s = self;
+    s->page.text.length = 0;
+    if (jox_live_news(s->scene, &s->page.text))
+        jox_view_send(s->page.server, JOX_VIEW_ALL, s->page.text.data);
+    jox_scene_page_send_inspected(s);
 }
 
 const JoxLiveSource jox_scene_page_source = {
@@ -145,7 +162,7 @@ const JoxLiveSource jox_scene_page_source = {
     .pack_people = pack_scene_people,
     .pack_field = pack_scene_field,
     .greet = jox_scene_page_send_errors,
-    .report = jox_scene_page_send_inspected,
+    .report = report_scene,
     .left = jox_scene_page_end_inspection,
     .advance = step_when_due,
     .verbs = {[JOX_LIVE_VERB_pause] = jox_scene_page_pause,

@@ -14,6 +14,7 @@
     X(speed, "")   /* "factor": pace, simulated seconds per second */                              \
     X(restart, "") /* "seed": of a scene; without it the present one */                            \
     X(colour, "")  /* "by": a name of JOX_LIVE_COLOURS */                                          \
+    X(scale, "")   /* "fixed": whether ranges of values are the same for all scenes */             \
     X(field, "")   /* "of": density, pressure or none */                                           \
     X(seek, JOX_LIVE_NEEDS_RECORDING) /* "time": s */                                              \
     X(input, JOX_LIVE_NEEDS_SCENE)    /* "line": as in an input log */                             \
@@ -59,7 +60,8 @@ typedef struct JoxLiveSource {
     /* Steps or plays if that is due at wall time `now`, s; returns the time until the next call is
        due, s, 0 for at once. */
     double (*advance)(void *self, double now);
-    /* By command. NULL: the source lacks it, or page_commands.c handles it (colour, field, speed).
+    /* By command. NULL: the source lacks it, or page_commands.c handles it (colour, field, scale,
+     * speed).
      */
     void (*verbs[JOX_LIVE_VERB_COUNT])(void *self, const JoxLiveRequest *request);
 } JoxLiveSource;

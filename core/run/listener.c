@@ -39,6 +39,14 @@ void jox_run_tell_replaced(JoScene *scene, uint32_t machine) {
     }
 }
 
+void jox_run_tell_reloaded(JoScene *scene, const JoxReloadNews *news) {
+    for (uint32_t l = 0; l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (listener->kind->reloaded)
+            listener->kind->reloaded(listener->self, scene, news);
+    }
+}
+
 bool jox_run_tell_end(JoScene *scene, JoError *error) {
     bool good = true;
     for (uint32_t l = 0; l < scene->listeners.count; l++) {

@@ -8,9 +8,21 @@
 #include "base/sections.h"
 #include "base/text.h"
 #include "jostle.h"
+#include "machine/machine.h"
 
 /* A kind of listener. Functions that it does not need are NULL. `self` is the listener's own
    data: `size` bytes, zeros at first, freed by the scene. */
+/* What a reload of an edited file changed. The pointers are valid during the call alone. */
+typedef struct JoxReloadNews {
+    const char *path; /* of the behaviour, or of the scene */
+    /* A behaviour: the machine before and after, how many people were in each state of either, and
+       lines on memory that is kept or dropped. NULL: the scene's file. */
+    const JoxMachine *old, *next;
+    const uint32_t *before, *after;
+    const char *notes;
+    const char *done, *later; /* the scene's file: what changed; what waits for the next start */
+} JoxReloadNews;
+
 typedef struct JoxListenerKind {
     const char *name; /* for messages, and its key in a checkpoint: "recording" */
     size_t size;
@@ -21,6 +33,9 @@ typedef struct JoxListenerKind {
     bool (*frame)(void *self, JoScene *scene, JoError *error);
     /* Called when a reload has added a machine, or replaced it by a version with other states. */
     void (*replaced)(void *self, JoScene *scene, uint32_t machine);
+    /* Called with what a reload changed, before the same is sent as text, and with NULL after
+       that. */
+    void (*reloaded)(void *self, JoScene *scene, const JoxReloadNews *news);
     /* Lists, as sections, the state that the listener needs to go on in a resumed run; what it
        collected was put on the disk by `settle` before. NULL: it begins anew there. */
     void (*sections)(void *self, JoxSections *sections);
@@ -57,6 +72,7 @@ void *jox_run_find_listener(const JoScene *scene, const JoxListenerKind *kind);
    first failure. */
 bool jox_run_tell_frame(JoScene *scene, JoError *error);
 void jox_run_tell_replaced(JoScene *scene, uint32_t machine);
+void jox_run_tell_reloaded(JoScene *scene, const JoxReloadNews *news);
 bool jox_run_tell_end(JoScene *scene, JoError *error);
 void jox_run_release_listeners(JoScene *scene);
 /* Whether the step just done is one of those that come every `interval` seconds; every step if that

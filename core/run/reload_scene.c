@@ -229,6 +229,9 @@ void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
     char ago[40] = "";
     if (written > 0.0)
         snprintf(ago, sizeof ago, "saved %.0f ms ago, ", age * 1e3);
+    jox_run_tell_reloaded(scene, &(JoxReloadNews){.path = scene->spec->path,
+                                                  .done = r.done.data ? r.done.data : "",
+                                                  .later = r.later.data ? r.later.data : ""});
     if (r.done.length)
         jox_run_say(scene, "%s: %s changed, live from t = %.2f s (%stook %.2f ms)\n",
                     scene->spec->path, r.done.data, jo_world_time(scene->world), ago,
@@ -236,6 +239,7 @@ void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
     if (r.later.length)
         jox_run_say(scene, "%s: %s: takes effect at the next start\n", scene->spec->path,
                     r.later.data);
+    jox_run_tell_reloaded(scene, NULL);
     if (groups) { /* the old specification goes where the new one came from */
         *spec = scene->spec;
         scene->spec = r.new;

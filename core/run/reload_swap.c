@@ -129,13 +129,21 @@ static void swap_machines(JoScene *scene, JoxBatch *batch, JoxRetired *retired) 
         jox_text_add(&text, "\n after: ");
         write_census(next, after, &text);
         jox_text_add(&text, "\n");
+        const size_t notes = text.length;
         if (people > 0)
             jox_replacement_tell(change->replacement, jox_noun(number, people, "person|people"),
                                  &text);
+        jox_run_tell_reloaded(scene, &(JoxReloadNews){.path = next->path,
+                                                      .old = old,
+                                                      .next = next,
+                                                      .before = before,
+                                                      .after = after,
+                                                      .notes = text.data + notes});
     }
     link_batch(scene, batch);
     if (text.data)
         jox_run_send_text(scene, text.data);
+    jox_run_tell_reloaded(scene, NULL);
     jox_text_free(&text);
 }
 

@@ -267,6 +267,20 @@ bool jox_source_is_over(const JoWorld *world, uint32_t s) {
     return time >= source->from && !is_at_work(world, source, time);
 }
 
+bool jox_source_can_bring(const JoWorld *world, uint32_t s) {
+    const JoxAgentSource *source = &world->model.sources[s];
+    const double time = (double)world->state.tick * world->model.def.dt;
+    if (jox_source_is_over(world, s))
+        return false;
+    bool can = source->rate > 0.0 || source->every > 0.0 || source->keep > 0 ||
+               jox_source_waiting(world, s) >= 1.0;
+    for (uint32_t t = 0; t < source->time_count && !can; t++)
+        can = source->times[t] >= time;
+    if (source->curve_count > 0) /* pairs of time and rate */
+        can |= source->curve[2 * (source->curve_count - 1)] > time;
+    return can;
+}
+
 /* ---- model and state ---- */
 
 void jox_source_append_name(const JoWorld *world, uint32_t s, JoxText *out) {

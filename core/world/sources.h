@@ -67,6 +67,8 @@ const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t
 double jox_source_waiting(const JoWorld *world, uint32_t source);
 /* Returns whether a source has ended: agents still due do not enter. */
 bool jox_source_is_over(const JoWorld *world, uint32_t source);
+/* Returns whether anybody may still enter by a source. */
+bool jox_source_can_bring(const JoWorld *world, uint32_t source);
 /* Appends the name of a source: that of its place, with its group if others have the same place. */
 void jox_source_append_name(const JoWorld *world, uint32_t source, JoxText *out);
 /* Lists counts as state. */

@@ -457,6 +457,14 @@ def reloads(browser, folder):
     write(folder, "walk.lua", WALKERS["walk.lua"].replace("speed = 1.2", "speed = 0.4"))
     browser.wait("return document.getElementById('errors').hidden", "the errors stay")
     browser.wait("return page.charts.speed.values.get('').slice(-1)[0] < 0.6", "the mended file has no effect")
+    # What a reload changed stands in a note, which can be pinned and closed.
+    note = browser.wait("const n = document.querySelector('#news .note'); return n && n.innerText", "no note on the reload")
+    expect("walk.lua is live from" in note and "Walk 60 → 60" in note, f"the note is {note!r}")
+    browser.button("Pin").click()
+    expect(browser.run("return document.querySelectorAll('#news .pinned').length") == 1, "the note is not pinned")
+    browser.picture("reload-note")
+    browser.find("#news button[aria-label^=Close]").click()
+    expect(browser.run("return document.querySelectorAll('#news .note').length") == 0, "the note is not closed")
 
 
 def plays(browser):
@@ -570,6 +578,11 @@ def replays(browser):
         browser.button("Play").click()
         browser.wait("return page.crowd.next.time > arguments[0]", "it does not play", at + 0.5)
         browser.wait("return page.charts.speed.seen.filter((s) => s).length > 1", "no line where it was played")
+        browser.run("page.replay.seek(12)")
+        text = browser.wait("const e = document.getElementById('end'); return !e.hidden && e.innerText", "no card at the end of the recording")
+        expect("End of the recording" in text, f"the card says {text}")
+        browser.run("page.replay.seek(5)")
+        browser.wait("return document.getElementById('end').hidden", "the card stays in the middle of the recording")
         expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
     finally:
         session.stop()
@@ -617,10 +630,31 @@ return shown.map((spot, k) => Math.max(...spot.map((c, i) => Math.abs(c - withou
 """
 
 
+def ends(browser):
+    """The card at the end of a run, by keys alone: figures, a command to copy, the same run again."""
+    browser.run("document.activeElement.blur()")
+    text = browser.wait("const e = document.getElementById('end'); return !e.hidden && e.innerText", "no card at the end")
+    for part in ("4 s are over", "2 people took part; nobody left.", "Greatest density: ", "1 person fell."):
+        expect(part in text, f"the card lacks {part!r}: {text}")
+    expect(browser.run("return document.activeElement.textContent") == "Again", "the card has not the focus")
+    browser.press(Keys.TAB, Keys.TAB)
+    browser.press(Keys.ENTER)
+    command = browser.run("return document.querySelector('#end code').textContent")
+    expect("scene.yaml changed.yaml --seed 1 --seeds 10 --for 4" in command, f"the command is {command}")
+    browser.picture("end")
+    browser.press(Keys.ESCAPE)
+    expect(browser.run("return document.getElementById('end').hidden && document.activeElement.id") == "picture", "Escape does not close the card")
+    browser.run("page.end.forget()")
+    browser.wait("return document.activeElement.textContent === 'Again'", "the card does not come back")
+    browser.press(Keys.ENTER)
+    browser.wait("return page.crowd.next.time < 3 && document.getElementById('end').hidden", "it does not begin again")
+
+
 def fallen(browser):
     """people who have fallen are drawn lying, and their panel tells of it"""
     folder = temporary_copy({"scene.yaml": """jostle: 1
 step: 0.05
+duration: 4
 places: {edge: {polygon: [[-1, -1], [1, -1], [1, 1], [-1, 1]]}}
 groups:
   people: {behaviour: stander.lua, at: [[0, 0], [0, 3]], facing: 0, set: {balance: 0.3, rise: 1000, step_back: 0}}
@@ -641,6 +675,7 @@ events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
         browser.run("page.inspect(1)")
         browser.wait("return page.person && page.person.slot === 1", "nobody else was chosen")
         expect("lies" not in browser.find("#page-agent").text, "the panel says that one lies who stands")
+        ends(browser)
         expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
     finally:
         session.stop()

@@ -31,7 +31,7 @@ static void people_keep_their_slots_between_frames(void **state) {
     memset(owner, 0xff, sizeof owner);
     for (int t = 0; t < 400; t++) {
         step_scene(scene, 1);
-        jox_live_frame(scene, JOX_LIVE_COLOUR_speed, &frame);
+        jox_live_frame(scene, JOX_LIVE_COLOUR_speed, NULL, &frame);
         Seen seen = decode_frame(&frame, scene->world);
         check_frame_people(scene, &seen);
         assert_true(seen.slots < 1000);
@@ -70,8 +70,8 @@ static void parity_flips_at_periodic_edges(void **state) {
     assert_true(period > 1.0f);
     for (int t = 0; t < 200; t++) {
         step_scene(scene, 1);
-        jox_live_frame(scene, JOX_LIVE_COLOUR_speed, &frame);
-        jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+        jox_live_frame(scene, JOX_LIVE_COLOUR_speed, NULL, &frame);
+        jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
         Seen seen = decode_frame(&frame, scene->world);
         check_frame_people(scene, &seen);
         for (uint32_t s = 0; s < seen.slots; s++) {
@@ -97,11 +97,11 @@ static void area_grows_with_the_crowd(void **state) {
                                      "\"A\", defaults = { speed = 9, max_speed = 9 }, "
                                      "states = { A = { steer = drift(-1, -0.3) } } }\n");
     JoxBytes frame = {0};
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     Seen before = decode_frame(&frame, scene->world);
     for (int t = 0; t < 300; t++) {
         step_scene(scene, 1);
-        jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+        jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
         Seen seen = decode_frame(&frame, scene->world);
         check_frame_people(scene, &seen);
     }
@@ -123,7 +123,7 @@ static void lying_state_sets_the_lying_flag(void **state) {
     for (int t = 0; t < 2; t++) {
         step_scene(scene, t == 0 ? 1 : 8);
         a->contact_x[0] = 200.0f;
-        jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+        jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
         const Seen seen = decode_frame(&frame, scene->world);
         const uint8_t flags = seen.slot[8 * (size_t)a->slot[0] + 7];
         assert_int_equal((flags & JOX_LIVE_LIES) == JOX_LIVE_LIES, t == 1);
@@ -150,7 +150,7 @@ static void averaged_pushes_set_the_lean(void **state) {
         a->contact_x[i] = 0.75f * force * cosf(turn);
         a->contact_y[i] = 0.75f * force * sinf(turn);
     }
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     Seen seen = decode_frame(&frame, scene->world);
     for (uint32_t i = 0; i < a->count; i++) {
         const uint32_t lean = seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT;
@@ -158,14 +158,14 @@ static void averaged_pushes_set_the_lean(void **state) {
         assert_int_equal(lean, hard ? 1 + a->id[i] % 8 + 8 * (hard - 1) : 0);
     }
     step_scene(scene, 1); /* a step without pushes */
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     seen = decode_frame(&frame, scene->world);
     uint32_t leaning = 0;
     for (uint32_t i = 0; i < a->count; i++)
         leaning += seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT > 0;
     assert_true(leaning >= 24); /* the average has hardly decayed */
     step_scene(scene, 100);
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     seen = decode_frame(&frame, scene->world);
     for (uint32_t i = 0; i < a->count; i++)
         assert_int_equal(seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT, 0);
@@ -183,7 +183,7 @@ static void colour_values_match_the_columns(void **state) {
     for (uint32_t i = 0; i < a->count; i++)
         a->load[i] = a->compression[i] = (float)(10 * i);
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
-        jox_live_frame(scene, (JoxLiveColour)c, &frame);
+        jox_live_frame(scene, (JoxLiveColour)c, NULL, &frame);
         Seen seen = decode_frame(&frame, scene->world);
         uint32_t above = 0;
         for (uint32_t i = 0; i < a->count; i++) {
@@ -245,7 +245,7 @@ static void torsos_are_sent_with_frames(void **state) {
     assert_true(jox_live_people(scene, &people));
     assert_int_equal(people.length, 16 + 2 * (size_t)a->slot_count);
     assert_int_equal(people.data[16 + 2 * a->slot[1]], 20);
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     assert_int_equal(get32(frame.data + 44), 0);
     step_scene(scene, 1);
     jox_param_set(a, JOX_PARAM_breadth, 2, 0.45f);
@@ -259,7 +259,7 @@ static void torsos_are_sent_with_frames(void **state) {
     const uint8_t *torso = people.data + 16 + 4 * a->slot[2], *disc = people.data + 16;
     assert_memory_equal(torso, ((const uint8_t[]){20, 0, 45, 25}), 4);
     assert_memory_equal(disc + 4 * a->slot[1], ((const uint8_t[]){20, 0, 40, 40}), 4);
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     assert_int_equal(get32(frame.data + 44), 1);
     assert_int_equal(frame.length, JOX_LIVE_HEAD + (JOX_LIVE_SLOT + 1) * (size_t)a->slot_count +
                                        JOX_LIVE_BODY * (size_t)get32(frame.data + 20));
@@ -293,9 +293,9 @@ static void pressure_field_matches_the_run(void **state) {
     JoScene *scene = load_scene_file("scenes/two-bottlenecks.yaml", NULL, 0);
     JoxBytes field = {0};
     double most, greatest = 0;
-    jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
+    jox_live_field(scene, JOX_LIVE_PRESSURE, NULL, &field);
     step_scene(scene, 1620);
-    jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
+    jox_live_field(scene, JOX_LIVE_PRESSURE, NULL, &field);
     const JoxLocal *local = jox_run_local_densities(scene);
     for (size_t c = 0; c < (size_t)local->grid->columns * local->grid->rows; c++)
         greatest = fmax(greatest, jox_local_pressure(local, c));
@@ -312,14 +312,14 @@ static void density_field_sums_to_the_number_of_people(void **state) {
     JoxText text = {0};
     double most;
     step_scene(scene, 20);
-    jox_live_field(scene, JOX_LIVE_DENSITY, &field);
+    jox_live_field(scene, JOX_LIVE_DENSITY, NULL, &field);
     assert_int_equal(get32(field.data + 4), 0);
     const double people = sum_field(&field, &most);
     assert_near(people, scene->world->state.agents.count, 0.01 * scene->world->state.agents.count);
     jox_live_status(scene, &(JoxLiveSession){0}, &text);
     parse_numbers(&text);
     assert_near(number_at("density_max", 0, 0, 0), most, 1e-3);
-    jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
+    jox_live_field(scene, JOX_LIVE_PRESSURE, NULL, &field);
     assert_int_equal(get32(field.data + 4), 1);
     assert_near(sum_field(&field, &most), 0, 0); /* there are too few samples yet */
     assert_int_equal(jox_live_field_named("pressure"), JOX_LIVE_PRESSURE);
@@ -411,8 +411,8 @@ static void messages_do_not_change_the_run(void **state) {
             jox_live_status(shown, &(JoxLiveSession){0}, &text);
             jox_text_free(&text);
             const uint64_t before = jox_alloc_count();
-            jox_live_frame(shown, JOX_LIVE_COLOUR_force, &frame);
-            jox_live_field(shown, JOX_LIVE_DENSITY, &field);
+            jox_live_frame(shown, JOX_LIVE_COLOUR_force, NULL, &frame);
+            jox_live_field(shown, JOX_LIVE_DENSITY, NULL, &field);
             jox_live_people(shown, &people);
             assert_true(t < 5 || jox_alloc_count() == before);
             jox_live_version(shown);

@@ -24,7 +24,7 @@ static void check_frame(JoxReplay *replay, uint32_t frame, uint32_t *slots) {
     JoxText told = {0};
     if (!jox_replay_show(replay, frame, &told))
         fail_msg("%s", told.data);
-    jox_replay_frame(replay, JOX_LIVE_COLOUR_state, &bytes);
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_state, NULL, &bytes);
     const Seen seen = decode_bytes(bytes.data, bytes.length);
     const double ROUNDED = 6e-5; /* m: recordings are rounded to 0.1 mm */
     bool taken[4000] = {false};
@@ -92,8 +92,8 @@ static void speeds_and_densities_match_the_frames(void **state) {
     for (uint32_t f = 0; f < 30; f++)
         assert_true(jox_replay_show(replay, f, &told));
     assert_true(jox_replay_show(other, 29, &told));
-    jox_replay_frame(replay, JOX_LIVE_COLOUR_speed, &bytes);
-    jox_replay_frame(other, JOX_LIVE_COLOUR_speed, &more);
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_speed, NULL, &bytes);
+    jox_replay_frame(other, JOX_LIVE_COLOUR_speed, NULL, &more);
     uint32_t histogram[2][256] = {{0}};
     for (int k = 0; k < 2; k++) {
         const JoxBytes *b = k ? &more : &bytes;
@@ -125,10 +125,10 @@ static void speeds_and_densities_match_the_frames(void **state) {
     assert_near(number_at("states.0.0", 0, 0, 0) + number_at("states.0.1", 0, 0, 0),
                 recorded[29].count, 0);
     const double most = number_at("density_max", 0, 0, 0);
-    jox_replay_field(replay, JOX_LIVE_DENSITY, &bytes);
+    jox_replay_field(replay, JOX_LIVE_DENSITY, NULL, &bytes);
     assert_near(get_float(bytes.data + 28), most, 1e-3);
     assert_true(most > 0.5);
-    jox_replay_field(replay, JOX_LIVE_PRESSURE, &bytes);
+    jox_replay_field(replay, JOX_LIVE_PRESSURE, NULL, &bytes);
     assert_true(get_float(bytes.data + 28) > 0.0f);
     assert_true(jox_replay_people(replay, &bytes));
     assert_false(jox_replay_people(replay, &bytes));
@@ -315,7 +315,7 @@ static void recordings_without_index_or_order_are_read(void **state) {
     JoxBytes bytes = {0};
     JoxText told = {0};
     assert_true(jox_replay_show(replay, 50, &told));
-    jox_replay_frame(replay, JOX_LIVE_COLOUR_state, &bytes);
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_state, NULL, &bytes);
     Seen seen = decode_bytes(bytes.data, bytes.length);
     uint32_t people = 0;
     for (uint32_t s = 0; s < seen.slots; s++)
@@ -328,7 +328,7 @@ static void recordings_without_index_or_order_are_read(void **state) {
     replay = open_replay(test_path("walk.txt"), NULL, 0);
     assert_int_equal(jox_replay_frames(replay), 3);
     assert_true(jox_replay_show(replay, 2, &told));
-    jox_replay_frame(replay, JOX_LIVE_COLOUR_speed, &bytes);
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_speed, NULL, &bytes);
     seen = decode_bytes(bytes.data, bytes.length);
     assert_near(seen.time, 1.2, 1e-9);
     for (uint32_t s = 0; s < 2; s++) {
@@ -355,7 +355,7 @@ static bool show_all_frames(const char *file, JoxText *told) {
         const bool shown = jox_replay_show(replay, f, told);
         assert_int_equal(shown, told->length == said_before);
         good &= shown;
-        jox_replay_frame(replay, JOX_LIVE_COLOUR_density, &bytes);
+        jox_replay_frame(replay, JOX_LIVE_COLOUR_density, NULL, &bytes);
     }
     jox_bytes_free(&bytes);
     jox_diag_free(&diagnostics);

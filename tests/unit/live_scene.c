@@ -73,7 +73,7 @@ static void scene_message_of_bodies_and_a_player(void **state) {
     assert_true(isnan(number_at("walls.1.height", 0, 0, 0)));
     step_scene(scene, 3);
     JoxBytes frame = {0};
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     Seen seen = decode_frame(&frame, scene->world);
     check_frame_people(scene, &seen);
     assert_int_equal(seen.bodies, 1);
@@ -158,7 +158,7 @@ static void version_changes_with_bodies_but_not_with_gates(void **state) {
     JoxBytes frame = {0};
     jox_live_scene(scene, &text);
     parse_numbers(&text);
-    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     Seen seen = decode_frame(&frame, scene->world);
     assert_false(isnan(number_at("bodies.%d.mass", (int)seen.bodies - 1, 0, 0)));
     assert_true(isnan(number_at("bodies.%d.mass", (int)seen.bodies, 0, 0)));
@@ -234,6 +234,59 @@ static void scene_message_has_states_that_run_machines(void **state) {
     jo_scene_free(scene);
 }
 
+static void ranges_follow_the_values_without_flicker(void **state) {
+    (void)state;
+    JoxLiveScale scale = {0};
+    double now = 100.0;
+    assert_true(jox_live_scale_is_due(&scale, now));
+    /* From 3 at first to 12, then back and forth about 12, with two outliers of 1000. */
+    uint32_t changes = 0;
+    for (int k = 0; k < 400; k++, now += 0.25) {
+        const float before = scale.most, size = k < 40 ? 3.0f : k % 2 ? 8.0f : 12.0f;
+        JoxLiveSample sample = {.count = 0};
+        for (uint32_t i = 0; i < 300; i++) {
+            const float value = i < 100 ? 0.0f : i < 102 ? 1000.0f : size * (float)i / 300.0f;
+            jox_live_sample_value(&sample, 1, i, value);
+        }
+        jox_live_sample_value(&sample, 1, 0, NAN);
+        jox_live_adapt_scale(&scale, &sample, 1.0f, now);
+        changes += scale.most != before;
+        assert_false(jox_live_scale_is_due(&scale, now + 0.1));
+        assert_true(scale.most == (k < 40 ? 5.0f : 20.0f));
+    }
+    assert_int_equal(changes, 2);
+    /* Small values for a moment change nothing; for 10 s they narrow the range, down to the least.
+     */
+    const JoxLiveSample small = {.count = 1, .values = {0.3f}};
+    for (double since = now; now < since + 9.5; now += 0.25) {
+        jox_live_adapt_scale(&scale, &small, 1.0f, now);
+        assert_true(scale.most == 20.0f);
+    }
+    jox_live_adapt_scale(&scale, &small, 1.0f, now + 1.0);
+    assert_true(scale.most == 1.0f);
+}
+
+static void frames_fill_the_range_of_their_scene(void **state) {
+    (void)state;
+    JoxLiveScales scales = {.fixed = false};
+    JoxBytes frame = {0};
+    JoScene *scene = load_scene_file("scenes/office.yaml", NULL, 0);
+    step_scene(scene, 20);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_density, &scales, &frame);
+    const float most = get_float(frame.data + 40);
+    assert_true(most == 2.0f); /* the least range of densities */
+    scales.fixed = true;
+    jox_live_frame(scene, JOX_LIVE_COLOUR_density, &scales, &frame);
+    assert_true(get_float(frame.data + 40) == 8.0f);
+    scales.fixed = false;
+    jox_live_frame(scene, JOX_LIVE_COLOUR_service, &scales, &frame);
+    assert_true(get_float(frame.data + 40) == 8.0f); /* levels of service are the same everywhere */
+    jox_live_field(scene, JOX_LIVE_DENSITY, &scales, &frame);
+    assert_true(get_float(frame.data + 28) >= 2.0f);
+    jox_bytes_free(&frame);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_message_has_all_parts_of_tawaf),
@@ -242,6 +295,8 @@ int main(void) {
         cmocka_unit_test(version_changes_with_bodies_but_not_with_gates),
         cmocka_unit_test(scenery_is_sent_and_does_not_enter_the_hash),
         cmocka_unit_test(scene_message_has_states_that_run_machines),
+        cmocka_unit_test(ranges_follow_the_values_without_flicker),
+        cmocka_unit_test(frames_fill_the_range_of_their_scene),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -14,7 +14,7 @@ static void new_page_gets_scene_errors_frames_and_status(void **state) {
     assert_non_null(message);
     assert_int_equal(kind, FRAME_TEXT); /* the scene message comes first */
     assert_non_null(
-        strstr(message, "{\"type\": \"scene\", \"protocol\": 4, \"session\": \"live\""));
+        strstr(message, "{\"type\": \"scene\", \"protocol\": 5, \"session\": \"live\""));
     free(message);
     wait_for_json("\"type\": \"errors\"", "\"errors\": []");
     uint32_t first = wait_for_tick();
@@ -114,6 +114,11 @@ static void finished_scene_pauses_and_restarts(void **state) {
     wait_for_json("\"say\"", "0.5 s are over");
     wait_for_json("\"status\"", "\"paused\": true");
     assert_true(read_member(last, "tick") == 10);
+    assert_non_null(strstr(last, "\"end\": {\"why\": \"time\", \"failure\": null, \"time\": 0.5, "
+                                 "\"seed\": 3, \"people\": 30, \"left\": 0, \"inside\": 30, "
+                                 "\"last\": null"));
+    assert_non_null(strstr(last, "scene.yaml --seed 3 --for 0.5 --report report\""));
+    assert_non_null(strstr(last, "changed.yaml --seed 3 --seeds 10 --for 0.5 --out compared\""));
     send_command("{\"do\": \"restart\", \"seed\": 77}");
     wait_for_json("\"type\": \"scene\"", "\"seed\": 77");
     wait_for_json("\"say\"", "0.5 s are over");
@@ -122,9 +127,62 @@ static void finished_scene_pauses_and_restarts(void **state) {
     send_command("{\"do\": \"pause\", \"on\": false}"); /* continues beyond its end */
     while (read_member(wait_for_json("\"status\"", NULL), "time") < 0.7)
         ;
+    assert_non_null(strstr(last, "\"end\": null"));
     end_session();
     assert_true(session.good);
     jo_free(session.summary);
+}
+
+static void run_ends_once_all_have_left(void **state) {
+    (void)state;
+    write_test_file("scene.yaml", "jostle: 1\nduration: 1000\n"
+                                  "places: {door: {polygon: [[0, 0], [4, 0], [4, 4], [0, 4]]}}\n"
+                                  "groups: {people: {behaviour: walker.lua, count: 5, fill: grid, "
+                                  "in: door}}\n"
+                                  "sources: [{at: door, like: people, times: [0.5]}]\n");
+    write_test_file("walker.lua",
+                    "return machine { name = \"walker\", version = 1, start = \"Go\",\n"
+                    "  states = { Go = { steer = hold, { to = \"Out\", when = after "
+                    "(0.2) } }, Out = { removes = true } } }\n");
+    begin_session(0);
+    join_session();
+    wait_for_json("\"status\"", "\"end\": {\"why\": \"left\""); /* not before the source ends */
+    assert_non_null(strstr(last, "\"people\": 6, \"left\": 6, \"inside\": 0"));
+    assert_non_null(strstr(last, "\"exits\": [{\"name\": \"door\", \"people\": 6, \"last\": "));
+    const char *density = strstr(last, "\"density\": {");
+    assert_non_null(density);
+    assert_true(read_member(density, "most") > 0.2);
+    assert_true(strstr(density, "\"where\": \", in door\""));
+    end_session();
+    jo_free(session.summary);
+    write_test_file("scene.yaml", SCENE);
+    write_test_file("walker.lua", WALKER);
+}
+
+static void reload_is_told_as_data(void **state) {
+    (void)state;
+    begin_session(0);
+    join_session();
+    wait_for_json("\"errors\"", "\"errors\": []");
+    JoxText text = {0};
+    jox_text_add(&text, WALKER);
+    memcpy(strstr(text.data, "1.2"), "1.0", 3);
+    write_test_file("walker.lua", text.data);
+    wait_for_json("\"type\": \"reloaded\"", "walker.lua\", \"time\": ");
+    assert_non_null(strstr(last, "\"machine\": \"walker\", \"before\": [{\"state\": \"Stand\", "
+                                 "\"people\": 30}, {\"state\": \"Walk\", \"people\": 0}], "
+                                 "\"after\": [{\"state\": \"Stand\", \"people\": 30}"));
+    text.length = 0;
+    jox_text_add(&text, SCENE);
+    memcpy(strstr(text.data, "[0, 20]]}"), "[0, 19]]}", 9);
+    write_test_file("scene.yaml", text.data);
+    wait_for_json("\"type\": \"reloaded\"", "scene.yaml\", \"time\": ");
+    assert_non_null(strstr(last, "\"done\": \"places\", \"later\": \"where people start"));
+    end_session();
+    jox_text_free(&text);
+    jo_free(session.summary);
+    write_test_file("scene.yaml", SCENE);
+    write_test_file("walker.lua", WALKER);
 }
 
 /* Sums the pushes on an agent at a tick in the input log, N. */
@@ -314,6 +372,8 @@ int main(void) {
         cmocka_unit_test(pause_step_and_speed_commands),
         cmocka_unit_test(colour_and_field_commands),
         cmocka_unit_test(finished_scene_pauses_and_restarts),
+        cmocka_unit_test(run_ends_once_all_have_left),
+        cmocka_unit_test(reload_is_told_as_data),
         cmocka_unit_test(repeated_push_counts_once_per_step),
         cmocka_unit_test(input_log_replays_to_the_same_hash),
         cmocka_unit_test(each_page_inspects_its_own_agent),

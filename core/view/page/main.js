@@ -8,12 +8,14 @@ import { bindKeys, Figures, TimeBar, ToolBar, WORDS } from "./controls/controls.
 import { Crowd, FLAG, NOBODY, readField } from "./net/crowd.js";
 import { byId, el, say, typing } from "./dom.js";
 import { Help, Meter } from "./panels/help.js";
+import { EndCard } from "./panels/end.js";
 import { Legend } from "./panels/legend.js";
 import { MachinePage } from "./panels/machine.js";
 import { Messages } from "./panels/messages.js";
 import { Follow } from "./draw/follow.js";
 import { describe, Overlay } from "./draw/overlay.js";
 import { COLOURS, FIELDS } from "./draw/palette.js";
+import { News } from "./panels/news.js";
 import { Panel } from "./panels/panel.js";
 import { ParametersPage } from "./panels/parameters.js";
 import { savePicture } from "./draw/picture.js";
@@ -26,7 +28,7 @@ import { View } from "./draw/view.js";
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
 const LOST = ["The connection is lost. The page tries again by itself.",
     "The connection is lost. If the program was started anew, open the address that it prints."];
-const PROTOCOL = 4; // of the messages, as the program counts it
+const PROTOCOL = 5; // of the messages, as the program counts it
 const MOVE = 0.08; // share of the distance to the target that an arrow key moves
 
 class Page {
@@ -59,6 +61,8 @@ class Page {
             state: (state) => this.link(state),
         });
         const send = (command) => this.connection.send(command) || this.messages.say("Not connected: that was not sent.", "warning");
+        this.end = new EndCard({ send });
+        this.news = new News();
         this.strip = new Bar(WORDS);
         this.bar = new TimeBar(send, this.strip);
         this.replay = new Replay(send);
@@ -136,6 +140,7 @@ class Page {
         if (this.player.on) this.act.play(false);
         else if (this.tools.gesture) this.tools.cancel();
         else if (this.strip.close()) return true;
+        else if (this.end.close()) return true;
         else if (!this.help.node.hidden) this.help.toggle(false);
         else if (this.view.tool !== "select") this.tool("select");
         else this.inspect(null);
@@ -173,7 +178,8 @@ class Page {
             errors: () => this.messages.showErrors(message.errors ?? []),
             say: () => this.messages.say(message.text, message.level),
             inspect: () => this.takePerson(message), who: () => this.agentPage.takeWho(message), lua: () => this.parameters.takeLua(message.text),
-            refused: () => this.messages.say(message.text, "warning"), time: () => this.replay.take(message),
+            refused: () => this.messages.say(message.text, "warning"), time: () => this.takeTime(message),
+            reloaded: () => this.news.take(message),
         }[message.type];
         if (taken) taken();
     }
@@ -185,7 +191,7 @@ class Page {
         say(byId("title"), scene.title || scene.file || "Jostle");
         byId("title").title = byId("title").textContent;
         document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
-        for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
+        for (const part of [this.end, this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
         this.enablePerson(this.slot !== null);
         this.panel.offer("act", this.act.set(scene));
         const live = scene.session !== "replay";
@@ -201,6 +207,7 @@ class Page {
     }
 
     takeStatus(status) {
+        if (!this.recorded()) this.end.take(status);
         this.bar.take(status);
         this.figures.take(status);
         this.legend.take(status);
@@ -215,6 +222,12 @@ class Page {
             this.described = status.time;
             describe(byId("described"), status);
         }
+    }
+
+    /** Takes the times of a recording. */
+    takeTime(message) {
+        this.replay.take(message);
+        this.end.takeTime(message);
     }
 
     takePerson(message) {
@@ -254,9 +267,8 @@ class Page {
         } else if (kind === 3) {
             const field = readField(buffer);
             if (field.which !== ["density", "pressure"].indexOf(this.field)) return;
-            const scale = FIELDS[this.field].most ?? field.most;
-            this.view.ground.setField(field, scale);
-            this.legend.setMost(scale, true);
+            this.view.ground.setField(field, field.most);
+            this.legend.setMost(field.most, true);
             this.redraw();
         }
     }

@@ -2,7 +2,7 @@
 // same lighter and darker: those of palette.c, so that a group looks alike in pictures. Values: pale
 // for nothing to dark for the most, as in palette.c, one ramp for people and floor.
 
-const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
+const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442", "#882255"];
 const RAMP = ["#fbf6d3", "#fde39a", "#fcc562", "#f8a140", "#ee762f", "#d84a2c", "#b32536", "#82123f", "#4d0b3b"];
 // For figures that are no danger, such as speed.
 const CALM = ["#f6f5dc", "#d3e8cf", "#a3d6cf", "#6bbdcf", "#3c9cc4", "#2577ad", "#1a528b", "#142f63"];
@@ -97,6 +97,6 @@ export function unitText(unit) {
 
 export const FIELDS = {
     none: { name: "none" },
-    density: { name: "density", unit: "1/m²", most: 8 },
+    density: { name: "density", unit: "1/m²" },
     pressure: { name: "crowd pressure, where measured", unit: "1/s²" },
 };

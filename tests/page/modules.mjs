@@ -1,0 +1,129 @@
+// Tests of the page's modules that need no browser: sentences, figures, colours. Prints "ok NAME" or "not ok NAME: why".
+//     node tests/page/modules.mjs [NAME...]    some of the tests
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import process from "node:process";
+import { amount } from "../../core/view/page/dom.js";
+import { classColour, valueColour, wayColour } from "../../core/view/page/draw/palette.js";
+import { endSentences } from "../../core/view/page/panels/end.js";
+import { censusText, newsLines } from "../../core/view/page/panels/news.js";
+
+// What people who lack one kind of cone see, of linear sRGB (Machado, Oliveira and Fernandes 2009).
+const EYES = {
+    "all cones": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    "protanopia": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
+    "deuteranopia": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
+    "tritanopia": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
+};
+const XYZ = [[0.4124, 0.3576, 0.1805, 0.9505], [0.2126, 0.7152, 0.0722, 1], [0.0193, 0.1192, 0.9505, 1.089]]; // with the white point
+const APART = 10; // least CIEDE2000 between two of the first eight classes
+
+const dot = (row, v) => row[0] * v[0] + row[1] * v[1] + row[2] * v[2];
+
+/** CIELAB of sRGB, 0 to 255, as an eye sees it. */
+function labOf(rgb, eye) {
+    const linear = rgb.map((c) => (c <= 10 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+    const seen = eye.map((row) => Math.min(1, Math.max(0, dot(row, linear))));
+    const [x, y, z] = XYZ.map((row) => dot(row, seen) / row[3]).map((v) => (v > 0.008856 ? Math.cbrt(v) : 7.787 * v + 16 / 116));
+    return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}
+
+/** CIEDE2000 of two colours in CIELAB (Sharma, Wu and Dalal 2005). */
+function differenceOf([l1, a1, b1], [l2, a2, b2]) {
+    const rad = Math.PI / 180, mean = (Math.hypot(a1, b1) + Math.hypot(a2, b2)) / 2;
+    const g = 0.5 * (1 - Math.sqrt(mean ** 7 / (mean ** 7 + 25 ** 7)));
+    const c1 = Math.hypot((1 + g) * a1, b1), c2 = Math.hypot((1 + g) * a2, b2);
+    const hue = (a, b) => (Math.atan2(b, (1 + g) * a) / rad + 360) % 360;
+    const h1 = hue(a1, b1), h2 = hue(a2, b2), c = (c1 + c2) / 2, l = (l1 + l2) / 2;
+    const turn = c1 * c2 === 0 ? 0 : ((h2 - h1 + 540) % 360) - 180;
+    const h = c1 * c2 === 0 ? h1 + h2 : (h1 + turn / 2 + 360) % 360;
+    const t = 1 - 0.17 * Math.cos(rad * (h - 30)) + 0.24 * Math.cos(rad * 2 * h) + 0.32 * Math.cos(rad * (3 * h + 6)) - 0.2 * Math.cos(rad * (4 * h - 63));
+    const dl = (l2 - l1) / (1 + (0.015 * (l - 50) ** 2) / Math.sqrt(20 + (l - 50) ** 2)), dc = (c2 - c1) / (1 + 0.045 * c);
+    const dh = (2 * Math.sqrt(c1 * c2) * Math.sin((rad * turn) / 2)) / (1 + 0.015 * c * t);
+    const bend = -Math.sin(rad * 60 * Math.exp(-(((h - 275) / 25) ** 2))) * 2 * Math.sqrt(c ** 7 / (c ** 7 + 25 ** 7));
+    return Math.sqrt(dl * dl + dc * dc + dh * dh + bend * dc * dh);
+}
+
+/** The least difference of two of some colours to an eye. */
+function leastDifference(colours, eye) {
+    const seen = colours.map((c) => labOf(c, eye));
+    return Math.min(...seen.flatMap((a, i) => seen.slice(0, i).map((b) => differenceOf(a, b))));
+}
+
+const near = (a, b, by) => Math.abs(a - b) <= by;
+
+const TESTS = {
+    "differences of colours are those that CIEDE2000 was published with": () => {
+        const published = [[[50, 2.6772, -79.7751], [50, 0, -82.7485], 2.0425], [[50, 2.5, 0], [73, 25, -18], 27.1492],
+            [[2.0776, 0.0795, -1.135], [0.9033, -0.0636, -0.5514], 0.9082], [[50, -1, 2], [50, 0, 0], 2.3669]];
+        for (const [a, b, difference] of published) assert(near(differenceOf(a, b), difference, 1e-4), `${differenceOf(a, b)} in place of ${difference}`);
+    },
+    "the first eight classes are told apart with any colour vision": () => {
+        const rainbow = [...Array(8).keys()].map((i) => [0, 120, 240].map((shift) => 255 * Math.min(1, Math.max(0, Math.abs(((45 * i + shift) % 360) / 60 - 3) - 1))));
+        const least = (colours) => Math.min(...Object.values(EYES).map((eye) => leastDifference(colours, eye)));
+        const classes = [...Array(8).keys()].map(classColour);
+        assert(least(classes) > APART, `two classes differ by ${least(classes).toFixed(1)}`);
+        assert(least(rainbow) < APART / 5, `even of a rainbow's, two differ by ${least(rainbow).toFixed(1)}`);
+    },
+    "values are read by lightness with any colour vision, in even steps": () => {
+        for (const calm of [false, true]) {
+            const colours = [...Array(17).keys()].map((i) => valueColour(i / 16, calm));
+            for (const [name, eye] of Object.entries(EYES)) {
+                const lightness = colours.map((c) => labOf(c, eye)[0]);
+                assert(lightness.every((l, i) => i === 0 || l < lightness[i - 1] - 1), `with ${name} a ramp's lightness is ${lightness}`);
+            }
+            const seen = colours.map((c) => labOf(c, EYES["all cones"])), steps = seen.slice(1).map((c, i) => differenceOf(seen[i], c));
+            assert(Math.max(...steps) < 2 * Math.min(...steps), `the steps of a ramp are ${steps.map((s) => s.toFixed(1))}`);
+        }
+    },
+    "pictures and the page have the same colours": () => {
+        const source = (path) => readFileSync(new URL(`../../core/${path}`, import.meta.url), "utf8");
+        const hex = ([r, g, b]) => ((r << 16) | (g << 8) | b).toString(16).padStart(6, "0");
+        const classes = [...source("base/format/colour.h").split("JOX_CLASS_COLOURS(X)")[1].split("*/")[0].matchAll(/X\(\w+, 0x(\w{6})\)/g)].map((m) => m[1]);
+        assert(classes.length >= 8);
+        assert.deepEqual(classes, classes.map((_, i) => hex(classColour(i))));
+        const stops = (name) => [...source("picture/palette.c").split(`${name}[`)[1].split("};")[0].matchAll(/\{0x(\w\w), 0x(\w\w), 0x(\w\w)\}/g)]
+            .map((m) => m.slice(1).join(""));
+        for (const [name, colour] of [["RAMP", (share) => valueColour(share)], ["CALM", (share) => valueColour(share, true)], ["WAY", wayColour]]) {
+            const given = stops(`${name}`);
+            assert.deepEqual(given, given.map((_, i) => hex(colour(i / (given.length - 1)))), name);
+        }
+    },
+    "measured figures that are nothing are 0, with their unit": () => {
+        const said = [[6.4e-11, "N"], [-2e-4, "m/s"], [0.25, "m"], [1234, "N"]].map((of) => amount(...of));
+        assert.deepEqual(said, ["0 N", "0 m/s", "0.25 m", "1\u202f234 N"]);
+    },
+    "the end of a run is told in sentences": () => {
+        const south = { name: "south", people: 97, last: 53 }, east = { name: "east", people: 0, last: null };
+        const end = { why: "time", people: 100, left: 97, inside: 3, last: 53.04, exits: [south, east], density: null, falls: 0 };
+        assert.deepEqual(endSentences(end), ["97 left by south, the last at 53 s; 3 are still inside."]);
+        assert.deepEqual(endSentences({ ...end, left: 99, inside: 1, exits: [south, { ...east, people: 1 }] }),
+            ["99 left (97 by south, 1 by east, 1 elsewhere), the last at 53 s; 1 is still inside."]);
+        assert.deepEqual(endSentences({ ...end, left: 0, inside: 100, last: null }), ["100 people took part; nobody left."]);
+        const failed = { ...end, why: "failed", failure: "a number is not finite", falls: 2, density: { most: 6.14, at: [16.94, 0.5], time: 28, where: ", in hall" } };
+        assert.deepEqual(endSentences(failed), ["a number is not finite", "97 left by south, the last at 53 s; 3 are still inside.",
+            "Greatest density: 6.14 people per m² (Gaussian, R = 1 m) at 28 s, at (16.9, 0.50) m, in hall – level of service F (Fruin).", "2 falls."]);
+    },
+    "a reload is told by counts before and after": () => {
+        const before = [{ state: "Wait", people: 0 }, { state: "Walk", people: 120 }, { state: "Old", people: 2 }];
+        const after = [{ state: "Walk", people: 120 }, { state: "Sit", people: 0 }, { state: "Wait", people: 2 }];
+        assert.equal(censusText({ before, after }), "Wait 0 → 2, Old 2 → 0 (gone), Sit 0 → 0 (new), Walk 120 → 120");
+        const lines = newsLines({ machine: "m", before, after, notes: " memory 'seen' of 120 people is kept\n" });
+        assert.deepEqual(lines.slice(1), ["Moved, because their state is gone: 2 from Old.", "Memory 'seen' of 120 people is kept."]);
+        assert.deepEqual(newsLines({ done: "places, walls", later: "" }), ["Changed: places, walls."]);
+    },
+};
+
+const wanted = process.argv.slice(2);
+let failed = 0;
+for (const [name, test] of Object.entries(TESTS)) {
+    if (wanted.length && !wanted.includes("modules")) continue;
+    try {
+        test();
+        console.log(`ok ${name}`);
+    } catch (error) {
+        failed++;
+        console.log(`not ok ${name}: ${error.message.split("\n")[0]}`);
+    }
+}
+process.exitCode = failed ? 1 : 0;
