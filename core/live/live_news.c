@@ -36,16 +36,3 @@ void jox_live_note_reload(void *self, JoScene *scene, const JoxReloadNews *news)
     }
     jox_json_end(&json);
 }
-
-bool jox_live_is_telling(JoScene *scene) {
-    return jox_live_attach(scene)->telling;
-}
-
-bool jox_live_news(JoScene *scene, JoxText *out) {
-    JoxLive *live = jox_live_attach(scene);
-    if (live->news.length == 0)
-        return false;
-    jox_text_printf(out, "{\"type\": \"reloaded\", \"news\": [%s]}", live->news.data);
-    live->news.length = 0;
-    return true;
-}

@@ -65,6 +65,14 @@ static JoScene *reload_scene(JoxScenePage *s, JoError *error) {
     return scene;
 }
 
+void jox_scene_page_fail(JoxScenePage *s, const JoError *error) {
+    s->failed = s->page.session.paused = true;
+    snprintf(s->failure, sizeof s->failure, "%s", error->text);
+    s->page.session.end = JOX_LIVE_FAILED_RUN;
+    s->page.session.failure = s->failure;
+    s->page.last_status = 0.0;
+}
+
 bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
     s->scene_def.message = jox_scene_page_forward;
     s->scene_def.message_context = s;

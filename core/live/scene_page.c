@@ -45,14 +45,6 @@ static void pause_at_breakpoint(JoxScenePage *s) {
     s->page.last_status = 0.0;
 }
 
-void jox_scene_page_fail(JoxScenePage *s, const JoError *error) {
-    s->failed = s->page.session.paused = true;
-    snprintf(s->failure, sizeof s->failure, "%s", error->text);
-    s->page.session.end = JOX_LIVE_FAILED_RUN;
-    s->page.session.failure = s->failure;
-    s->page.last_status = 0.0;
-}
-
 /* Makes a step. If it fails, the run is paused for good and browsers are told. */
 static void step_page_scene(JoxScenePage *s) {
     JoError error = {0};

@@ -51,12 +51,12 @@ typedef struct JoxScenePage {
 
 /* scene_page.c: functions of the source; `self` is a JoxScenePage. */
 extern const JoxLiveSource jox_scene_page_source;
-/* Notes that the run cannot go on, and pauses it. */
-void jox_scene_page_fail(JoxScenePage *scene, const JoError *error);
 /* scene_load.c: loads the scene in place of the one that runs, and starts its recording, log and
    watch. False with `error`; the scene that ran before goes on if the new one could not be
    loaded. */
 bool jox_scene_page_load(JoxScenePage *scene, JoError *error);
+/* Notes that the run cannot go on, and pauses it. */
+void jox_scene_page_fail(JoxScenePage *scene, const JoError *error);
 /* Forwards a message of the scene to the caller's function, and to browsers unless they have it as
    data; `page` is the JoxScenePage. */
 void jox_scene_page_forward(void *page, const char *text);

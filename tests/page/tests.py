@@ -460,11 +460,11 @@ def reloads(browser, folder):
     # What a reload changed stands in a note, which can be pinned and closed.
     note = browser.wait("const n = document.querySelector('#news .note'); return n && n.innerText", "no note on the reload")
     expect("walk.lua is live from" in note and "Walk 60 → 60" in note, f"the note is {note!r}")
-    browser.button("Pin").click()
-    expect(browser.run("return document.querySelectorAll('#news .pinned').length") == 1, "the note is not pinned")
+    pinned = browser.run("document.querySelector('#news [aria-pressed]').click(); return document.querySelectorAll('#news .pinned').length")
+    expect(pinned == 1, "the note is not pinned")
     browser.picture("reload-note")
-    browser.find("#news button[aria-label^=Close]").click()
-    expect(browser.run("return document.querySelectorAll('#news .note').length") == 0, "the note is not closed")
+    browser.run("document.querySelector('#news .pinned [aria-label^=Close]').click()")
+    expect(browser.run("return document.querySelectorAll('#news .pinned').length") == 0, "the note is not closed")
 
 
 def plays(browser):
@@ -632,7 +632,7 @@ return shown.map((spot, k) => Math.max(...spot.map((c, i) => Math.abs(c - withou
 
 def ends(browser):
     """The card at the end of a run, by keys alone: figures, a command to copy, the same run again."""
-    browser.run("document.activeElement.blur()")
+    browser.run("document.activeElement.blur(); page.end.forget()")  # it may be there already
     text = browser.wait("const e = document.getElementById('end'); return !e.hidden && e.innerText", "no card at the end")
     for part in ("4 s are over", "2 people took part; nobody left.", "Greatest density: ", "1 person fell."):
         expect(part in text, f"the card lacks {part!r}: {text}")

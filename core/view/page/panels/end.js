@@ -106,7 +106,6 @@ export class EndCard {
         // Whoever types or plays elsewhere keeps the focus.
         const at = document.activeElement;
         if (at === document.body || at?.id === "picture") {
-            this.before = at;
             this.node.querySelector("button").focus({ preventScroll: true });
         }
     }
@@ -130,8 +129,7 @@ export class EndCard {
     hide() {
         const inside = this.node.contains(document.activeElement);
         this.node.hidden = true;
-        if (inside) (this.before ?? byId("picture")).focus({ preventScroll: true });
-        this.before = null;
+        if (inside) byId("picture").focus({ preventScroll: true });
     }
 
     /** Closes the card; false if it is closed. */
