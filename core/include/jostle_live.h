@@ -63,6 +63,7 @@ typedef struct JoLiveDef {
        address then has its token in its path: who knows it acts on the scene. NULL: none may */
     const char *frame;
     bool running; /* begins to run at once; default: paused, so that only the program steps it */
+    bool watch;   /* reload edited files from now on, as jo_scene_watch; default true */
     uint32_t cookie;
 } JoLiveDef;
 JO_API JoLiveDef jo_default_live_def(void);
@@ -78,6 +79,9 @@ JO_API uint32_t jo_live_watchers(const JoLive *live);
    the time until the next call is due, s, at most 0.05. A scene whose step fails stays paused; its
    next jo_scene_step tells why. Not to be called within a callback of the scene's steps. */
 JO_API double jo_live_serve(JoLive *live, double seconds);
+/* Serves the page once without making steps: for a program to call after its own, so that they are
+   all that happens meanwhile. */
+JO_API void jo_live_show(JoLive *live);
 /* Ends all connections and frees the page; the scene goes on. NULL is fine. */
 JO_API void jo_live_close(JoLive *live);
 

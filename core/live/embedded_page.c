@@ -14,14 +14,22 @@ enum { LIVE_COOKIE = 0x4a4f4c56 };
 static const double FAILED_WAIT = 0.05; /* s between turns once memory is out */
 
 struct JoLive {
-    JoxScenePage page;
+    JoxScenePage page;     /* the first member: `self` of the source is also the JoLive */
+    JoxLiveSource source;  /* that of scene_page.h, but for `advance` */
+    bool only_shows;       /* no steps are made in this turn */
     JoViewDef def;         /* what the files of jo_view read; its message is the scene's own */
     uint64_t shown_tick;   /* tick of the scene at the end of the last turn */
     bool has_shown_finish; /* people were told that the scene is finished */
 };
 
 JoLiveDef jo_default_live_def(void) {
-    return (JoLiveDef){.cookie = LIVE_COOKIE};
+    return (JoLiveDef){.watch = true, .cookie = LIVE_COOKIE};
+}
+
+/* Makes the steps that are due, unless the program makes them. */
+static double advance_live(void *self, double now) {
+    const JoLive *live = self;
+    return live->only_shows ? INFINITY : jox_scene_page_source.advance(self, now);
 }
 
 static JoLive *open_live(JoScene *scene, const JoLiveDef *def, JoError *error) {
@@ -29,9 +37,12 @@ static JoLive *open_live(JoScene *scene, const JoLiveDef *def, JoError *error) {
         .address = def->address, .port = def->port, .page = def->page, .frame = def->frame};
     JoLive *live = jox_alloc(1, sizeof *live);
     JoxScenePage *s = &live->page;
-    s->page.source = &jox_scene_page_source;
+    live->source = jox_scene_page_source;
+    live->source.advance = advance_live;
+    s->page.source = &live->source;
     s->page.self = s;
-    if (!jox_live_page_open(&s->page, &options, error)) {
+    if ((def->watch && !scene->reload && !jo_scene_watch(scene, error)) ||
+        !jox_live_page_open(&s->page, &options, error)) {
         jox_free(live);
         return NULL;
     }
@@ -43,8 +54,9 @@ static JoLive *open_live(JoScene *scene, const JoLiveDef *def, JoError *error) {
     s->scene = scene;
     s->until = jo_scene_duration(scene);
     s->page.session.paused = !def->running;
+    scene->diagnosed = jox_scene_page_diagnosed;
     scene->message = jox_scene_page_forward;
-    scene->message_context = s;
+    scene->message_context = scene->diagnosed_context = s;
     jox_live_page_begin(&s->page);
     return live;
 }
@@ -100,8 +112,18 @@ double jo_live_serve(JoLive *live, double seconds) {
     return serve_live(live, seconds);
 }
 
+void jo_live_show(JoLive *live) {
+    JOX_REQUIRE(live && !live->page.scene->world->busy, );
+    JOX_GUARD (live->page.scene->heap, NULL)
+        return;
+    live->only_shows = true;
+    serve_live(live, 0.0);
+    live->only_shows = false;
+}
+
 static void close_live(JoLive *live) {
     JoxScenePage *s = &live->page;
+    s->scene->diagnosed = NULL;
     s->scene->message = live->def.scene.message;
     s->scene->message_context = live->def.scene.message_context;
     jox_live_page_close(&s->page);

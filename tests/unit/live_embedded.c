@@ -106,7 +106,13 @@ static void people_let_the_scene_run_between_steps(void **state) {
     serve_until("\"type\": \"status\"", "\"paused\": false");
     jo_live_serve(live, 0.2);
     assert_true(find_tick() > 15);
-    step_scene(1); /* also while it runs */
+    const uint64_t tick = find_tick();
+    for (int i = 0; i < 20; i++) { /* only the program's steps, also while it runs */
+        step_scene(1);
+        jo_live_show(live);
+        usleep(5000);
+    }
+    assert_int_equal(find_tick(), tick + 20);
     send_command("{\"do\": \"pause\", \"on\": true}");
     serve_until("\"type\": \"status\"", "\"paused\": true");
     send_command("{\"do\": \"input\", \"line\": \"signal go\"}");
@@ -142,6 +148,18 @@ static void plan_names_what_pictures_show(void **state) {
             fail_msg("no %s in %s", PARTS[i], plan);
     jo_free(plan);
     assert_true(jo_world_hash(jo_scene_world(scene)) == before);
+}
+
+static void edited_files_are_loaded_and_their_errors_shown(void **state) {
+    (void)state;
+    char edited[sizeof WALKER];
+    serve_until("\"type\": \"errors\"", "\"errors\": []");
+    snprintf(edited, sizeof edited, "%s", WALKER);
+    memcpy(strstr(edited, "hold"), "hald", 4);
+    write_test_file("walker.lua", edited);
+    serve_until("\"type\": \"errors\"", "hald");
+    write_test_file("walker.lua", WALKER);
+    serve_until("\"type\": \"errors\"", "\"errors\": []");
 }
 
 static void scene_stays_with_its_program(void **state) {
@@ -180,6 +198,7 @@ int main(void) {
         WITH_LIVE(people_let_the_scene_run_between_steps),
         WITH_LIVE(looking_changes_nothing),
         WITH_LIVE(plan_names_what_pictures_show),
+        WITH_LIVE(edited_files_are_loaded_and_their_errors_shown),
         WITH_LIVE(scene_stays_with_its_program),
         WITH_LIVE(wrong_frames_are_refused),
     };
