@@ -12,7 +12,7 @@ cp -R scripts/python "$work/package"
 verdict "the Python package builds" $? ; grep -i error "$work/log" | head -5
 export JOSTLE_LIBRARY=$(ls "$PWD/$B"/libjostle-tools.so.* | head -1) PYTHONPATH=$work/lib PYTHONDONTWRITEBYTECODE=1
 $python -m pytest -p no:cacheprovider -v --tb=short scripts/python/tests >"$work/tests" 2>&1
-sed -n 's/^.*::\([a-z_]*\) PASSED.*$/ok python \1/p; s/^.*::\([a-z_]*\) \(FAILED\|ERROR\).*$/not ok python \1/p' "$work/tests"
+sed -n 's/^.*::\([a-z_]*\(\[.*\]\)\{0,1\}\) PASSED.*$/ok python \1/p; s/^.*::\([a-z_]*\(\[.*\]\)\{0,1\}\) \(FAILED\|ERROR\).*$/not ok python \1/p' "$work/tests"
 grep -q PASSED "$work/tests" || { echo "not ok the tests of the Python package ran"; tail -20 "$work/tests"; }
 grep -E '^E  ' "$work/tests" | head -20
 exit 0

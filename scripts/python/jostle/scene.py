@@ -6,6 +6,7 @@ import math
 import operator
 import os
 import sys
+import weakref
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
@@ -14,7 +15,10 @@ import numpy as np
 from ._events import Events, events_of
 from ._library import Error, check, ffi, lib, named, path_named, text_of, told, whole
 from ._words import Word, Words, column_of
-from .show import Picture, live_page, picture_of
+from .live import LivePage, open_page
+from .picture import Picture
+from .plan import picture_of_scene, plan_of
+from .table import Table, frame_of
 
 __all__ = ["Agent", "Body", "Scene"]
 
@@ -29,6 +33,10 @@ def _plain(value: Any) -> Any:
     """A number of NumPy as one of Python."""
     return value.item() if isinstance(value, np.generic) else float(value)
 
+
+# Units of columns that are no parameters.
+UNITS = {"x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "axis_x": "m", "axis_y": "m", "contact_radius": "m", "spin": "rad/s",
+         "pref_x": "m/s", "pref_y": "m/s", "force_x": "N", "force_y": "N", "compression": "N/m", "load": "N", "density": "1/m2"}
 
 FARTHEST = 1e4  # m, from the origin
 
@@ -75,7 +83,7 @@ class Scene:
             raise Error("the scene is loaded already", 2)
         if isinstance(mods, (str, bytes)):
             raise TypeError(f"mods are a list of folders or names, not the text {mods!r}")
-        self._scene = ffi.NULL
+        self._scene = self._page = ffi.NULL
         self._busy = self._finished = self._recorded = False
         name = path_named(path)
         self.path, self.seed, self.overrides = os.fsdecode(path), seed, dict(set or {})
@@ -111,6 +119,7 @@ class Scene:
         """Ends it and frees it. Arrays that were read from it remain."""
         if self._scene:
             self._live()
+            self._close_page()
             closed, self._scene, self._world = self._scene, ffi.NULL, ffi.NULL
             lib.jo_scene_free(closed)
 
@@ -122,6 +131,7 @@ class Scene:
 
     def __del__(self) -> None:
         if getattr(self, "_scene", None):
+            self._close_page()
             lib.jo_scene_free(self._scene)
 
     def __reduce_ex__(self, _protocol: Any) -> Any:
@@ -170,6 +180,8 @@ class Scene:
             self._going()
             self._do(lib.jo_scene_step, self._scene)
             self._raise_failure()
+            if self._page:
+                lib.jo_live_show(self._page)
 
     def run(self, seconds: Optional[float] = None) -> "Scene":
         """Advances by simulated seconds, to the nearest step; without, until the scene's duration is over."""
@@ -181,6 +193,11 @@ class Scene:
             raise ValueError("the scene gives no duration: say how many seconds it runs")
         self.step(round(left / self.dt))
         return self
+
+    @property
+    def title(self) -> str:
+        """The scene's title, or the name of its file."""
+        return plan_of(self).get("title") or os.path.basename(self.path)
 
     @property
     def time(self) -> float:
@@ -236,14 +253,24 @@ class Scene:
                  for m, s in np.unique(np.column_stack((machine, state)), axis=0)}
         return np.array([names[pair] for pair in zip(machine, state)])
 
-    def table(self, names: Optional[Sequence[str]] = None) -> Any:
-        """Columns as a pandas DataFrame where pandas is installed, else as a dict of arrays."""
-        chosen = {name: self[name].copy() for name in (names or ("id", "x", "y", "vx", "vy", "group", "state"))}
-        try:
-            import pandas
-        except ImportError:
-            return chosen
-        return pandas.DataFrame(chosen)
+    def table(self, names: Optional[Sequence[str]] = None, units: bool = False) -> Any:
+        """Columns as a pandas DataFrame where pandas is installed, else as a Table: a dict of arrays. Besides the columns
+        there are "state_name" and "group_name". Units are in `attrs["units"]` of the DataFrame, or in `units` of the
+        Table; with `units` in the names: "x [m]"."""
+        chosen = {}
+        for name in names or ("id", "x", "y", "vx", "vy", "group", "state", "state_name"):
+            chosen[name] = self.states() if name == "state_name" else self._groups() if name == "group_name" else self[name].copy()
+        return frame_of(chosen, self.units(), f"{self.title} at {self.time:.2f} s", units)
+
+    def _groups(self) -> np.ndarray:
+        group = self["group"]
+        names = {g: text_of(lib.jo_world_group_name(self._world, g)) for g in np.unique(group).tolist()}
+        return np.array([names[g] for g in group.tolist()], dtype=object)
+
+    def units(self) -> dict:
+        """The unit of each column that has one."""
+        parameters = {entry["name"]: entry["unit"] for machine in plan_of(self).get("machines", []) for entry in machine["defaults"]}
+        return {name: unit for name, unit in {**parameters, **UNITS}.items() if unit}
 
     def events(self) -> Events:
         """What happened in the last step."""
@@ -376,7 +403,8 @@ class Scene:
             return [text_of(trouble.text) for trouble in troubles.items[0:troubles.count]]
 
     def probes(self) -> dict:
-        """The table of each probe by its name: a dict of arrays by column, as "time [s]"; texts as arrays of objects."""
+        """The table of each probe by its name: a Table, which is a dict of arrays by column, as "time [s]"; texts as arrays of
+        objects. `scene.probes()["door"].frame()` is a DataFrame of pandas."""
         self._live()
         tables, n = {}, 0
         while True:
@@ -389,15 +417,53 @@ class Scene:
 
     # ---- looking at it ----
 
-    def show(self, live: bool = False, width: int = 800, height: int = 600) -> Picture:
-        """In a notebook a picture of how it stands, seen from above; `live`: the live page of another run of the same
-        scene, in a frame. Needs the command `jostle` for that."""
+    def show(self, live: bool = False, width: int = 800, height: int = 600) -> Union[Picture, LivePage]:
+        """In a notebook a picture of how it stands, seen from above, and how many are in which state; `live`: its live
+        page, as `live()` opens it."""
         self._live()
         width, height = (max(100, whole("a size in pixels", size, 10000)) for size in (width, height))
-        return live_page(self, width, height) if live else picture_of(self, width, height)
+        return self.live(width, height) if live else picture_of_scene(self, width, height)
 
-    def _repr_svg_(self) -> str:
-        return self.show().svg
+    def live(self, width: Union[int, str] = "100%", height: int = 600, running: bool = False, watch: bool = True,
+             port: int = 0, frame: Optional[str] = None) -> LivePage:
+        """In a notebook its live page in a frame. It shows the steps that Python makes; between the cells people can let
+        the scene run there and act on it (in a program: within `LivePage.serve`). `running`: it runs at once, else when
+        somebody presses Play. watch: its files are loaded again when they are saved. port: 0 is 8730 or the next free one. frame: pages that may show it, as
+        "https://notes.example"; without, notebooks of this machine. Who knows the address, which stands in the
+        notebook's output, acts on the scene; it is another one each time."""
+        if not isinstance(width, str):
+            width = max(100, whole("a size in pixels", width, 10000))
+        height = max(100, whole("a size in pixels", height, 10000))
+        self._going()
+        if not self._page:
+            self._page = open_page(self, frame, whole("a port", port, 65535), running, watch)
+            self._page_end = weakref.finalize(self, lib.jo_live_close, self._page)
+        return LivePage(self, width, height)
+
+    def _serve_page(self, seconds: float = 0.0) -> float:
+        """Lets people use the page; returns in how many seconds this is due again."""
+        if self._busy or not self._page:
+            return 0.05
+        self._busy = True
+        try:
+            wait = lib.jo_live_serve(self._page, seconds)
+        finally:
+            self._busy = False
+        failure, self._words.failure = self._words.failure, None
+        if failure:  # raised by nobody's call
+            sys.stderr.write(f"a word of the program failed: {failure!r}\n")
+        return max(0.005, wait) if lib.jo_live_watchers(self._page) else 0.2
+
+    def _close_page(self) -> None:
+        if self._page:
+            self._page = ffi.NULL
+            self._page_end()
+
+    def _repr_svg_(self) -> Optional[str]:
+        return picture_of_scene(self, 800, 600).svg if self._scene else None
+
+    def _repr_html_(self) -> Optional[str]:
+        return picture_of_scene(self, 800, 600).html if self._scene else None
 
     def __iter__(self) -> Iterator["Agent"]:
         return iter(self.agents())
@@ -431,7 +497,7 @@ def _number(number: float) -> Union[int, float]:
     return int(number) if number.is_integer() and abs(number) < 2**53 else number
 
 
-def _table(table: Any) -> dict:
+def _table(table: Any) -> Table:
     """The columns of a table by name and unit, as arrays."""
     columns = {}
     for column in table.columns[0:table.column_count]:
@@ -440,7 +506,7 @@ def _table(table: Any) -> dict:
         values = numbers if not column.texts else np.array(
             [text_of(column.texts[row]) for row in range(table.row_count)], dtype=object)
         columns[f"{name} [{unit}]" if unit else name] = values
-    return columns
+    return Table(columns)
 
 
 class Agent:

@@ -290,13 +290,6 @@ def test_a_sweep(path):
     assert len({run["summary"]["hash"] for run in runs.runs}) == 4
 
 
-def test_pictures(path):
-    scene = jostle.Scene(path)
-    svg = scene.show().svg
-    assert svg.count("<circle") == 5 and svg.count("<polyline") == 2 and "Walk" in svg
-    assert scene._repr_svg_() == svg
-
-
 def test_other_threads_run_while_it_steps(path):
     scene = jostle.Scene(path)
     counted, done = [0], threading.Event()

@@ -24,6 +24,13 @@ def test_notebook_scene():
     assert "image/svg+xml" in said and "left, the first after" in said
 
 
+def test_notebook_views():
+    pytest.importorskip("pandas")
+    said = run("views")
+    assert said.count("<iframe src=\"http://127.0.0.1:") == 2 and said.count("image/svg+xml") == 2 and "density [1/m2]" in said
+    assert "went by while no cell ran" in said and " ± " in said and "'0.0'" in said  # nobody let it run: looking changes nothing
+
+
 def test_notebook_study():
     assert "100 people:" in run("study")
 
