@@ -12,6 +12,7 @@ Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y
 from ._events import Events
 from ._library import Error
 from ._words import Word
+from .compare import Comparison, compare
 from .live import LivePage, RecordingPage
 from .picture import Picture
 from .recording import Recording
@@ -19,8 +20,8 @@ from .scene import Agent, Body, Scene
 from .sweep import Sweep, sweep
 from .table import Table
 
-__all__ = ["Agent", "Body", "Error", "Events", "LivePage", "Picture", "Recording", "RecordingPage", "Scene", "Sweep", "Table", "Word",
-           "sweep", "version"]
+__all__ = ["Agent", "Body", "Comparison", "Error", "Events", "LivePage", "Picture", "Recording", "RecordingPage", "Scene", "Sweep", "Table", "Word",
+           "compare", "sweep", "version"]
 
 
 def version() -> str:

@@ -36,9 +36,13 @@ class Table(dict):
         return Table, (dict(self), self.units, self.title)
 
     def _repr_html_(self) -> str:
+        return self.html()
+
+    def html(self, most: int = MOST_ROWS) -> str:
+        """The table as HTML, with at most so many rows."""
         names = list(self)
         count = len(self[names[0]]) if names else 0
-        shown = range(count) if count <= MOST_ROWS else range(MOST_ROWS - 2)
+        shown = range(count) if count <= most else range(most - 2)
         rows = [[self[name][row] for name in names] for row in shown]
         heads = [f"{name} [{self.units[name]}]" if name in self.units else name for name in names]
         note = "" if count == len(rows) else f"… {count} rows"
@@ -71,15 +75,21 @@ def text_of_value(value: Any) -> str:
 def html_table(heads: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "", note: str = "",
                marks: Optional[Sequence[str]] = None) -> str:
     """A table of HTML; numbers are aligned to the right. `marks`: a colour before the first cell of each row, or ""."""
+    def is_number(value: Any) -> bool:
+        return value is None or isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+
+    def side(value: Any) -> str:
+        return f'style="text-align:{"right" if is_number(value) else "left"}"'
+
     def cell(value: Any, mark: str = "") -> str:
-        is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
         dot = f'<span style="color:{html.escape(mark)}">&#9679;</span> ' if mark else ""
-        return f'<td style="text-align:{"right" if is_number else "left"}">{dot}{html.escape(text_of_value(value))}</td>'
+        return f'<td {side(value)}>{dot}{html.escape(text_of_value(value))}</td>'
 
     parts = ['<table>']
     if title:
         parts.append(f'<caption style="text-align:left">{html.escape(title)}</caption>')
-    parts.append("<thead><tr>" + "".join(f'<th style="text-align:left">{html.escape(head)}</th>' for head in heads) + "</tr></thead><tbody>")
+    parts.append("<thead><tr>" + "".join(
+        f'<th {side(rows[0][k]) if rows else ""}>{html.escape(head)}</th>' for k, head in enumerate(heads)) + "</tr></thead><tbody>")
     for n, row in enumerate(rows):
         parts.append("<tr>" + "".join(cell(value, marks[n] if marks and not k else "") for k, value in enumerate(row)) + "</tr>")
     parts.append("</tbody></table>")

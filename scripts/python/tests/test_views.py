@@ -122,6 +122,29 @@ def test_a_sweep_is_shown_by_variants(path):
     assert variants.units["density_max"] == "1/m2" and "density_max [1/m2]" in runs._repr_html_() and " ± " in runs._repr_html_()
 
 
+def test_a_comparison_of_recordings(path, has_pandas):
+    files = []
+    for seed in (1, 2):
+        files.append(path.parent / f"{seed}.sqlite")
+        with jostle.Scene(path, seed=seed) as scene:
+            scene.record(files[-1])
+            scene.run(1)
+            scene.finish()
+    compared = jostle.compare(*files, labels=["one", "two"])
+    assert [side["name"] for side in compared.sides] == ["one", "two"] and compared.base == 0 and "two minus one" in compared.text
+    figure = compared.figures["people"]["sides"]
+    assert [side["mean"] for side in figure] == [4, 4]
+    table = compared.table(all=True)
+    assert set(table["side"]) == {"two"} and len(table["figure"]) == len(compared.figures)
+    assert "<table>" in compared._repr_html_() and jostle.compare(*files, labels=["one", "two"], base="two").base == 1
+    with pytest.raises(jostle.Error, match="no such file"):
+        jostle.compare(path.parent / "none.sqlite")
+    with pytest.raises(jostle.Error):
+        jostle.compare(files[0], path)
+    with pytest.raises(ValueError):
+        jostle.compare()
+
+
 # ---- live pages ----
 
 
