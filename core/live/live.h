@@ -87,7 +87,8 @@ typedef struct JoxLiveSample {
 bool jox_live_scale_is_due(const JoxLiveScale *scale, double now);
 /* Adds the i-th value if i is a multiple of `stride`. */
 void jox_live_sample_value(JoxLiveSample *sample, uint32_t stride, uint32_t i, float value);
-/* Widens the range as soon as 98 % of the values that are not about 0 do not fit, and narrows it
+/* Widens the range as soon as it does not hold 98 % of the values that are not about 0, outliers
+   aside, and narrows it
    after 10 s of small ones, to a round number of at least `least`. */
 void jox_live_adapt_scale(JoxLiveScale *scale, const JoxLiveSample *sample, float least,
                           double now);

@@ -84,7 +84,8 @@ void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json);
 void jox_live_add_scenery(const JoxSceneSpec *spec, JoxJson *json);
 /* Adds them to a hash, which tells whether a scene message has changed. */
 void jox_live_hash_scenery(const JoxSceneSpec *spec, JoxHash *hash);
-void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json);
+/* `given`: the scene names the colour. */
+void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, bool given, JoxJson *json);
 /* A group, or a state of a machine. */
 typedef struct JoxLiveNamed {
     const char *name;

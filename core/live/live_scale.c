@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/assert.h"
+#include "base/vec.h"
 #include "live/live.h"
 
 static const double PACE = 0.25;   /* s between looks at the values */
@@ -26,7 +27,13 @@ static float round_up_range(float value) {
     return unit * (of <= 1.001f ? 1.0f : of <= 2.001f ? 2.0f : of <= 5.001f ? 5.0f : 10.0f);
 }
 
-/* Returns the robust greatest value of a sample, which is sorted; 0 if there is none. */
+/* Returns the value that a share of sorted values does not exceed. */
+static float find_quantile(const float *values, uint32_t count, float share) {
+    return values[(uint32_t)(share * (float)(count - 1) + 0.5f)];
+}
+
+/* Returns the robust greatest value of a sample: 98 % do not exceed it, and it is no outlier, that
+   is, not above Q3 + 3 (Q3 - Q1), Tukey's outer fence. 0 if there are no values. */
 static float find_robust_most(const JoxLiveSample *sample, float least) {
     float values[JOX_LIVE_SAMPLE];
     uint32_t count = 0;
@@ -36,7 +43,9 @@ static float find_robust_most(const JoxLiveSample *sample, float least) {
     if (count == 0)
         return 0.0f;
     qsort(values, count, sizeof *values, compare_values);
-    return values[(uint32_t)(ROBUST * (float)(count - 1) + 0.5f)];
+    const float low = find_quantile(values, count, 0.25f),
+                high = find_quantile(values, count, 0.75f);
+    return jox_minf(find_quantile(values, count, ROBUST), high + 3.0f * (high - low));
 }
 
 void jox_live_sample_value(JoxLiveSample *sample, uint32_t stride, uint32_t i, float value) {

@@ -264,8 +264,9 @@ void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json) {
     jox_json_end(json);
 }
 
-void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json) {
+void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, bool given, JoxJson *json) {
     jox_json_object(json, "view");
+    jox_json_bool(json, "given", given);
     jox_json_string(json, "colour", jox_live_colours[colour].name);
     jox_json_string(json, "field", jox_live_field_name(field));
     jox_json_end(json);
@@ -354,7 +355,8 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_live_add_camera(spec, &json);
     jox_live_add_scenery(spec, &json);
     jox_live_add_colours(&json);
-    jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field, &json);
+    jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field,
+                      spec->view.colour > 0, &json);
     add_charts(&json, spec);
     add_scene_mods(&json, scene->mods);
     jox_json_end(&json);

@@ -81,12 +81,14 @@ const char *jox_scene_choose_colouring(const JoxSceneSpec *scene, uint32_t state
     };
     /* Two states, as "walks" and "is gone", tell little; more than eight colours are hard to tell
        apart. */
-    enum { TELLING_STATES = 3, MOST_GROUPS = 8 };
+    enum { TELLING_STATES = 3, MOST_STATES = 8, MOST_GROUPS = 8 };
+    const bool groups_tell = groups >= 2 && groups <= MOST_GROUPS;
     if (scene && scene->view.colour > 0)
         return NAMES[scene->view.colour - 1];
-    return states >= TELLING_STATES               ? "state"
-           : groups >= 2 && groups <= MOST_GROUPS ? "group"
-                                                  : "speed";
+    return states > MOST_STATES && groups_tell ? "group"
+           : states >= TELLING_STATES          ? "state"
+           : groups_tell                       ? "group"
+                                               : "speed";
 }
 
 const char *const jox_scene_tools[JOX_TOOL_COUNT] = {

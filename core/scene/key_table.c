@@ -146,7 +146,7 @@ static const JoxKey KEYS[] = {
      .meaning = "tools for the user: throw boxes, drag bodies, push people, open and close gates, change parameters of behaviours, give signals, drive the player"},
     {"view", "colour", TEXT, "", 0, 0, "auto", TO(JoxSceneView, colour), .choices = "auto" JOX_SCENE_COLOURS(OR),
      .meaning = "quantity that people are coloured by, as in pictures of `jostle render`; direction: of walking; service: levels of service A to F; auto: their state, "
-                "if behaviours have three or more in all; else their group, if there are two to eight; else their speed"},
+                "if behaviours have three to eight in all; else their group, if there are two to eight; else their state, if there are more; else their speed"},
     {"view", "field", TEXT, "", 0, 0, "none", TO(JoxSceneView, field), .choices = "density|pressure|none",
      .meaning = "field shown on the floor"},
 

@@ -8,11 +8,25 @@ def nested(browser):
     """states that run a machine: their sums in the legend, their parameters, the state of a person within"""
     browser.run("page.connection.send({do: 'pause', on: true})")
     browser.wait("return page.bar.paused", "no pause")
+    first = browser.run("return [page.colour, page.scene.view.given, page.scene.states.length, page.scene.groups.length]")
+    expect(first[2] <= 8 or first[0] in ("group", "outer"), f"people are coloured by {first[0]} at first, with {first[2]} states and {first[3]} groups")
+    outer = browser.run("""page.colourBy('outer');
+        page.legend.take(page.machine.status);
+        return [...document.querySelectorAll('.legend li:not([hidden]) button')].map((b) => b.innerText.trim());""")
+    browser.run("page.colourBy('state'); page.legend.take(page.machine.status)")
     sums = browser.wait("""const rows = [...document.querySelectorAll('.legend li:not([hidden])')].map((row) => row.textContent.split(' '));
         const of = (name) => rows.filter(([m, s]) => m === 'guard' && (s === name || (name === 'Guard.' && s.startsWith(name)))).map((r) => Number(r[2]));
         const [sum] = of('Guard'), parts = of('Guard.');
         return sum !== undefined && [sum, parts.reduce((a, b) => a + b, 0)];""", "no row for Guard in the legend")
     expect(sums[0] == sums[1] > 0, f"the sum and its parts are {sums}")
+    expect(f"guard Guard {sums[0]}" in outer, f"by outer states the legend has {outer}, not {sums[0]} guards")
+    kept = browser.run("""const button = [...document.querySelectorAll('.legend li:not([hidden]) button')][1], i = page.legend.buttons.indexOf(button), t = () => page.view.people.uniforms.colours.value.image.data;
+        const colours = () => new Set([...Array(page.scene.states.length).keys()].map((k) => t().slice(4 * k, 4 * k + 3).join())).size, all = colours();
+        button.click();
+        const one = [colours(), button.getAttribute('aria-pressed')];
+        button.click();
+        return [all > 2, ...one, colours() === all];""")
+    expect(kept == [True, 2, "true", True], f"a class alone does not keep its colour: {kept}")
     browser.find("#tab-parameters").click()
     machine, = [s for s in browser.driver.find_elements("css selector", "#page-parameters select") if "guard" in s.text][:1]
     Select(machine).select_by_visible_text("guard")

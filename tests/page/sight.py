@@ -71,19 +71,30 @@ def first_tab(browser):
     shown(browser, "scenes/two-bottlenecks.yaml", test)
 
 
-def names_on_demand(browser):
-    """names are off until they are asked for or pointed at, and none covers another"""
+def names_with_room(browser):
+    """names are shown where they have room, all or none when that is asked for, and none covers another"""
     def test():
         browser.run("""const tag = page.overlay.tag.bind(page.overlay);
             window.tags = [];
             page.overlay.tag = (text, spot, colour) => { window.tags.push([text, ...spot]); tag(text, spot, colour); };""")
         count = "window.tags = []; page.overlay.draw(1); return window.tags.length"
-        expect(browser.run(count) == 0, "names are shown")
-        browser.run("const l = page.overlay.labels[0]; page.overlay.point(page.view.project(...l.at, 0).slice(0, 2))")
-        expect(browser.run(count) >= 1, "no name under the pointer")
+        draw = "page.overlay.drawn = ''; "
+        some = browser.run(draw + count)
+        expect(3 <= some <= 8, f"{some} names are shown at first")
+        first = browser.run("return window.tags.map((tag) => tag[0])")
+        expect(browser.run("return page.overlay.ranked[0].text") == first[0], f"the first name is not that of the way out: {first}")
+        browser.run("page.view.turnBy(0, 0, 0.05); page.view.draw(performance.now())")
+        far = browser.run(draw + count)
+        expect(far < some, f"{far} names are shown where everything is tiny")
+        browser.run("page.view.goHome(); page.view.draw(performance.now())")
         browser.find("body").send_keys("n")
-        expect(browser.run(count) > 3, "no names")
-        boxes = browser.run("window.tags = []; page.overlay.draw(1); return window.tags.map(([text, x, y]) => { const w = page.overlay.pen.measureText(text).width / 2 + 5; return [x - w, y - 9, x + w, y + 9]; })")
+        expect(browser.run("return page.overlay.names") == "all" and browser.run(draw + count) >= some, "N does not show all names")
+        browser.find("body").send_keys("n")
+        expect(browser.run("page.overlay.point(null);" + draw + count) == 0, "N does not hide the names")
+        browser.run("const l = page.overlay.labels[0]; page.overlay.point(page.view.project(...l.at, 0).slice(0, 2))")
+        expect(browser.run(draw + count) >= 1, "no name under the pointer")
+        browser.find("body").send_keys("n")
+        boxes = browser.run(draw + "window.tags = []; page.overlay.draw(1); return window.tags.map(([text, x, y]) => { const w = page.overlay.pen.measureText(text).width / 2 + 5; return [x - w, y - 9, x + w, y + 9]; })")
         over = [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]]
         expect(not over, f"names cover each other: {over[:1]}")
     shown(browser, "scenes/office.yaml", test)
@@ -122,4 +133,4 @@ def colours_of_levels(browser):
     shown(browser, "scenes/circle.yaml", test)
 
 
-TESTS = [fits, keeps_the_camera, first_tab, names_on_demand, opens_on_most, colours_of_levels]
+TESTS = [fits, keeps_the_camera, first_tab, names_with_room, opens_on_most, colours_of_levels]

@@ -116,8 +116,8 @@ static void scene_message_escapes_names(void **state) {
     check_name_in(&text, scene->spec->title);
     check_name_in(&text, "g\xC3\xA4-te");
     check_name_in(&text, "p\xC3\xA9 ople");
-    assert_non_null(
-        strstr(text.data, "\"view\": {\"colour\": \"speed\", \"field\": \"pressure\"}"));
+    assert_non_null(strstr(
+        text.data, "\"view\": {\"given\": true, \"colour\": \"speed\", \"field\": \"pressure\"}"));
     assert_non_null(strstr(text.data, "\"throw\": true"));
     assert_non_null(strstr(text.data, "\"gates\": true"));
     assert_non_null(strstr(text.data, "\"parameters\": false"));
@@ -264,6 +264,13 @@ static void ranges_follow_the_values_without_flicker(void **state) {
     }
     jox_live_adapt_scale(&scale, &small, 1.0f, now + 1.0);
     assert_true(scale.most == 1.0f);
+    /* Where a few bear 100 times as much as the others, the others fill the range. */
+    JoxLiveScale robust = {0};
+    JoxLiveSample loads = {.count = 0};
+    for (uint32_t i = 0; i < 100; i++)
+        jox_live_sample_value(&loads, 1, i, i % 10 == 0 ? 5000.0f : (float)(i % 50) + 1.0f);
+    jox_live_adapt_scale(&robust, &loads, 1.0f, now);
+    assert_true(robust.most >= 50.0f && robust.most <= 200.0f);
 }
 
 static void frames_fill_the_range_of_their_scene(void **state) {

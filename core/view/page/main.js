@@ -1,20 +1,23 @@
 // The page: connects the socket, the picture and the panels, and runs the loop.
+import { AboutCard } from "./panels/about.js";
 import { ActPage } from "./panels/act.js";
 import { AgentPage, announce } from "./panels/agent.js";
 import { ChartsPage } from "./panels/charts.js";
 import { Connection } from "./net/connection.js";
 import { Bar } from "./controls/bar.js";
+import { Compass } from "./controls/compass.js";
 import { bindKeys, Figures, TimeBar, ToolBar, WORDS } from "./controls/controls.js";
 import { Crowd, FLAG, NOBODY, readField } from "./net/crowd.js";
 import { byId, el, say, typing } from "./dom.js";
 import { Help, Meter } from "./panels/help.js";
 import { EndCard } from "./panels/end.js";
 import { Legend } from "./panels/legend.js";
+import { Loading } from "./panels/loading.js";
 import { MachinePage } from "./panels/machine.js";
 import { Messages } from "./panels/messages.js";
 import { Follow } from "./draw/follow.js";
 import { describe, Overlay } from "./draw/overlay.js";
-import { COLOURS, FIELDS } from "./draw/palette.js";
+import { CLASSES_TOLD, COLOURS, FIELDS } from "./draw/palette.js";
 import { News } from "./panels/news.js";
 import { Panel } from "./panels/panel.js";
 import { ParametersPage } from "./panels/parameters.js";
@@ -26,10 +29,20 @@ import { Tools, TOOLS } from "./controls/tools.js";
 import { View } from "./draw/view.js";
 
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
-const LOST = ["The connection is lost. The page tries again by itself.",
-    "The connection is lost. If the program was started anew, open the address that it prints."];
+const HERE = location.host;
+const LOST = {
+    gone: `The program at ${HERE} does not answer. If it has ended, start it again, as by \`jostle run SCENE --view\`, and open the address that it prints. This page tries again by itself.`,
+    token: `The program at ${HERE} refuses this page, whose address is of an earlier start. Open the address that the program printed last.`,
+    full: `The program at ${HERE} answers, but admits no further page: close another one. This page tries again by itself.`,
+};
 const PROTOCOL = 5; // of the messages, as the program counts it
 const MOVE = 0.08; // share of the distance to the target that an arrow key moves
+
+/** What people are coloured by at first: where the scene leaves it open, the outer states of machines with many states. */
+function firstColour({ view, machines = [] }) {
+    const many = machines.some((machine) => machine.states.length > CLASSES_TOLD && machine.outer?.length);
+    return view.colour === "state" && !view.given && many ? "outer" : view.colour;
+}
 
 class Page {
     constructor() {
@@ -37,9 +50,10 @@ class Page {
         this.view = new View(byId("picture"), this.crowd);
         this.eye = new Follow(this.view);
         this.overlay = new Overlay(byId("overlay"), this.view, this.crowd);
+        this.loading = new Loading();
         this.messages = new Messages();
         this.meter = new Meter();
-        this.legend = new Legend();
+        this.legend = new Legend({ keep: (kept) => this.view.colourBy(this.colour, kept), fix: (fixed) => this.connection.send({ do: "scale", fixed }) });
         this.slot = null; // slot of the chosen person
         this.person = null; // last message about them
         this.following = false;
@@ -58,11 +72,13 @@ class Page {
         this.connection = new Connection({
             json: (message) => this.timed(() => this.take(message)),
             binary: (buffer) => this.timed(() => this.takeBinary(buffer)),
-            state: (state) => this.link(state),
+            state: (state, cause) => this.link(state, cause),
         });
         const send = (command) => this.connection.send(command) || this.messages.say("Not connected: that was not sent.", "warning");
         this.end = new EndCard({ send });
         this.news = new News();
+        this.about = new AboutCard();
+        this.compass = new Compass(this.view, () => this.redraw());
         this.strip = new Bar(WORDS);
         this.bar = new TimeBar(send, this.strip);
         this.replay = new Replay(send);
@@ -77,8 +93,9 @@ class Page {
             tool: (name) => this.tool(name), colour: (by) => this.colourBy(by), field: (of) => this.fieldOf(of),
             top: () => this.top(), home: () => this.view.goHome(), follow: () => this.follow(),
             picture: () => savePicture(this.view, this.overlay, this.scene?.title ?? "Jostle"),
-            names: () => this.names(), help: () => this.help.toggle(),
+            names: () => this.names(), help: () => this.help.toggle(), about: () => this.about.toggle(),
         }, this.strip);
+        this.about.button = this.toolBar.about;
         this.figures = new Figures(this.strip);
         this.help = new Help({ meter: this.meter, view: this.view, connection: this.connection });
         this.panel = new Panel(() => this.charts?.draw());
@@ -107,7 +124,7 @@ class Page {
             t: () => (this.top(), true), f: () => (this.follow(), true), h: () => (this.view.goHome(), true),
             n: () => (this.names(), true), p: () => (savePicture(this.view, this.overlay, this.scene?.title ?? "Jostle"), true),
             c: () => (this.colourBy(next(COLOURS, this.colour)), true), d: () => (this.fieldOf(next(FIELDS, this.field)), true),
-            "?": () => (this.help.toggle(), true), Escape: () => this.escape(),
+            a: () => (this.about.toggle(), true), "?": () => (this.help.toggle(), true), Escape: () => this.escape(),
             ArrowLeft: step(-1, 0), ArrowRight: step(1, 0), ArrowUp: step(0, 1), ArrowDown: step(0, -1),
             q: turn(-0.12, 0, 1), e: turn(0.12, 0, 1), r: turn(0, 0.1, 1), v: turn(0, -0.1, 1),
             "+": turn(0, 0, 1.15), "=": turn(0, 0, 1.15), "-": turn(0, 0, 1 / 1.15),
@@ -140,7 +157,7 @@ class Page {
         if (this.player.on) this.act.play(false);
         else if (this.tools.gesture) this.tools.cancel();
         else if (this.strip.close()) return true;
-        else if (this.end.close()) return true;
+        else if (this.end.close() || this.about.close()) return true;
         else if (!this.help.node.hidden) this.help.toggle(false);
         else if (this.view.tool !== "select") this.tool("select");
         else this.inspect(null);
@@ -153,12 +170,15 @@ class Page {
         this.meter.messages += performance.now() - begun;
     }
 
-    link(state) {
+    /** Shows how the connection stands; `cause`: why there is none, once that is known. */
+    link(state, cause = null) {
         const node = byId("link");
         node.dataset.state = state;
         say(node, LINKS[state]);
         node.title = LINKS[state];
-        this.messages?.stand("link", state === "lost" ? LOST[Number(this.connection?.attempt > 4)] : "");
+        if (state === "open" && !this.scene) this.loading.connected();
+        if (state === "lost" && !this.scene) this.loading.fail(LOST[cause] ?? "");
+        this.messages.stand("link", state === "lost" && this.scene ? `The connection is lost. ${LOST[cause] ?? ""}` : "");
         if (state === "open") this.again();
     }
 
@@ -167,7 +187,7 @@ class Page {
         this.crowd.snap = true;
         this.charts.lost();
         if (!this.scene) return; // a scene message sets the initial state
-        this.connection.send({ do: "colour", by: this.colour === "failed" ? "state" : this.colour });
+        this.connection.send({ do: "colour", by: COLOURS[this.colour].asks ?? this.colour });
         if (this.field !== "none") this.connection.send({ do: "field", of: this.field });
         if (this.slot !== null && !this.recorded()) this.connection.send({ do: "inspect", slot: this.slot });
     }
@@ -187,11 +207,12 @@ class Page {
     takeScene(scene) {
         if (scene.protocol !== PROTOCOL) return this.messages.stand("protocol", "This page is of another version than the program. Reload it.");
         const first = !this.scene;
+        if (first) this.loading.scene(scene);
         this.scene = scene;
         say(byId("title"), scene.title || scene.file || "Jostle");
         byId("title").title = byId("title").textContent;
         document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
-        for (const part of [this.end, this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
+        for (const part of [this.end, this.about, this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
         this.enablePerson(this.slot !== null);
         this.panel.offer("act", this.act.set(scene));
         const live = scene.session !== "replay";
@@ -200,7 +221,7 @@ class Page {
         this.panel.offer("parameters", live && (scene.machines ?? []).length > 0);
         if (first || !this.toolBar.tools[this.view.tool]) this.tool("select");
         else this.toolBar.show(this.view.tool);
-        if (first && COLOURS[scene.view?.colour]) this.colourBy(scene.view.colour);
+        if (first && COLOURS[scene.view?.colour]) this.colourBy(firstColour(scene));
         if (first && FIELDS[scene.view?.field]) this.fieldOf(scene.view.field);
         this.redraw();
         return undefined;
@@ -256,6 +277,7 @@ class Page {
         const kind = new DataView(buffer).getUint32(0, true);
         if (kind === 1) {
             const taken = this.crowd.take(buffer, performance.now());
+            if (this.crowd.previous === this.crowd.next) this.loading.people(this.crowd.everybody().length);
             this.view.takeFrame(taken);
             this.legend.setMost(this.crowd.next.most);
             if (taken === "new" && this.recorded()) this.noticeGone();
@@ -337,7 +359,7 @@ class Page {
         this.toolBar.colour.value = by;
         this.view.colourBy(by);
         this.legend.colourBy(by);
-        this.connection.send({ do: "colour", by: by === "failed" ? "state" : by });
+        this.connection.send({ do: "colour", by: COLOURS[by].asks ?? by });
     }
 
     fieldOf(of) {
@@ -361,9 +383,12 @@ class Page {
         this.toolBar.follow.setAttribute("aria-pressed", String(this.following));
     }
 
+    /** Shows all names, no name, or as many as have room, in turn. */
     names() {
-        this.overlay.names = !this.overlay.names;
-        this.toolBar.names.setAttribute("aria-pressed", String(this.overlay.names));
+        const next = { some: "all", all: "none", none: "some" }[this.overlay.names];
+        this.overlay.names = next;
+        this.toolBar.names.setAttribute("aria-pressed", { some: "mixed", all: "true", none: "false" }[next]);
+        this.messages.say({ some: "Names: as many as have room.", all: "Names: all.", none: "Names: under the pointer." }[next]);
         this.redraw();
     }
 
@@ -377,6 +402,7 @@ class Page {
         const set = () => {
             this.view.theme(query.matches);
             this.overlay.theme(query.matches);
+            this.legend.build();
             this.charts.draw();
         };
         query.addEventListener("change", set);
@@ -400,6 +426,8 @@ class Page {
         if (at) this.eye.keepUp(at, begun);
         if (this.view.draw(begun, this.drawn)) {
             this.overlay.draw(share);
+            this.compass.update();
+            this.about.seen();
             this.meter.add(performance.now() - begun, this.view.called);
             this.drawn = begun;
         } else this.drawn = undefined;

@@ -29,7 +29,9 @@ export class Bar {
         document.addEventListener("pointerdown", (event) => {
             if (!this.menu.contains(event.target) && !this.more.contains(event.target)) this.open(false);
         });
-        new ResizeObserver(() => this.fold()).observe(this.node);
+        const watch = new ResizeObserver(() => this.fold());
+        watch.observe(this.node);
+        watch.observe(byId("figures")); // its numbers grow
         document.fonts?.ready.then(() => this.fold());
     }
 

@@ -9,7 +9,7 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 
 // Ranks: if the bar is too narrow, the controls with the highest rank go into the menu first.
 export const WORDS = 10.5; // rank at which buttons lose their words
-const RANK = { top: 1, speed: 2, time: 3, home: 4, colour: 5, field: 6, names: 7, follow: 8, picture: 9, help: 10, counts: 11, restart: 12 };
+const RANK = { step: 0.5, top: 1, speed: 2, time: 3, home: 4, colour: 5, field: 6, names: 7, follow: 8, picture: 9, help: 10, bodies: 11, seed: 12 };
 
 /** Pause, step, speed, restart and seed. `send` takes commands. */
 export class TimeBar {
@@ -23,9 +23,11 @@ export class TimeBar {
             SPEEDS.map((s) => el("option", { value: String(s), selected: s === 1 }, `${s} ×`)));
         this.seed = el("input", { type: "number", min: 0, step: 1, title: "Seed of the next start" });
         this.restart = iconButton("restart", "Restart", "Start again with this seed", () => this.again());
-        bar.add(byId("time"), [this.pause, this.step]);
+        bar.add(byId("time"), this.pause);
+        bar.add(byId("time"), this.step, RANK.step);
+        bar.add(byId("time"), this.restart);
         bar.add(byId("time"), el("label", { title: "Speed" }, el("span", { className: "words" }, "Speed"), this.speed), RANK.speed);
-        this.live = bar.add(byId("time"), [el("label", {}, el("span", { className: "faint" }, "Seed"), this.seed), this.restart], RANK.restart);
+        this.live = [this.restart, bar.add(byId("time"), el("label", {}, el("span", { className: "faint" }, "Seed"), this.seed), RANK.seed)];
         this.show(false);
     }
 
@@ -75,7 +77,8 @@ export class Figures {
         const list = (pairs) => el("dl", { className: "figures" }, pairs.map(([key, name]) =>
             el("div", {}, el("dt", {}, name), (this.parts[key] = el("dd", { className: key }, "–")))));
         bar.add(byId("figures"), list([["time", "Time"]]), RANK.time);
-        bar.add(byId("figures"), list([["rate", "Pace"], ["agents", "Agents"], ["bodies", "Bodies"]]), RANK.counts);
+        bar.add(byId("figures"), list([["rate", "Pace"], ["agents", "Agents"]]));
+        bar.add(byId("figures"), list([["bodies", "Bodies"]]), RANK.bodies);
     }
 
     take(status) {
@@ -86,7 +89,7 @@ export class Figures {
     }
 }
 
-/** Tools and what is shown. `page`: {tool(name), colour(by), field(of), top(), home(), follow(), picture(), names(), help()} */
+/** Tools and what is shown. `page`: {tool(name), colour(by), field(of), top(), home(), follow(), picture(), names(), help(), about()} */
 export class ToolBar {
     constructor(page, bar) {
         this.page = page;
@@ -97,9 +100,12 @@ export class ToolBar {
         this.field = this.select(FIELDS, "none", (of) => page.field(of));
         this.top = iconButton("top", "From above", "Look straight down (T)", () => page.top(), true);
         this.follow = iconButton("follow", "Follow", "Follow the chosen person (F)", () => page.follow(), true);
-        this.names = iconButton("names", "Names", "Names of places and gates (N)", () => page.names(), true);
+        this.names = iconButton("names", "Names", "Names: all, none, or as many as have room (N)", () => page.names(), true);
+        this.names.setAttribute("aria-pressed", "mixed");
         const home = iconButton("home", "Whole scene", "The whole scene (H)", () => page.home());
         const picture = iconButton("picture", "Picture", "Save what is seen as a PNG (P)", () => page.picture());
+        this.about = iconButton("about", "About", "What this scene shows, and what to try (A)", () => page.about(), true);
+        bar.add(byId("show"), this.about);
         const help = iconButton("help", "Keys", "Keys, and how long drawing takes (?)", () => page.help());
         const colour = iconLabel("colour", "Colour by", this.colour), field = iconLabel("floor", "Floor", this.field);
         for (const [rank, node] of Object.entries({ colour, field, top: this.top, follow: this.follow, home, names: this.names, picture, help })) bar.add(byId("show"), node, RANK[rank]);

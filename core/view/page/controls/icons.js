@@ -18,6 +18,7 @@ const PATHS = {
     names: "M3 12V4h8l10 10-7.5 7.5zM7.5 8.5h.01",
     picture: "M3 7.5h4L9 5h6l2 2.5h4V19H3zM12 9.5a3.5 3.5 0 1 0 .01 0",
     help: "M9 9a3 3 0 1 1 4.5 2.6c-1 .6-1.5 1.2-1.5 2.4M12 18h.01M12 3a9 9 0 1 0 .01 0",
+    about: "M12 3a9 9 0 1 0 .01 0M12 11v6M12 7.5h.01",
     more: "M5.5 12h.01M12 12h.01M18.5 12h.01",
 };
 const FILLED = new Set(["play"]);

@@ -66,6 +66,8 @@ export class Ground {
         this.colours = THEMES[name];
         this.uniforms.base.value.set(this.colours.base);
         this.uniforms.line.value.set(this.colours.line);
+        this.uniforms.ramp.value.image.data = table("value"); // of the theme
+        this.uniforms.ramp.value.needsUpdate = true;
         if (this.scene) this.set(this.scene);
     }
 

@@ -8,6 +8,9 @@ export const FORCE_COLOURS = {
 };
 const METRES_OF_NEWTON = 1 / 150; // an arrow of 1 m is 150 N
 const NEAR = 36; // CSS pixels from the pointer, within which a name is shown
+const MOST_NAMES = 8; // shown where nobody asked for names
+const TINY = 28; // CSS pixels: places that look smaller get no name then
+const WAY_OUT = /exit|door|gate|ausgang|sortie|salida/i; // names of places that are told first
 const FONT = "600 12px system-ui, sans-serif";
 
 export class Overlay {
@@ -17,7 +20,8 @@ export class Overlay {
         this.crowd = crowd;
         this.pen = canvas.getContext("2d");
         this.labels = [];
-        this.names = false; // true: show all names; false: only the one under the pointer
+        this.ranked = []; // labels, those first that are told first
+        this.names = "some"; // "all", "some": as many as have room, or "none": only the one under the pointer
         this.pointer = null; // CSS pixels
         this.chosen = null; // slot
         this.forces = null; // forces on the chosen person
@@ -30,14 +34,19 @@ export class Overlay {
     set(scene) {
         this.labels = [];
         for (const place of scene.places ?? []) {
-            if (place.kind !== "set" && place.points?.length) this.labels.push({ text: place.name, at: middle(place) });
+            if (place.kind !== "set" && place.points?.length) this.labels.push({ text: place.name, at: middle(place), box: boxAround(place.points, place.radius ?? 0) });
         }
         for (const [name, points] of Object.entries(scene.regions ?? {})) {
-            this.labels.push({ text: name, at: middle({ points, kind: "polygon" }), faint: true });
+            this.labels.push({ text: name, at: middle({ points, kind: "polygon" }), box: boxAround(points, 0), faint: true });
         }
         for (const wall of scene.walls ?? []) {
-            if (wall.name) this.labels.push({ text: wall.name, at: [...middle({ points: wall.points, kind: "line" }), wall.height || 2], gate: true });
+            if (wall.name) this.labels.push({ text: wall.name, at: [...middle({ points: wall.points, kind: "line" }), wall.height || 2], box: boxAround(wall.points, 0), gate: true });
         }
+        // Ways out come first, then large places; names that several gates share are told once.
+        const first = (label) => (label.gate ? 0 : WAY_OUT.test(label.text) ? 1 : label.faint ? 3 : 2);
+        this.ranked = this.labels.filter((label, i) => this.labels.findIndex((other) => other.text === label.text) === i)
+            .sort((a, b) => first(a) - first(b) || b.box.size - a.box.size);
+        this.drawn = "";
     }
 
     theme(dark) {
@@ -52,25 +61,34 @@ export class Overlay {
 
     draw(share) {
         const pen = this.pen, ratio = this.view.ratio;
-        const blank = !this.names && !this.pointer && this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross;
-        if (blank && this.blank) return; // clearing takes time, too, when the processor draws
+        const still = this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross;
+        const blank = still && this.names === "none" && !this.pointer;
+        const stamp = still && !blank ? this.stamp() : "";
+        if ((blank && this.blank) || (stamp && stamp === this.drawn)) return; // clearing takes time, too, when the processor draws
         this.blank = blank;
+        this.drawn = stamp;
         pen.setTransform(ratio, 0, 0, ratio, 0, 0);
         pen.clearRect(0, 0, this.view.wide, this.view.high);
         pen.font = FONT;
         pen.textAlign = "center";
         pen.textBaseline = "middle";
-        if (this.names || this.pointer) this.drawLabels();
+        if (this.names !== "none" || this.pointer) this.drawLabels();
         for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", "player");
         if (this.chosen !== null) this.drawChosen(share);
         this.sketch?.(pen, (x, y, z) => this.view.project(x, y, z));
         if (this.cross) this.drawCross();
     }
 
+    /** What names depend on where nothing else is drawn: the camera, the window, the pointer. */
+    stamp() {
+        const { camera, wide, high, ratio } = this.view;
+        return [this.names, this.dark, wide, high, ratio, this.pointed, ...camera.matrixWorldInverse.elements, ...camera.projectionMatrix.elements].join();
+    }
+
     /** Sets the position of the pointer, CSS pixels, or null; true if another name has to be shown. */
     point(at) {
         this.pointer = at;
-        const near = this.names || !at ? -1 : this.labels.findIndex((label) => this.near(this.view.project(label.at[0], label.at[1], label.at[2] ?? 0)));
+        const near = this.names === "all" || !at ? -1 : this.labels.findIndex((label) => this.near(this.view.project(label.at[0], label.at[1], label.at[2] ?? 0)));
         const changed = near !== this.pointed;
         this.pointed = near;
         return changed;
@@ -81,17 +99,28 @@ export class Overlay {
     }
 
     drawLabels() {
-        const taken = [];
-        for (const label of this.labels) {
+        const taken = [], { wide, high } = this.view;
+        let some = 0;
+        for (const label of this.names === "some" ? [...this.ranked, ...this.labels] : this.labels) {
             const spot = this.view.project(label.at[0], label.at[1], label.at[2] ?? 0);
-            if (!spot || spot[0] < 0 || spot[1] < 0 || spot[0] > this.view.wide || spot[1] > this.view.high) continue;
-            if (!this.names && !this.near(spot)) continue;
-            const wide = this.pen.measureText(label.text).width / 2 + 8;
-            const box = [spot[0] - wide, spot[1] - 12, spot[0] + wide, spot[1] + 12];
+            if (!spot || spot[0] < 0 || spot[1] < 0 || spot[0] > wide || spot[1] > high) continue;
+            const half = this.pen.measureText(label.text).width / 2 + 8;
+            const box = [spot[0] - half, spot[1] - 12, spot[0] + half, spot[1] + 12];
+            const asked = this.names === "all" || this.near(spot);
+            if (!asked && (this.names === "none" || some >= MOST_NAMES || box[0] < 0 || box[2] > wide || this.isTiny(label))) continue;
             if (taken.some((b) => b[0] < box[2] && b[2] > box[0] && b[1] < box[3] && b[3] > box[1])) continue;
             taken.push(box);
+            if (!asked) some++;
             this.tag(label.text, spot, this.nameColour(label));
         }
+    }
+
+    /** Returns whether what a label names looks too small for a name that nobody asked for. */
+    isTiny({ box, at }) {
+        const corners = box.corners.map(([x, y]) => this.view.project(x, y, at[2] ?? 0));
+        if (corners.some((c) => !c)) return false; // partly behind the eye: near
+        const span = (k) => Math.max(...corners.map((c) => c[k])) - Math.min(...corners.map((c) => c[k]));
+        return Math.max(span(0), span(1)) < TINY;
     }
 
     nameColour(label) {
@@ -185,6 +214,12 @@ function roundRect(pen, x, y, wide, high, r) {
     pen.arcTo(x, y + high, x, y, r);
     pen.arcTo(x, y, x + wide, y, r);
     pen.closePath();
+}
+
+/** Returns the corners of the box around points, `more` m wider, and its size, m. */
+function boxAround(points, more) {
+    const [low, high] = [Math.min, Math.max].map((of, side) => [0, 1].map((k) => of(...points.map((p) => p[k])) + (side ? more : -more)));
+    return { corners: [low, [high[0], low[1]], high, [low[0], high[1]]], size: Math.hypot(high[0] - low[0], high[1] - low[1]) };
 }
 
 /** Returns where a place's name is written: inside a polygon, at the middle of a line. */

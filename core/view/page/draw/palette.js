@@ -2,10 +2,12 @@
 // same lighter and darker: those of palette.c, so that a group looks alike in pictures. Values: pale
 // for nothing to dark for the most, as in palette.c, one ramp for people and floor.
 
+export const CLASSES_TOLD = 8; // classes that all eyes tell apart
 const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442", "#882255"];
 const RAMP = ["#fbf6d3", "#fde39a", "#fcc562", "#f8a140", "#ee762f", "#d84a2c", "#b32536", "#82123f", "#4d0b3b"];
 // For figures that are no danger, such as speed.
 const CALM = ["#f6f5dc", "#d3e8cf", "#a3d6cf", "#6bbdcf", "#3c9cc4", "#2577ad", "#1a528b", "#142f63"];
+const DARKEST = 0.8; // share of a ramp that a dark floor uses: the rest is as dark as the floor
 // Headings from east by north: hues around the circle that also differ in lightness.
 const WAYS = ["#d55e00", "#f0b942", "#7fb842", "#1c9e77", "#37a6dd", "#2c5fb8", "#7b4aa8", "#c0508f"];
 
@@ -25,10 +27,17 @@ export function classColour(index) {
     return base.map((c) => Math.round(c + 0.45 * (towards - c)));
 }
 
+let onDark = false;
+
+/** Chooses ramps for a dark floor, which lead from its darkness up to pale: the most always stands out. */
+export function useDarkRamps(on) {
+    onDark = on;
+}
+
 /** sRGB of a share of the greatest value, 0 to 1; `calm`: for figures that are no danger. */
-export function valueColour(share, calm = false) {
-    const stops = calm ? CALM : RAMP;
-    return between(stops, Math.max(0, Math.min(1, share)) * (stops.length - 1));
+export function valueColour(share, calm = false, dark = onDark) {
+    const stops = calm ? CALM : RAMP, of = Math.max(0, Math.min(1, share));
+    return between(stops, (dark ? DARKEST * (1 - of) : of) * (stops.length - 1));
 }
 
 /** sRGB of a heading, in turns from the east, counter-clockwise. */
@@ -59,6 +68,20 @@ export function namedColour(named) {
     return named?.colour ? channels(named.colour) : NOBODYS;
 }
 
+/** The states of a scene message, each with the colour of the first state within the outermost state around it. */
+export function outerStates(scene) {
+    const states = scene?.states ?? [], seen = new Map();
+    const machines = scene?.machines ?? [];
+    return states.map((state, i) => {
+        const first = states.findIndex((s) => s.machine === state.machine);
+        const around = (machines[state.machine]?.outer ?? []).filter((outer) => outer.within.includes(i - first))
+            .sort((a, b) => b.within.length - a.within.length)[0];
+        const name = `${state.machine} ${around?.name ?? state.name}`;
+        if (!seen.has(name)) seen.set(name, { machine: state.machine, name: around?.name ?? state.name, colour: CLASSES[seen.size % CLASSES.length] });
+        return seen.get(name);
+    });
+}
+
 /** Colour of texel `i` of 256 of a table of classes, values, headings, or levels of service up to `most`. */
 const TEXELS = {
     class: (i) => classColour(i),
@@ -68,16 +91,20 @@ const TEXELS = {
     service: (i, most) => serviceColour(SERVICE.findIndex(([, up]) => (i / 255) * most < up)),
 };
 
-/** 256 RGBA texels of a kind, or of the states or groups `named`. */
-export function table(kind, most = 0, named = null) {
-    const out = new Uint8Array(4 * 256);
-    for (let i = 0; i < 256; i++) out.set([...(named ? namedColour(named[i]) : TEXELS[kind](i, most)), 255], 4 * i);
+/** 256 RGBA texels of a kind, or of the states or groups `named`; of these only `kept` (a function of the index) keep their colours. */
+export function table(kind, most = 0, named = null, kept = null) {
+    const out = new Uint8Array(4 * 256), others = onDark ? [0x45, 0x4b, 0x54] : [0xc4, 0xc9, 0xd0];
+    for (let i = 0; i < 256; i++) {
+        const colour = kept && !kept(i) ? others : named ? namedColour(named[i]) : TEXELS[kind](i, most);
+        out.set([...colour, 255], 4 * i);
+    }
     return out;
 }
 
 /** What people can be coloured by: its name, and whether it has classes. */
 export const COLOURS = {
     state: { name: "state", classes: true },
+    outer: { name: "outer state", classes: true, asks: "state" },
     group: { name: "group", classes: true },
     speed: { name: "speed", unit: "m/s", table: "calm" },
     force: { name: "net force", unit: "N" },
@@ -87,7 +114,7 @@ export const COLOURS = {
     service: { name: "level of service", unit: "1/m²", most: 8, table: "service", classes: true,
         names: SERVICE.map(([level, up], i) => (up === Infinity ? `${level} over ${SERVICE[i - 1][1]}` : `${level} to ${up}`)) },
     direction: { name: "way they go", table: "way", classes: true, names: ["east", "north", "west", "south"] },
-    failed: { name: "solved programs", classes: true, names: ["solved", "no velocity satisfies all"], at: [4, 3] },
+    failed: { name: "solved programs", classes: true, asks: "state", names: ["solved", "no velocity satisfies all"], at: [4, 3] },
 };
 
 /** Formats a unit: 1/m2 becomes 1/m². */

@@ -4,7 +4,7 @@ import * as THREE from "three";
 import { Bodies } from "./bodies.js";
 import { fitBox, heightOf, sceneBox, standAt } from "./camera.js";
 import { Ground } from "./ground.js";
-import { COLOURS, table } from "./palette.js";
+import { COLOURS, outerStates, table, useDarkRamps } from "./palette.js";
 import { People } from "./people.js";
 
 THREE.ColorManagement.enabled = false; // colours are sRGB all along, as in pictures
@@ -82,11 +82,8 @@ export class View {
         this.ground.set(scene);
         this.bodies.set(scene.bodies ?? []);
         if (this.crowd.next) this.bodies.upload(this.crowd);
-        this.named = { state: scene.states ?? [], group: scene.groups ?? [] };
-        for (const by of ["state", "group"]) {
-            this.tables[by]?.dispose();
-            this.tables[by] = null;
-        }
+        this.named = { state: scene.states ?? [], group: scene.groups ?? [], outer: outerStates(scene) };
+        this.dropTables(["state", "group", "outer"]);
         this.colourBy(this.by);
         const name = `${scene.file} ${scene.session}`;
         if (this.known !== name) {
@@ -175,17 +172,30 @@ export class View {
         this.moved();
     }
 
-    /** Sets what people are coloured by: one of palette.js. */
-    colourBy(by) {
+    /** Sets what people are coloured by: one of palette.js; `kept` as for its table(), null: all. */
+    colourBy(by, kept = null) {
         const u = this.people.uniforms, colour = COLOURS[by];
-        u.classes.value = { state: 1, group: 2, failed: 3, direction: 4 }[by] ?? 0;
+        u.classes.value = { state: 1, outer: 1, group: 2, failed: 3, direction: 4 }[by] ?? 0;
         const named = this.named?.[by], kind = named ? by : colour.table ?? (colour.classes ? "class" : "value");
+        if (kept || this.kept) this.dropTables([kind]);
         this.by = by;
-        u.colours.value = this.tables[kind] ??= smallTexture(table(kind, colour.most, named));
+        this.kept = kept;
+        u.colours.value = this.tables[kind] ??= smallTexture(table(kind, colour.most, named, kept));
         this.dirty = true;
     }
 
+    /** Drops tables of colours, so that they are made anew. */
+    dropTables(kinds = Object.keys(this.tables)) {
+        for (const kind of kinds) {
+            this.tables[kind]?.dispose();
+            this.tables[kind] = null;
+        }
+    }
+
     theme(dark) {
+        useDarkRamps(dark);
+        this.dropTables();
+        this.colourBy(this.by, this.kept);
         this.ground.theme(dark ? "dark" : "light");
         this.renderer.setClearColor(this.ground.colours.sky);
         this.dirty = true;

@@ -17,8 +17,8 @@ function token() {
 }
 
 /**
- * Opens the page's socket. `handlers`: {json(message), binary(buffer), state(text)}, where the state
- * is "connecting", "open", "lost" or "refused". The token of the page's address is sent with the request.
+ * Opens the page's socket. `handlers`: {json(message), binary(buffer), state(text, cause)}, where the
+ * state is "connecting", "open" or "lost"; the cause, of findCause, comes a moment later. The token of the page's address is sent with the request.
  */
 export class Connection {
     constructor(handlers) {
@@ -52,8 +52,21 @@ export class Connection {
         const wait = WAITS[Math.min(this.attempt, WAITS.length - 1)];
         this.attempt++;
         this.handlers.state("lost");
+        this.findCause();
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.open(), 1000 * wait);
+    }
+
+    /** Finds out why there is no connection: "gone", no program answers; "token", it refuses this page; "full", it has no room. */
+    async findCause() {
+        let cause = "gone";
+        try {
+            const answer = await fetch(`icon.svg?${new URLSearchParams({ token: this.token })}`, { cache: "no-store" });
+            cause = answer.ok ? "full" : "token";
+        } catch {
+            cause = "gone";
+        }
+        if (this.socket.readyState !== WebSocket.OPEN) this.handlers.state("lost", cause);
     }
 
     receive(data) {
