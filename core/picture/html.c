@@ -21,17 +21,27 @@ static const char STYLE[] =
     ".panels.whole{grid-template-columns:1fr}.panels figure,figure.wide{display:block;margin:0}"
     ".panels img,figure.wide img{max-width:100%}.summary{background:#f6f6f2;border-left:.3rem solid"
     " #82123f;padding:.4rem 1.2rem;margin:1rem 0}"
+    "table.facts{margin:.4rem 0}table.facts th{width:14rem;font-weight:600}"
+    ".sign td{height:2.6rem;vertical-align:bottom}nav{margin:1rem 0}nav ol{columns:2;margin:.3rem "
+    "0}nav a{color:inherit}.csv{margin:-.6rem 0 1rem;font-size:.85rem;color:#555}"
+    ".met{color:#00601f;font-weight:600}.failed{color:#a40000;font-weight:700}"
     "figcaption,small{color:#555}details{margin:.5rem 0}pre{overflow:auto;"
     "background:#f6f6f6;padding:.6rem;font-size:13px}.scroll{overflow-x:auto}code{font-size:.9em;"
     "overflow-wrap:anywhere}"
     /* In print: no page break within a picture or row or after a heading, and nothing cut off at
        the right. */
     "@page{size:A4;margin:15mm}@media print{body{font-size:10pt;max-width:none;margin:0;"
-    "padding:0}h1{font-size:16pt}h2{font-size:13pt;margin-top:1.4rem}h2,h3{break-after:avoid}"
-    "figure,tr,.summary p{break-inside:avoid}.scroll{overflow:visible}table{font-size:8.5pt;"
-    "width:100%}th,td{padding-right:.5rem}td.n{white-space:normal}figure.wide img{max-height:"
-    "230mm;width:auto}.summary{font-size:9.5pt;-webkit-print-color-adjust:exact;print-color-adjust:"
-    "exact}"
+    "padding:0}h1{font-size:16pt}h2{font-size:13pt;margin-top:1.2rem;padding-top:.6rem}"
+    "h2,h3{break-after:avoid}p{orphans:3;widows:3}"
+    "figure,tr,.summary p,.sign{break-inside:avoid}.scroll{overflow:visible}"
+    "thead{break-inside:avoid;break-after:avoid}table{font-size:8.5pt;margin:.6rem 0;"
+    "width:100%}th,td{padding:.15rem .5rem .15rem 0}td.n{white-space:normal}"
+    "figure.wide img{max-height:140mm;width:auto}.plan figure.wide img{max-height:78mm}"
+    ".csv{break-before:avoid;font-size:7.5pt;margin:-.4rem 0 "
+    ".6rem}.panels{display:block;orphans:1;widows:1}.panels "
+    "figure{display:inline-block;width:49%;margin-bottom:.6rem}"
+    ".panels.whole figure{display:block;width:100%}.panels img{max-height:80mm;width:auto}"
+    ".summary{font-size:9.5pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}"
     "a{color:inherit;text-decoration:none}}";
 
 void jox_html_text(FILE *out, const char *text) {
@@ -50,12 +60,17 @@ static void put_link(FILE *out, const char *path) {
     jox_quote_put(out, jox_quote_url, path);
 }
 
-void jox_html_begin(FILE *out, const char *title) {
+void jox_html_begin_head(FILE *out, const char *title) {
     fputs("<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport "
           "content=\"width=device-width\"><title>",
           out);
     jox_html_text(out, title);
-    fprintf(out, "</title><style>%s</style>\n<h1>", STYLE);
+    fprintf(out, "</title><style>%s</style>\n", STYLE);
+}
+
+void jox_html_begin(FILE *out, const char *title) {
+    jox_html_begin_head(out, title);
+    fputs("<h1>", out);
     jox_html_text(out, title);
     fputs("</h1>\n", out);
 }
@@ -131,8 +146,7 @@ void jox_html_cell(FILE *out, const char *text) {
     jox_html_text(out, text);
 }
 
-/* Returns a unit of tables and files as pages write it. */
-static const char *unit_text(const char *unit) {
+const char *jox_html_unit(const char *unit) {
     static const char *const TEXTS[][2] = {
         {"1/m2", "per m\xc2\xb2"},  {"1/s2", "per s\xc2\xb2"},      {"1/s", "per s"},
         {"1/(m s)", "per m and s"}, {"1/(m min)", "per m and min"}, {"m2", "m\xc2\xb2"},
@@ -148,12 +162,32 @@ void jox_html_cell_number(FILE *out, double value, const char *unit) {
     jox_html_number(out, value);
     if (*unit && isfinite(value)) {
         fputs("&nbsp;", out);
-        jox_html_text(out, unit_text(unit));
+        jox_html_text(out, jox_html_unit(unit));
     }
 }
 
 void jox_html_table_end(FILE *out) {
     fputs("\n</table></div>\n", out);
+}
+
+void jox_html_csv(FILE *out, const char *file) {
+    fputs("<p class=csv>This table as CSV: <a href=\"", out);
+    put_link(out, file);
+    fputs("\">", out);
+    jox_html_text(out, file);
+    fputs("</a></p>\n", out);
+}
+
+void jox_html_fact(FILE *out, const char *name, const char *text) {
+    if (!text || !*text)
+        return;
+    fputs("\n<tr><th>", out);
+    jox_html_text(out, name);
+    jox_html_cell(out, text);
+}
+
+void jox_html_facts(FILE *out) {
+    fputs("<div class=scroll><table class=facts>", out);
 }
 
 void jox_html_panels(FILE *out, bool whole) {

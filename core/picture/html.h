@@ -7,7 +7,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Write the document's head including <h1>, and its end. */
+/* Write the document's head including <h1>, or without it, and its end. */
+void jox_html_begin_head(FILE *out, const char *title);
 void jox_html_begin(FILE *out, const char *title);
 void jox_html_end(FILE *out);
 
@@ -33,6 +34,13 @@ void jox_html_cell(FILE *out, const char *text);
    spelled out for readers. */
 void jox_html_cell_number(FILE *out, double value, const char *unit);
 void jox_html_table_end(FILE *out);
+/* Returns a unit of tables and files ("1/m2") as pages write it. */
+const char *jox_html_unit(const char *unit);
+/* Writes, below a table, a link to the file beside the page that has the same values. */
+void jox_html_csv(FILE *out, const char *file);
+/* Opens a table of names with texts; jox_html_fact writes a row, none without a text. */
+void jox_html_facts(FILE *out);
+void jox_html_fact(FILE *out, const char *name, const char *text);
 
 /* Writes a paragraph that begins with `lead` in bold. */
 void jox_html_statement(FILE *out, const char *lead, const char *text);

@@ -130,10 +130,12 @@ bool jox_maps_draw_plan(const JoxSubject *s, JoxText *error) {
 }
 
 void jox_write_plan_html(FILE *out, const JoxSubject *s) {
+    fputs("<div class=plan>", out);
     jox_html_figure(out, s->folder, "plan",
                     "The plan, in metres. Green: exits by which people left; blue: places; violet "
                     "and broken: lines and areas in which something is measured.",
                     true);
+    fputs("</div>\n", out);
 }
 
 /* ---- maps over time ---- */
@@ -243,8 +245,16 @@ void jox_maps_panels(FILE *out, const JoxSubject *s) {
 void jox_write_maps_html(FILE *out, const JoxSubject *s) {
     jox_maps_panels(out, s);
     for (size_t m = 0; m < MAP_COUNT; m++)
-        if (is_map_drawn(s, &MAPS[m]))
-            jox_html_figure(out, s->folder, MAPS[m].file, MAPS[m].title, false);
+        if (is_map_drawn(s, &MAPS[m])) {
+            char caption[200];
+            if (MAPS[m].measure == JOX_DANGER_DENSITY)
+                snprintf(caption, sizeof caption, "%s, cells of %.3g m, %s", MAPS[m].title,
+                         (double)s->grid->cell,
+                         MAPS[m].greatest ? "greatest of all samples" : "mean of all samples");
+            else
+                snprintf(caption, sizeof caption, "%s; %s", MAPS[m].title, MAPS[m].legend);
+            jox_html_figure(out, s->folder, MAPS[m].file, caption, false);
+        }
     jox_html_panels_end(out);
 }
 

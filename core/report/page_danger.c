@@ -5,6 +5,8 @@
 #include "record/danger/danger_parts.h"
 #include "report/page_parts.h"
 
+static const double WORTH = 0.01; /* least dose of a list of people */
+
 /* ---- figures ---- */
 
 /* Appends the figures of lines: flow, stop-and-go and queue growth. */
@@ -65,14 +67,12 @@ void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
 
 /* ---- parts of the page ---- */
 
-/* Writes a cell with a time and a place in words; a dash if the time is not finite. */
-static void put_time_and_place(FILE *out, const JoxSubject *s, double time, JoxV2 at) {
+/* Adds a cell with a place in words, if the time at which somebody was there is finite. */
+static void add_place(JoxPageTable *table, const JoxSubject *s, double time, JoxV2 at) {
     JoxText text = {0};
-    if (isfinite(time)) {
-        jox_text_printf(&text, "%.1f s at ", time);
+    if (isfinite(time))
         jox_describe_point(s, at, &text);
-    }
-    jox_html_cell(out, text.data ? text.data : "\xe2\x80\x93");
+    jox_table_text(table, text.data);
     jox_text_free(&text);
 }
 
@@ -98,9 +98,8 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
         "a section of 20 m by 14 m; recorded queues of people in no danger read 0.01 at most.%s",
         (double)JOX_PRESSURE_SPAN, (double)JOX_PRESSURE_SECTION, (double)JOX_PRESSURE_SECTION,
         (double)JOX_PRESSURE_FLOOR, (double)JOX_PRESSURE_LEAST,
-        jox_danger_has_measure(danger, JOX_DANGER_PRESSURE)
-            ? ""
-            : " Here it was measured nowhere, so its limit shows dashes.");
+        jox_danger_has_measure(danger, JOX_DANGER_PRESSURE) ? ""
+                                                            : " Here it was measured nowhere.");
     jox_html_paragraph(out, text);
     if (jox_danger_has_measure(danger, JOX_DANGER_LOAD)) {
         jox_html_paragraph(
@@ -110,9 +109,9 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
                  "Limits for chests are forces of that kind.");
         jox_html_paragraph(out, jox_danger_dose_text);
     } else {
-        jox_html_paragraph(out,
-                           "Load was not measured: this recording has no forces on people. Its "
-                           "limits, and those of dose, show dashes.");
+        jox_html_paragraph(
+            out, "Load was not measured: this recording has no forces on people, so nobody "
+                 "is held against its limits and those of dose.");
     }
     if (jox_danger_has_measure(danger, JOX_DANGER_COMPRESSION))
         jox_html_paragraph(
@@ -124,42 +123,54 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
         jox_html_paragraph(out, "Compression was not measured.");
 }
 
-/* Writes a table of the published limits: who was over them, for how long, and since when. */
+/* Writes a table of the published limits that somebody was over: who, for how long, and since
+   when; then what each limit means. */
 static void put_limit_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
-    jox_html_table(out, "limit|>people ever over it|>person-seconds|>longest of one "
-                        "person|first|>minutes since|meaning and source");
+    JoxPageTable table = jox_page_table(
+        s, "limits",
+        "limit|>people ever over it|>time of all people over it [person-seconds]|>longest of one "
+        "person [s]|>first at [s]|where that was|>from then to the end [min]");
+    table.zero_rows = "Nobody was over, or it was not measured";
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
-        JoxDangerCount count = jox_danger_count(danger, l);
-        JoxText meaning = {0};
-        jox_html_row(out);
-        jox_html_cell(out, limit->title);
-        bool read = jox_danger_has_measure(danger, limit->measure);
-        jox_html_cell_number(out, read ? count.people : NAN, "");
-        jox_html_cell_number(out, read ? count.person_s : NAN, "s");
-        jox_html_cell_number(out, read ? count.longest : NAN, "s");
-        put_time_and_place(out, s, count.first, count.first_at);
-        jox_html_cell_number(out, jox_danger_minutes_since(danger, count.first), "min");
-        jox_text_printf(&meaning, "%s (%s)", limit->what, limit->source);
-        jox_html_cell(out, meaning.data);
-        jox_text_free(&meaning);
+        const JoxDangerCount count = jox_danger_count(danger, l);
+        const bool read = jox_danger_has_measure(danger, limit->measure);
+        jox_table_text(&table, limit->title);
+        jox_table_number(&table, read ? count.people : NAN);
+        jox_table_number(&table, read ? count.person_s : NAN);
+        jox_table_number(&table, read ? count.longest : NAN);
+        jox_table_number(&table, count.first);
+        add_place(&table, s, count.first, count.first_at);
+        jox_table_number(&table, jox_danger_minutes_since(danger, count.first));
     }
-    jox_html_table_end(out);
+    jox_table_put(out, &table);
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+        if (jox_danger_count(danger, l).people) {
+            const JoxDangerLimit *limit = &jox_danger_limits[l];
+            JoxText lead = {0}, meaning = {0};
+            jox_text_printf(&lead, "Limit %s:", limit->title);
+            jox_text_printf(&meaning, "%s (%s).", limit->what, limit->source);
+            jox_html_statement(out, lead.data, meaning.data);
+            jox_text_free(&lead);
+            jox_text_free(&meaning);
+        }
 }
 
 /* Writes a table of the greatest value of each measure, with its time and place. */
 static void put_greatest_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
-    jox_html_table(out, "measure|>greatest|when and where");
+    JoxPageTable table = jox_page_table(s, "greatest", "measure|>greatest|unit|>at [s]|where");
+    table.zero_rows = "Not measured, or 0";
     for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
-        JoxDangerMost most = jox_danger_most(danger, (JoxDangerMeasure)m);
-        jox_html_row(out);
-        jox_html_cell(out, jox_danger_titles[m]);
-        jox_html_cell_number(out, most.value, jox_danger_units[m]);
-        put_time_and_place(out, s, most.time, most.at);
+        const JoxDangerMost most = jox_danger_most(danger, (JoxDangerMeasure)m);
+        jox_table_text(&table, jox_danger_titles[m]);
+        jox_table_number(&table, most.value);
+        jox_table_text(&table, jox_html_unit(jox_danger_units[m]));
+        jox_table_number(&table, most.time);
+        add_place(&table, s, most.time, most.at);
     }
-    jox_html_table_end(out);
+    jox_table_put(out, &table);
 }
 
 uint32_t jox_page_rank_greatest(const JoxDanger *danger, uint32_t count,
@@ -189,34 +200,56 @@ static void put_dose_table(FILE *out, const JoxSubject *s) {
     uint32_t order[JOX_PAGE_SHOWN];
     const uint32_t shown =
         jox_page_rank_greatest(danger, danger->people_capacity, dose_of_person, order);
+    JoxPageTable table = jox_page_table(
+        s, "doses",
+        ">person|>dose|>greatest load [N]|>at [s]|where|>time over 623 N [s]|>over 1112 N "
+        "[s]|>over 6227 N [s]");
     if (shown == 0)
         return;
+    if (danger->people[order[0]].dose < WORTH) {
+        char text[160];
+        snprintf(text, sizeof text,
+                 "The greatest dose of a person was %.2g: a list of people begins at %g.",
+                 danger->people[order[0]].dose, WORTH);
+        jox_html_paragraph(out, text);
+        return;
+    }
+    jox_html_subheading(out, "Who bore most");
     jox_html_paragraph(out, "The people with the greatest doses; danger-people.csv lists all whose "
                             "dose is over 0.01 or whose load was over the first limit.");
-    jox_html_table(
-        out, ">person|>dose|>greatest load|when and where|>over 623 N|>over 1112 N|>over 6227 "
-             "N");
     for (uint32_t k = 0; k < shown; k++) {
         const JoxDangerPerson *person = &danger->people[order[k]];
-        jox_html_row(out);
-        fprintf(out, "<td class=n>%u", order[k]);
-        jox_html_cell_number(out, person->dose, "");
-        jox_html_cell_number(out, (double)person->most, "N");
-        put_time_and_place(out, s, person->most_time, person->most_at);
+        char number[16];
+        snprintf(number, sizeof number, "%u", order[k]);
+        jox_table_text(&table, number);
+        jox_table_number(&table, person->dose);
+        jox_table_number(&table, (double)person->most);
+        jox_table_number(&table, person->most_time);
+        add_place(&table, s, person->most_time, person->most_at);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
-                jox_html_cell_number(out, person->seconds[l], "s");
+                jox_table_number(&table, person->seconds[l]);
     }
-    jox_html_table_end(out);
+    jox_table_put(out, &table);
 }
 
 void jox_page_put_danger(FILE *out, const JoxSubject *s) {
+    JoxText how = {0};
     jox_html_heading(out, "Danger: who was over which limit");
     put_limit_table(out, s);
     put_greatest_table(out, s);
     jox_html_figure(out, s->folder, "danger",
-                    "Danger over time. Dashed lines: published limits near the curves.", true);
+                    "Danger over time: density " JOX_DENSITY_BY
+                    " and crowd pressure anywhere on the "
+                    "floor, greatest of a sample; load of a person, mean over 1 s. Dashed lines: "
+                    "published limits near the curves.",
+                    true);
     jox_html_subheading(out, "Where");
+    jox_text_add(&how, "Densities of maps and moments: ");
+    jox_page_say_kernel(s, &how);
+    jox_text_add(&how, ". \"Mean\" is the mean of the samples, \"greatest\" the greatest of them.");
+    jox_html_paragraph(out, how.data);
+    jox_text_free(&how);
     jox_write_maps_html(out, s);
     jox_html_subheading(out, "Telling moments");
     jox_write_snapshots_html(out, s);

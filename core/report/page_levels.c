@@ -5,46 +5,55 @@
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
 #include "report/page_parts.h"
+#include "report/page_table.h"
 
 /* N: loads below are written as 0; they are remains, after the last contact, of a mean over a
    second */
 static const float NOTHING = 0.05f;
 
 /* Writes the person-seconds at each of Fruin's levels for queues. */
-static void put_queue_levels(FILE *out, const JoxDanger *danger) {
+static void put_queue_levels(FILE *out, const JoxSubject *s) {
+    const JoxDanger *danger = s->danger;
+    JoxPageTable table = jox_page_table(s, "levels",
+                                        "level|>each person has at least [m2]|>time of all people "
+                                        "[person-seconds]|>share of it [%]|people in such a queue");
     double all = 0.0;
+    table.zero_rows = "Nobody was at level";
     for (int k = 0; k < JOX_LEVELS; k++)
         all += danger->level_s[k];
-    jox_html_table(out, "level|>each has, from|>person-seconds|>share|people in such a queue");
     for (int k = 0; k < JOX_LEVELS; k++) {
-        jox_html_row(out);
-        jox_html_cell(out, jox_levels[k].name);
-        jox_html_cell_number(out, jox_levels[k].queue_area, "m2");
-        jox_html_cell_number(out, danger->level_s[k], "s");
-        jox_html_cell_number(out, all > 0.0 ? 100.0 * danger->level_s[k] / all : NAN, "%");
-        jox_html_cell(out, jox_levels[k].what);
+        char area[32];
+        snprintf(area, sizeof area, "%g", jox_levels[k].queue_area);
+        jox_table_text(&table, jox_levels[k].name);
+        jox_table_text(&table, k + 1 < JOX_LEVELS ? area : "less");
+        jox_table_number(&table, danger->level_s[k]);
+        jox_table_number(&table, all > 0.0 ? 100.0 * danger->level_s[k] / all : NAN);
+        jox_table_text(&table, jox_levels[k].what);
     }
-    jox_html_table_end(out);
+    jox_table_put(out, &table);
 }
 
 /* Writes a table of the areas with their time at each level of service. */
-static void put_area_levels(FILE *out, const JoxDanger *danger) {
-    if (danger->areas.count == 0)
-        return;
-    jox_html_table(out, "area|>size|>most people|>densest, mean of its people|>when|>seconds at "
-                        "A|>B|>C|>D|>E|>F");
+static void put_area_levels(FILE *out, const JoxSubject *s) {
+    const JoxDanger *danger = s->danger;
+    JoxPageTable table = jox_page_table(
+        s, "areas",
+        "area|>size [m2]|>most people at a time|>greatest mean density about its people "
+        "[1/m2]|>at [s]|>time at level A [s]|>at B [s]|>at C [s]|>at D [s]|>at E [s]|>at F [s]");
+    table.zero_rows = "Nobody was seen in";
     for (uint32_t a = 0; a < danger->areas.count; a++) {
         const JoxDangerArea *area = &danger->areas.items[a];
-        jox_html_row(out);
-        jox_html_cell(out, area->name);
-        jox_html_cell_number(out, area->surface, "m2");
-        fprintf(out, "<td class=n>%u", area->most_people);
-        jox_html_cell_number(out, (double)area->most, "1/m2");
-        jox_html_cell_number(out, area->most_time, "s");
+        char size[32];
+        snprintf(size, sizeof size, "%.4g", area->surface);
+        jox_table_text(&table, area->name);
+        jox_table_text(&table, size);
+        jox_table_number(&table, area->most_people);
+        jox_table_number(&table, (double)area->most);
+        jox_table_number(&table, area->most_time);
         for (int k = 0; k < JOX_LEVELS; k++)
-            jox_html_cell_number(out, area->level_s[k], "");
+            jox_table_number(&table, area->level_s[k]);
     }
-    jox_html_table_end(out);
+    jox_table_put(out, &table);
 }
 
 static void put_level_section(FILE *out, const JoxSubject *s) {
@@ -54,28 +63,14 @@ static void put_level_section(FILE *out, const JoxSubject *s) {
              "stand " JOX_DENSITY_BY ". An area "
              "is at the level of the mean density about the people in it; the maps of density have "
              "the same levels on their scales.");
-    jox_html_figure(out, s->folder, "levels",
-                    "Above: how many people were at each level. Below: the level of each area.",
-                    true);
-    put_area_levels(out, s->danger);
-    put_queue_levels(out, s->danger);
-    jox_html_paragraph(out, jox_levels_source);
-}
-
-/* Writes two cells: the total time of a spell, and when it first occurred. */
-static void put_spell_cells(FILE *out, const JoxDanger *danger, const JoxDangerSpell *spell,
-                            bool known) {
-    if (!known) {
-        jox_html_cell(out, "not measured");
-        jox_html_cell(out, "not measured");
-        return;
-    }
-    jox_html_cell_number(out, spell->seconds, "s");
-    if (isfinite(spell->first))
-        fprintf(out, "<td>%.1f&nbsp;s, %.1f&nbsp;min ago", spell->first,
-                jox_danger_minutes_since(danger, spell->first));
-    else
-        jox_html_cell(out, "never");
+    jox_html_figure(
+        out, s->folder, "levels",
+        "Above: how many people were at each level, by the density where they stand " JOX_DENSITY_BY
+        ". Below: the level of each area, by its mean.",
+        true);
+    put_area_levels(out, s);
+    put_queue_levels(out, s);
+    jox_html_statement(out, "Source of the levels:", jox_levels_source);
 }
 
 /* Writes the section on regions of significant congestion. */
@@ -94,76 +89,31 @@ static void put_congestion_section(FILE *out, const JoxSubject *s) {
                            : "the time measured so far, since people are still inside",
              found.time);
     jox_html_paragraph(out, text);
-    jox_html_paragraph(out, jox_congestion_source);
+    jox_html_statement(out, "Source:", jox_congestion_source);
     if (!found.known)
         jox_html_paragraph(out, "Not judged: too little time was measured.");
     else if (found.count == 0)
         jox_html_paragraph(out, "There were none.");
     if (found.count) {
-        jox_html_table(out, "where it lasted longest|>time above|>first|>last|>area|>greatest "
-                            "density");
+        JoxPageTable table =
+            jox_page_table(s, "congestion",
+                           "place where it lasted longest|>time above [s]|>from [s]|>until "
+                           "[s]|>area of the region [m2]|>greatest density in it [1/m2]");
         for (uint32_t r = 0; r < found.count && r < JOX_PAGE_SHOWN; r++) {
             const JoxCongestionRegion *region = &found.regions[r];
             JoxText where = {0};
             jox_describe_point(s, region->at, &where);
-            jox_html_row(out);
-            jox_html_cell(out, where.data);
-            jox_html_cell_number(out, region->seconds, "s");
-            jox_html_cell_number(out, region->first, "s");
-            jox_html_cell_number(out, region->last, "s");
-            jox_html_cell_number(out, region->area, "m2");
-            jox_html_cell_number(out, region->most, "1/m2");
+            jox_table_text(&table, where.data);
+            jox_table_number(&table, region->seconds);
+            jox_table_number(&table, region->first);
+            jox_table_number(&table, region->last);
+            jox_table_number(&table, region->area);
+            jox_table_number(&table, (double)region->most);
             jox_text_free(&where);
         }
-        jox_html_table_end(out);
+        jox_table_put(out, &table);
     }
     jox_congestion_found_free(&found);
-}
-
-/* Writes the section on lines: widths, crossings, flows, levels and stop-and-go. */
-static void put_line_section(FILE *out, const JoxSubject *s) {
-    const JoxDanger *danger = s->danger;
-    const JoxDangerLines *lines = &danger->lines;
-    jox_html_heading(out, "Doors and other lines");
-    if (lines->count == 0) {
-        jox_html_paragraph(out,
-                           "Not measured: the scene has no probe `flow` with a line that people "
-                           "cross.");
-        return;
-    }
-    jox_html_paragraph(
-        out,
-        "A line is measured where walls leave it open, a line of gates over all its gates. "
-        "Crossings are counted from the beginning on in both directions, also those of people who "
-        "step back; the line's probe counts in its own time window, in one direction, less those "
-        "who step back. All else is measured over the ten seconds before each moment and unknown "
-        "for the first ten. Density " JOX_DENSITY_BY " is that of the people within 2 m of the "
-        "line on the side from which most people come. The queue is the people within 10 m there "
-        "in sight of the middle of an opening; it grows by inflow less outflow, people per "
-        "second. Levels are Fruin's for walkways, by flow, but E or F where the area per person "
-        "before the line is that of E or F, since a small flow may mean that nobody can move; the "
-        "seconds are those at A / B / C / D / E / F.");
-    jox_html_table(
-        out, "line|>clear width|>crossed forward, back|>greatest flow|worst level|>seconds at "
-             "levels|>stop-and-go|first|>greatest growth of the queue|>when");
-    for (uint32_t l = 0; l < lines->count; l++) {
-        const JoxDangerLine *line = &lines->items[l];
-        const bool known = line->worst >= 0;
-        jox_html_row(out);
-        jox_html_cell(out, line->name);
-        jox_html_cell_number(out, line->width, "m");
-        fprintf(out, "<td class=n>%u, %u", line->forward, line->back);
-        jox_html_cell_number(out, line->flow_most, "1/(m s)");
-        jox_html_cell(out, known ? jox_levels[line->worst].name : "not measured");
-        fputs("<td class=n>", out);
-        for (int k = 0; k < JOX_LEVELS && known; k++)
-            fprintf(out, "%s%.4g", k ? " / " : "", line->level_s[k]);
-        put_spell_cells(out, danger, &line->stop_and_go, known);
-        jox_html_cell_number(out, line->growth_most, "1/s");
-        jox_html_cell_number(out, line->growth_most_time, "s");
-    }
-    jox_html_table_end(out);
-    jox_html_paragraph(out, jox_stop_and_go_source);
 }
 
 static double greatest_load_of_piece(const JoxDanger *danger, uint32_t k) {
@@ -186,36 +136,43 @@ static void put_wall_section(FILE *out, const JoxSubject *s) {
              "ever over it.",
              JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
-    jox_html_table(out,
-                   "from|to|>at the end|>greatest|>greatest, per metre|>when|>over 4500 N|>first");
+    JoxPageTable table = jox_page_table(
+        s, "wall-loads",
+        "from, m|to, m|>greatest load [N]|>per metre [N/m]|>at [s]|>load at the end [N]|>time over "
+        "4500 N [s]|>first over it at [s]");
     uint32_t order[JOX_PAGE_SHOWN],
         shown = jox_page_rank_greatest(danger, walls->count, greatest_load_of_piece, order);
     for (uint32_t k = 0; k < shown; k++) {
         const JoxDangerPiece *piece = &walls->items[order[k]];
-        jox_html_row(out);
-        fprintf(out, "<td>(%.2f,&nbsp;%.2f)<td>(%.2f,&nbsp;%.2f)", (double)piece->from.x,
-                (double)piece->from.y, (double)piece->to.x, (double)piece->to.y);
-        jox_html_cell_number(out, piece->load < NOTHING ? 0 : (double)piece->load, "N");
-        jox_html_cell_number(out, (double)piece->most, "N");
-        jox_html_cell_number(out, jox_danger_piece_line_load(piece), "N/m");
-        jox_html_cell_number(out, piece->most_time, "s");
-        jox_html_cell_number(out, piece->seconds, "s");
-        jox_html_cell_number(out, piece->first, "s");
+        char point[2][48];
+        snprintf(point[0], sizeof point[0], "(%.2f, %.2f)", (double)piece->from.x,
+                 (double)piece->from.y);
+        snprintf(point[1], sizeof point[1], "(%.2f, %.2f)", (double)piece->to.x,
+                 (double)piece->to.y);
+        jox_table_text(&table, point[0]);
+        jox_table_text(&table, point[1]);
+        jox_table_number(&table, (double)piece->most);
+        jox_table_number(&table, jox_danger_piece_line_load(piece));
+        jox_table_number(&table, piece->most_time);
+        jox_table_number(&table, piece->load < NOTHING ? 0 : (double)piece->load);
+        jox_table_number(&table, piece->seconds);
+        jox_table_number(&table, piece->first);
     }
-    jox_html_table_end(out);
+    if (shown == 0)
+        jox_html_paragraph(out, "Nobody pressed on a wall.");
+    jox_table_put(out, &table);
 }
 
 /* ---- who left ---- */
 
-/* Writes a row of the times by which given shares of the people had left by an exit. */
-static void put_leaving_times(FILE *out, const JoxLeaving *leaving, int32_t exit,
+/* Adds a row of the times by which given shares of the people had left by an exit. */
+static void add_leaving_times(JoxPageTable *table, const JoxLeaving *leaving, int32_t exit,
                               const char *name) {
     static const double SHARES[] = {0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};
-    jox_html_row(out);
-    jox_html_cell(out, name);
-    fprintf(out, "<td class=n>%llu", (unsigned long long)jox_leaving_count(leaving, exit));
+    jox_table_text(table, name);
+    jox_table_number(table, (double)jox_leaving_count(leaving, exit));
     for (size_t k = 0; k < sizeof SHARES / sizeof *SHARES; k++)
-        jox_html_cell_number(out, jox_leaving_quantile(leaving, exit, SHARES[k]), "s");
+        jox_table_number(table, jox_leaving_quantile(leaving, exit, SHARES[k]));
 }
 
 void jox_page_put_leaving(FILE *out, const JoxSubject *s) {
@@ -226,20 +183,24 @@ void jox_page_put_leaving(FILE *out, const JoxSubject *s) {
         return;
     }
     jox_html_paragraph(out, "Times by which the first person, 5 %, 25 % ... of all people who left "
-                            "by an exit had left.");
-    jox_html_table(out, "exit|>people|>first|>5 %|>25 %|>half|>75 %|>95 %|>last");
-    put_leaving_times(out, leaving, JOX_LEFT_ANYWHERE, "all");
+                            "by an exit had left. Each person is counted once, in the step in "
+                            "which they are removed; danger-leaving.csv has each of these times.");
+    JoxPageTable table = jox_page_table(
+        s, "leaving",
+        "exit|>people|>first [s]|>5 % [s]|>25 % [s]|>half [s]|>75 % [s]|>95 % [s]|>last [s]");
+    table.zero_rows = "Nobody left by";
+    add_leaving_times(&table, leaving, JOX_LEFT_ANYWHERE, "all");
     for (uint32_t e = 0; e < s->danger->exit_count; e++)
-        put_leaving_times(out, leaving, (int32_t)e, s->danger->exit_names[e]);
+        add_leaving_times(&table, leaving, (int32_t)e, s->danger->exit_names[e]);
     if (s->danger->exit_count && jox_leaving_count(leaving, JOX_LEFT_ELSEWHERE))
-        put_leaving_times(out, leaving, JOX_LEFT_ELSEWHERE, "elsewhere");
-    jox_html_table_end(out);
+        add_leaving_times(&table, leaving, JOX_LEFT_ELSEWHERE, "elsewhere");
+    jox_table_put(out, &table);
     jox_html_figure(out, s->folder, "leaving", "People who have left over time", true);
 }
 
 void jox_page_put_levels(FILE *out, const JoxSubject *s) {
     put_level_section(out, s);
     put_congestion_section(out, s);
-    put_line_section(out, s);
+    jox_page_put_lines(out, s);
     put_wall_section(out, s);
 }

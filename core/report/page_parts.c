@@ -5,8 +5,10 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/format/quote.h"
 #include "base/mem.h"
 #include "picture/html.h"
+#include "picture/plot.h"
 #include "picture/probe_files.h"
 
 /* ---- figures ---- */
@@ -69,25 +71,95 @@ void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
     jox_text_free(&window);
 }
 
-void jox_page_put_figures(FILE *out, const JoxPageFigures *f, const char *heads,
-                          void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
-                          void *context) {
+/* Returns the figure of the same group and name; NULL: there is none, as nobody left there. */
+static const JoxPageFigure *find_same_figure(const JoxPageFigures *in, const JoxPageFigure *a) {
+    for (uint32_t k = 0; in && k < in->count; k++)
+        if (strcmp(in->items[k].name, a->name) == 0 && strcmp(in->items[k].group, a->group) == 0)
+            return &in->items[k];
+    return NULL;
+}
+
+static bool is_nothing_figure(const JoxPageFigure *f) {
+    return !f || (!f->none && !(isfinite(f->value) && f->value != 0.0));
+}
+
+/* Writes a cell with the difference between two values, also in % of the first. */
+static void put_difference(FILE *out, double whole, double half) {
+    const double change = half - whole;
+    fputs("<td class=n>", out);
+    if (isfinite(change) && whole != 0.0)
+        fprintf(out, "%+.3g (%+.1f&nbsp;%%)", change, 100.0 * change / fabs(whole));
+    else if (isfinite(change))
+        fprintf(out, "%+.3g", change);
+    else
+        fputs("&ndash;", out);
+}
+
+/* Writes the cells of the run at half the step: the same figure, and the difference. */
+static void put_half_step_cells(FILE *out, const JoxPageFigure *a, const JoxPageFigure *b) {
+    if (b)
+        jox_page_put_value(out, b);
+    else
+        jox_html_cell_number(out, NAN, a->unit);
+    put_difference(out, a->value, b ? b->value : NAN);
+}
+
+/* Writes table-figures.csv: all figures, those that are 0 too. */
+static bool write_figure_csv(const JoxSubject *s, const JoxPageFigures *f,
+                             const JoxPageFigures *half) {
+    FILE *out = jox_plot_open(s->folder, "table-figures.csv", s->error);
+    if (!out)
+        return false;
+    fputs(half ? "group,figure,unit,value,at half the step\n" : "group,figure,unit,value\n", out);
+    for (uint32_t i = 0; i < f->count; i++) {
+        const JoxPageFigure *a = &f->items[i], *b = find_same_figure(half, a);
+        jox_quote_put(out, jox_quote_csv, a->group);
+        fputc(',', out);
+        jox_quote_put(out, jox_quote_csv, a->name);
+        fprintf(out, ",%s,", a->unit);
+        if (isfinite(a->value))
+            fprintf(out, "%.9g", a->value);
+        if (half)
+            fputc(',', out);
+        if (b && isfinite(b->value))
+            fprintf(out, "%.9g", b->value);
+        fputc('\n', out);
+    }
+    return jox_plot_close(out, "table-figures.csv", s->error);
+}
+
+void jox_page_put_figures(FILE *out, const JoxSubject *s, const JoxPageFigures *f,
+                          const char *heads, const JoxPageFigures *half) {
     const char *group = "";
+    char text[160];
+    uint32_t left_out = 0;
     jox_html_table(out, heads);
     for (uint32_t i = 0; i < f->count; i++) {
-        if (strcmp(group, f->items[i].group) != 0) {
-            group = f->items[i].group;
+        const JoxPageFigure *a = &f->items[i], *b = find_same_figure(half, a);
+        if (is_nothing_figure(a) && is_nothing_figure(b)) {
+            left_out++;
+            continue;
+        }
+        if (strcmp(group, a->group) != 0) {
+            group = a->group;
             jox_html_row(out);
             fputs("<th colspan=9>", out);
             jox_html_text(out, group);
         }
         jox_html_row(out);
-        jox_html_cell(out, f->items[i].name);
-        jox_page_put_value(out, &f->items[i]);
-        if (beside)
-            beside(out, &f->items[i], context);
+        jox_html_cell(out, a->name);
+        jox_page_put_value(out, a);
+        if (half)
+            put_half_step_cells(out, a, b);
     }
     jox_html_table_end(out);
+    if (left_out) {
+        snprintf(text, sizeof text, "%u more %s 0 or not known; table-figures.csv has all.",
+                 left_out, left_out == 1 ? "is" : "are");
+        jox_html_paragraph(out, text);
+    }
+    if (write_figure_csv(s, f, half))
+        jox_html_csv(out, "table-figures.csv");
 }
 
 void jox_page_release(JoxPageFigures *f) {
@@ -96,6 +168,18 @@ void jox_page_release(JoxPageFigures *f) {
         jox_free(f->items[i].name);
     }
     jox_free(f->items);
+}
+
+JoxPageTable jox_page_table(const JoxSubject *s, const char *name, const char *heads) {
+    return (JoxPageTable){.name = name, .folder = s->folder, .error = s->error, .heads = heads};
+}
+
+void jox_page_say_kernel(const JoxSubject *s, JoxText *out) {
+    jox_text_printf(
+        out,
+        "Gaussian, R = 1 m (standard deviation %.2f m), bounded by walls; cells of %.3g "
+        "m; a sample each %g s, no smoothing over time",
+        (double)JOX_DENSITY_KERNEL, (double)s->grid->cell, 0.5);
 }
 
 void jox_page_put_validation(FILE *out) {

@@ -6,7 +6,10 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "base/format/path.h"
+#include "report/page_table.h"
 #include "report/subject.h"
+#include "scene/scene.h"
 
 /* A named figure. Figures are listed in order, those of one group next to each other. */
 typedef struct JoxPageFigure {
@@ -34,24 +37,40 @@ void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe);
 void jox_page_put_value(FILE *out, const JoxPageFigure *figure);
 void jox_page_release(JoxPageFigures *f);
 
+/* Writes the head of a report and opens the table of facts about it with what the scene gives
+   (`given`, or NULL) and the date; jox_html_fact adds to it, jox_html_table_end ends it. `about` is
+   a line below the title, `foot` the running text at the foot of printed pages. */
+void jox_page_begin(FILE *out, const JoxSubject *subject, const JoxSceneReport *given,
+                    const char *about, const char *foot);
+/* Writes lines to sign, with the names given. */
+void jox_page_put_signatures(FILE *out, const JoxSceneReport *given);
+/* Writes the name of a file as pages show it: relative to the present folder, or to that of the
+   scene (or NULL), or its name alone. Returns `out`. */
+const char *jox_page_path(const char *path, const char *scene, char out[JOX_LONGEST_PATH]);
+
 /* Write sections of the page. jox_page_put_crowd writes the plan, the other three, and the
    probes' figures; leaving: who left when; danger: limits, maps and moments; levels: levels of
-   service, congestion, lines and walls. */
+   service, congestion, lines (of its own: lines) and walls. */
 void jox_page_put_crowd(FILE *out, const JoxSubject *subject);
 void jox_page_put_leaving(FILE *out, const JoxSubject *subject);
 void jox_page_put_danger(FILE *out, const JoxSubject *subject);
 void jox_page_put_levels(FILE *out, const JoxSubject *subject);
+void jox_page_put_lines(FILE *out, const JoxSubject *subject);
+/* Returns an empty table of a subject's page (page_table.h). */
+JoxPageTable jox_page_table(const JoxSubject *subject, const char *name, const char *heads);
+/* Appends how the densities of a subject's maps are made: kernel, walls, cells, sampling. */
+void jox_page_say_kernel(const JoxSubject *subject, JoxText *out);
 enum { JOX_PAGE_SHOWN = 10 }; /* most rows in a table of people or wall pieces */
 /* Ranks the indices 0 to `count` - 1 by value and puts those with the greatest values above 0
    into `order`, descending. Returns how many there are. */
 uint32_t jox_page_rank_greatest(const JoxDanger *danger, uint32_t count,
                                 double (*value)(const JoxDanger *danger, uint32_t k),
                                 uint32_t order[JOX_PAGE_SHOWN]);
-/* Writes a table of figures with a heading row per group. `heads` is as in jox_html_table.
-   `beside`, or NULL, writes further cells behind each value. */
-void jox_page_put_figures(FILE *out, const JoxPageFigures *figures, const char *heads,
-                          void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
-                          void *context);
+/* Writes a table of the figures that are not 0, with a heading row per group, and all of them as
+   table-figures.csv. `heads` is as in jox_html_table. `half`, or NULL: the figures at half the
+   step, which are written behind each value with the difference. */
+void jox_page_put_figures(FILE *out, const JoxSubject *subject, const JoxPageFigures *figures,
+                          const char *heads, const JoxPageFigures *half);
 /* Writes the definitions of the danger measures. */
 void jox_page_put_definitions(FILE *out, const JoxDanger *danger);
 /* Writes the heading and first paragraph of the section on validation. */

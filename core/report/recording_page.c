@@ -12,6 +12,7 @@
 #include "base/format/plurals.h"
 #include "base/hash.h"
 #include "picture/html.h"
+#include "picture/html_sections.h"
 #include "picture/plot.h"
 #include "report/page_parts.h"
 #include "report/report.h"
@@ -35,14 +36,14 @@ static JoxPageFigures collect_recording_figures(const JoxReport *r) {
     return f;
 }
 
-static void put_recording_figures(FILE *out, const JoxReport *r) {
+static void put_recording_figures(FILE *out, const JoxReport *r, const JoxSubject *s) {
     JoxPageFigures f = collect_recording_figures(r);
     jox_html_heading(out, "All figures");
     jox_html_paragraph(out,
                        "A person has left at the first frame in which they are missing, if they "
                        "never return. Where a recording shows only a part of a place, leaving "
                        "means leaving the picture.");
-    jox_page_put_figures(out, &f, "figure|>value", NULL, NULL);
+    jox_page_put_figures(out, s, &f, "figure|>value", NULL);
     jox_page_release(&f);
 }
 
@@ -81,39 +82,66 @@ static void hash_file(const char *path, char out[65]) {
         close(file);
 }
 
+static void add_recorded_file(JoxPageTable *table, const JoxReport *r, const char *what,
+                              const char *path, const char *sha256) {
+    char shown[JOX_LONGEST_PATH];
+    jox_table_text(table, jox_page_path(path, r->def->scene, shown));
+    jox_table_text(table, what);
+    jox_table_text(table, sha256);
+}
+
 /* Writes the command that repeats the report, and its input files with their hashes. */
-static void put_recording_inputs(FILE *out, const JoxReport *r) {
-    char hash[65];
+static void put_recording_inputs(FILE *out, const JoxReport *r, const JoxSubject *s,
+                                 const char hash[65]) {
+    char path[JOX_LONGEST_PATH];
+    JoxPageTable table = jox_page_table(s, "files", "file|what it is|SHA-256");
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle report ", out);
-    jox_html_argument(out, r->def->recording);
+    jox_html_argument(out, jox_page_path(r->def->recording, NULL, path));
     if (r->def->scene) {
         fputs(" --scene ", out);
-        jox_html_argument(out, r->def->scene);
+        jox_html_argument(out, jox_page_path(r->def->scene, NULL, path));
     }
     if (r->def->fps > 0.0)
         fprintf(out, " --fps %g", r->def->fps);
     if (r->def->unit > 0.0)
         fprintf(out, " --unit %s", r->def->unit == 1.0 ? "m" : "cm");
     fputs(" --out DIR</code></p>\n", out);
-    jox_html_table(out, "input|SHA-256");
-    hash_file(r->def->recording, hash);
-    jox_html_row(out);
-    jox_html_cell(out, r->def->recording);
-    jox_html_cell(out, hash);
-    for (uint32_t f = 0; r->spec && f < r->spec->file_count; f++) {
-        jox_html_row(out);
-        jox_html_cell(out, r->spec->files[f].path);
-        jox_html_cell(out, r->spec->files[f].sha256);
-    }
+    add_recorded_file(&table, r, "recording", r->def->recording, hash);
+    for (uint32_t f = 0; r->spec && f < r->spec->file_count; f++)
+        add_recorded_file(&table, r, f ? "part of the scene" : "scene", r->spec->files[f].path,
+                          r->spec->files[f].sha256);
+    jox_table_put(out, &table);
+}
+
+/* Writes the head of the page, with the facts of the recording, and lines to sign. */
+static void put_recording_title(FILE *out, const JoxReport *r, const JoxSubject *s,
+                                const char hash[65]) {
+    const JoxSceneReport *given = r->spec ? &r->spec->report : NULL;
+    char path[JOX_LONGEST_PATH], foot[400], program[64], measured[120];
+    jox_page_path(r->def->recording, NULL, path);
+    snprintf(foot, sizeof foot, "Jostle %s, %.200s, SHA-256 %.16s", jo_version(),
+             jox_path_name(path), hash);
+    snprintf(program, sizeof program, "Jostle %s", jo_version());
+    snprintf(measured, sizeof measured, "%.6g to %.6g s, %g frames a second", s->from, s->until,
+             r->crowd->fps);
+    jox_page_begin(out, s, given, "A report on a recording.", foot);
+    jox_html_fact(out, "Recording", path);
+    jox_html_fact(out, "SHA-256 of the recording", hash);
+    if (r->def->scene)
+        jox_html_fact(out, "Scene of its plan", jox_page_path(r->def->scene, NULL, path));
+    jox_html_fact(out, "Measured", measured);
+    jox_html_fact(out, "Program", program);
     jox_html_table_end(out);
+    jox_page_put_signatures(out, given);
 }
 
 static void put_recording_summary(FILE *out, const JoxReport *r, const JoxSubject *subject) {
     JoxText text = {0};
     jox_html_heading(out, "Summary");
     fputs("<div class=summary>\n", out);
-    jox_text_printf(&text, "The recording %s: ", r->def->recording);
+    char path[JOX_LONGEST_PATH];
+    jox_text_printf(&text, "The recording %s: ", jox_page_path(r->def->recording, NULL, path));
     jox_text_noun(&text, r->crowd->people, "person|people");
     jox_text_printf(&text, ", %.1f to %.1f s, ", subject->from, subject->until);
     jox_text_noun(&text, r->crowd->frame_count, "frame");
@@ -132,20 +160,29 @@ static void put_recording_summary(FILE *out, const JoxReport *r, const JoxSubjec
 }
 
 bool jox_report_page(const JoxReport *r, JoxText *error) {
-    FILE *out = jox_plot_open(r->def->directory, "index.html", error);
-    if (!out)
+    FILE *page = jox_plot_open(r->def->directory, "index.html", error);
+    JoxHtmlBody body;
+    char hash[65];
+    if (!page)
         return false;
-    const JoxSubject subject = jox_report_subject(r);
-    jox_html_begin(out, subject.title);
-    put_recording_summary(out, r, &subject);
-    jox_page_put_crowd(out, &subject);
-    put_recording_figures(out, r);
-    jox_html_heading(out, "How danger is measured");
-    jox_page_put_definitions(out, subject.danger);
-    put_recording_validation(out, r);
-    put_recording_inputs(out, r);
-    jox_html_end(out);
-    return jox_plot_close(out, "index.html", error);
+    JoxSubject subject = jox_report_subject(r);
+    subject.error = error;
+    hash_file(r->def->recording, hash);
+    jox_html_body_begin(&body);
+    FILE *out = body.out;
+    if (out) {
+        put_recording_title(page, r, &subject, hash);
+        put_recording_summary(out, r, &subject);
+        jox_page_put_crowd(out, &subject);
+        put_recording_figures(out, r, &subject);
+        jox_html_heading(out, "How danger is measured");
+        jox_page_put_definitions(out, subject.danger);
+        put_recording_validation(out, r);
+        put_recording_inputs(out, r, &subject, hash);
+        jox_html_body_put(page, &body);
+        jox_html_end(page);
+    }
+    return jox_plot_close(page, "index.html", error) && out && !error->length;
 }
 
 const JoxWalls *jox_report_walls(const JoxReport *r) {

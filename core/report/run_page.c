@@ -9,9 +9,11 @@
 #include "base/guard.h"
 #include "jostle_tools.h"
 #include "picture/html.h"
+#include "picture/html_sections.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
 #include "record/danger/trust.h"
+#include "report/page_inputs.h"
 #include "report/page_parts.h"
 #include "report/run_subject.h"
 #include "run/figure_listeners.h"
@@ -80,37 +82,10 @@ static JoxPageFigures collect_run_figures(const JoScene *scene) {
 
 /* ---- parts of the page ---- */
 
-/* Writes a cell with the difference between two values, also in % of the first. */
-static void put_step_difference(FILE *out, double whole, double half) {
-    double change = half - whole;
-    fputs("<td class=n>", out);
-    if (isfinite(change) && whole != 0.0)
-        fprintf(out, "%+.3g (%+.1f&nbsp;%%)", change, 100.0 * change / fabs(whole));
-    else if (isfinite(change))
-        fprintf(out, "%+.3g", change);
-    else
-        fputs("&ndash;", out);
-}
-
-/* Writes the cells of the run at half the step: the figure of the same group and name, and the
-   difference. It may be missing, if somebody left elsewhere in one of the runs. */
-static void put_half_step_cells(FILE *out, const JoxPageFigure *a, void *context) {
-    const JoxPageFigures *other = context;
-    const JoxPageFigure *b = NULL;
-    for (uint32_t k = 0; k < other->count && !b; k++)
-        if (strcmp(other->items[k].name, a->name) == 0 &&
-            strcmp(other->items[k].group, a->group) == 0)
-            b = &other->items[k];
-    if (b)
-        jox_page_put_value(out, b);
-    else
-        jox_html_cell_number(out, NAN, a->unit);
-    put_step_difference(out, a->value, b ? b->value : NAN);
-}
-
 /* Writes the table of all figures, beside those at half the step (`half`), or the reason `why`
    the run was not repeated. */
-static void put_run_figures(FILE *out, const JoScene *scene, const JoScene *half, const char *why) {
+static void put_run_figures(FILE *out, const JoxSubject *s, const JoScene *scene,
+                            const JoScene *half, const char *why) {
     JoxPageFigures whole = collect_run_figures(scene), other = {0};
     char heads[128], text[512];
     jox_html_heading(out, "All figures");
@@ -130,7 +105,7 @@ static void put_run_figures(FILE *out, const JoScene *scene, const JoScene *half
         snprintf(heads, sizeof heads, "figure|>step %g s", scene->world->model.def.dt);
     }
     jox_html_paragraph(out, text);
-    jox_page_put_figures(out, &whole, heads, half ? put_half_step_cells : NULL, &other);
+    jox_page_put_figures(out, s, &whole, heads, half ? &other : NULL);
     jox_page_release(&whole);
     jox_page_release(&other);
 }
@@ -142,7 +117,9 @@ static void put_scene_statement(FILE *out, const JoScene *scene, const JoxSubjec
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
     JoxText text = {0}, demand = {0};
-    jox_text_printf(&text, "The scene %s (%s): ", subject->title, spec->path);
+    char path[JOX_LONGEST_PATH];
+    jox_text_printf(&text, "The scene %s (%s): ", subject->title,
+                    jox_page_path(spec->path, NULL, path));
     jox_text_noun(&text, world->state.agents.next_id, "person|people");
     for (uint32_t g = 0; g < spec->group_count && spec->group_count > 1 && g < MOST_GROUPS; g++) {
         char count[JOX_NOUN];
@@ -160,8 +137,6 @@ static void put_scene_statement(FILE *out, const JoScene *scene, const JoxSubjec
                     ", simulated once for %.1f s in steps of %g s with seed %llu by Jostle %s.",
                     subject->until, world->model.def.dt, (unsigned long long)world->model.def.seed,
                     jo_version());
-    if (spec->about && *spec->about) /* its first sentence; the others are about the live page */
-        jox_text_printf(&text, " %.*s", (int)(strcspn(spec->about, ".") + 1), spec->about);
     jox_html_statement(out, "What was run.", text.data);
     jox_run_say_demand(scene, &demand);
     if (demand.length)
@@ -237,13 +212,24 @@ static void put_model_notes(FILE *out, const JoScene *scene) {
     jox_diag_free(&notes);
 }
 
+/* Adds a file with its hash. */
+static void add_input_file(JoxPageTable *table, const JoScene *scene, const char *what,
+                           const char *path, const char *sha256) {
+    char shown[JOX_LONGEST_PATH];
+    jox_table_text(table, jox_page_path(path, scene->spec->path, shown));
+    jox_table_text(table, what);
+    jox_table_text(table, sha256);
+}
+
 /* Writes the command that repeats the run, and its input files with their hashes. */
-static void put_run_inputs(FILE *out, const JoScene *scene) {
+static void put_run_inputs(FILE *out, const JoScene *scene, const JoxSubject *s) {
     const JoSceneDef *def = &scene->def;
     const JoWorld *world = scene->world;
+    char path[JOX_LONGEST_PATH];
+    JoxPageTable table = jox_page_table(s, "files", "file|what it is|SHA-256");
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle run ", out);
-    jox_html_argument(out, def->path);
+    jox_html_argument(out, jox_page_path(def->path, NULL, path));
     fprintf(out, " --seed %llu --dt %g --steps %llu", (unsigned long long)world->model.def.seed,
             world->model.def.dt, (unsigned long long)world->state.statistics.steps);
     for (size_t i = 0; i < def->override_count; i++) {
@@ -252,33 +238,48 @@ static void put_run_inputs(FILE *out, const JoScene *scene) {
     }
     fprintf(out, "</code>: state hash %016llx, whatever the number of threads.</p>\n",
             (unsigned long long)jox_world_hash(world));
-    jox_html_table(out, "input|SHA-256");
-    for (uint32_t f = 0; f < scene->spec->file_count; f++) {
-        jox_html_row(out);
-        jox_html_cell(out, scene->spec->files[f].path);
-        jox_html_cell(out, scene->spec->files[f].sha256);
-    }
+    for (uint32_t f = 0; f < scene->spec->file_count; f++)
+        add_input_file(&table, scene, f ? "part of the scene" : "scene", scene->spec->files[f].path,
+                       scene->spec->files[f].sha256);
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, world->model.machines.items[m], &count);
-        for (uint32_t f = 0; f < count; f++) {
-            jox_html_row(out);
-            jox_html_cell(out, files[f].path);
-            jox_html_cell(out, files[f].sha256);
-        }
+        for (uint32_t f = 0; f < count; f++)
+            add_input_file(&table, scene, "behaviour", files[f].path, files[f].sha256);
     }
-    if (scene->input_path) {
-        jox_html_row(out);
-        jox_html_cell(out, scene->input_path);
-        jox_html_cell(out, scene->input_sha256);
-    }
-    jox_html_table_end(out);
+    if (scene->input_path)
+        add_input_file(&table, scene, "input log", scene->input_path, scene->input_sha256);
+    jox_table_put(out, &table);
     for (uint32_t m = 0; m < scene->mods->count; m++) {
         char mod[300];
         snprintf(mod, sizeof mod, "With the mod %.100s %.40s.", scene->mods->items[m].name,
                  scene->mods->items[m].version);
         jox_html_paragraph(out, mod);
     }
+}
+
+/* Writes the head of the page, with the facts of the run, and lines to sign. */
+static void put_run_title(FILE *out, const JoScene *scene, const JoxSubject *s) {
+    const JoxSceneSpec *spec = scene->spec;
+    const JoWorld *world = scene->world;
+    char path[JOX_LONGEST_PATH], about[300] = "", foot[400], run[160], hash[32], program[64];
+    snprintf(program, sizeof program, "Jostle %s", jo_version());
+    jox_page_path(spec->path, NULL, path);
+    snprintf(hash, sizeof hash, "%016llx", (unsigned long long)jox_world_hash(world));
+    snprintf(foot, sizeof foot, "Jostle %s, %.200s, seed %llu, state %s", jo_version(),
+             jox_path_name(path), (unsigned long long)world->model.def.seed, hash);
+    snprintf(run, sizeof run, "%.6g s in steps of %g s, one run, seed %llu", s->until,
+             world->model.def.dt, (unsigned long long)world->model.def.seed);
+    if (spec->about) /* its first sentence; the others are about the live page */
+        snprintf(about, sizeof about, "%.*s", (int)(strcspn(spec->about, ".") + 1), spec->about);
+    jox_page_begin(out, s, &spec->report, about, foot);
+    jox_html_fact(out, "Scene", path);
+    jox_html_fact(out, "SHA-256 of the scene", spec->file_count ? spec->files[0].sha256 : NULL);
+    jox_html_fact(out, "Simulated", run);
+    jox_html_fact(out, "State hash at the end", hash);
+    jox_html_fact(out, "Program", program);
+    jox_html_table_end(out);
+    jox_page_put_signatures(out, &spec->report);
 }
 
 bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
@@ -288,17 +289,23 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
     JOX_GUARD (NULL, error)
         return false;
     JoxText text = {0};
-    FILE *out = jox_plot_open(directory, "index.html", &text);
+    JoxHtmlBody body;
+    FILE *page = jox_plot_open(directory, "index.html", &text), *out = NULL;
+    if (page) {
+        jox_html_body_begin(&body);
+        out = body.out;
+    }
     if (out) {
         JoxSubject subject = jox_run_subject(scene, directory);
-        jox_html_begin(out, subject.title);
+        subject.error = &text;
+        put_run_title(page, scene, &subject);
         put_run_summary(out, scene, &subject);
+        jox_page_put_inputs(out, scene, &subject, jox_run_drawn_values(scene));
         jox_page_put_crowd(out, &subject);
         put_run_pictures(out, scene, directory);
-        put_run_figures(out, scene, half, why);
+        put_run_figures(out, &subject, scene, half, why);
         jox_html_heading(out, "How danger is measured");
         jox_page_put_definitions(out, subject.danger);
-        jox_run_subject_free(&subject);
         jox_page_put_validation(out);
         jox_html_paragraph(
             out,
@@ -310,10 +317,12 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
             "Read the limits as places and times to look at, not as a count of injured; run "
             "several seeds before comparing plans.");
         put_model_notes(out, scene);
-        put_run_inputs(out, scene);
-        jox_html_end(out);
+        put_run_inputs(out, scene, &subject);
+        jox_run_subject_free(&subject);
+        jox_html_body_put(page, &body);
+        jox_html_end(page);
     }
-    bool good = out && jox_plot_close(out, "index.html", &text);
+    bool good = page && out && jox_plot_close(page, "index.html", &text) && !text.length;
     if (good)
         jox_run_say(scene, "report: %s/index.html\n", directory);
     else

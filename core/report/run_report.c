@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/path.h"
 #include "base/format/quote.h"
 #include "base/guard.h"
 #include "base/mem.h"
@@ -14,6 +15,7 @@
 #include "picture/plot.h"
 #include "picture/probe_files.h"
 #include "report/danger_outputs.h"
+#include "report/drawn_values.h"
 #include "report/run_subject.h"
 #include "run/figure_listeners.h"
 #include "run/present_frame.h"
@@ -31,6 +33,7 @@ typedef struct RunReport {
     FILE *folder_lock; /* lock on the folder, held until release */
     JoxPaths *paths;   /* NULL for jo_scene_data: CSV files only */
     JoxStory story;
+    JoxDrawnValues drawn;
 } RunReport;
 
 static const JoxListenerKind REPORT;
@@ -82,6 +85,7 @@ static bool sample_run(void *self, JoScene *scene, JoError *error) {
     float time = (float)jo_world_time(world);
     (void)error;
     sample_story(r, scene);
+    jox_drawn_values_add(&r->drawn, world);
     if (!jox_run_is_sample_due(scene, PACE))
         return true;
     for (uint32_t rank = 0; rank < a->count; rank++) {
@@ -167,7 +171,7 @@ static bool draw_run_report(const RunDrawing *d, JoxText *why) {
     const RunReport *r = d->report;
     const JoScene *scene = d->scene;
     char title[256];
-    const char *name = scene->spec->title ? scene->spec->title : scene->spec->path;
+    const char *name = scene->spec->title ? scene->spec->title : jox_path_name(scene->spec->path);
     const double until = jo_world_time(scene->world);
     const JoxRegions *regions = jox_run_regions(scene);
     const bool paths = scene->world->state.agents.next_id <= JOX_MOST_PATHS && r->paths->count;
@@ -218,6 +222,8 @@ static void list_report_sections(void *self, JoxSections *s) {
         jox_paths_sections(r->paths, s);
     if (r->paths)
         jox_story_sections(&r->story, s);
+    if (r->paths)
+        jox_drawn_values_sections(&r->drawn, s);
 }
 
 static void release_run_report(void *self) {
@@ -227,6 +233,7 @@ static void release_run_report(void *self) {
     jox_free(r->folder);
     jox_paths_free(r->paths);
     jox_story_free(&r->story);
+    jox_free(r->drawn.items);
 }
 
 static const JoxListenerKind REPORT = {.name = "report",
@@ -245,6 +252,12 @@ static const JoxListenerKind DATA = {.name = "data files",
                                      .end = end_data_files,
                                      .release = release_run_report};
 
+const JoxDrawnValues *jox_run_drawn_values(const JoScene *scene) {
+    static const JoxDrawnValues none;
+    const RunReport *report = jox_run_find_listener(scene, &REPORT);
+    return report ? &report->drawn : &none;
+}
+
 JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
     const RunReport *report = jox_run_find_listener(scene, &REPORT);
     static const JoxStory none;
@@ -254,7 +267,7 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
     const JoxProbe **probes = jox_alloc(spec->probe_count + 1, sizeof *probes);
     for (uint32_t p = 0; p < spec->probe_count; p++)
         probes[p] = jox_run_probe(scene, p);
-    return (JoxSubject){.title = spec->title ? spec->title : spec->path,
+    return (JoxSubject){.title = spec->title ? spec->title : jox_path_name(spec->path),
                         .folder = folder,
                         .danger = jox_run_danger(scene),
                         .grid = local->grid,

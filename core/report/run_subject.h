@@ -3,6 +3,7 @@
 #ifndef JOX_REPORT_RUN_SUBJECT_H
 #define JOX_REPORT_RUN_SUBJECT_H
 
+#include "report/drawn_values.h"
 #include "report/subject.h"
 #include "run/run.h"
 
@@ -10,5 +11,7 @@
    jox_run_subject_free frees its own arrays. */
 JoxSubject jox_run_subject(const JoScene *scene, const char *folder);
 void jox_run_subject_free(JoxSubject *subject);
+/* Returns the values of people that the run's report collected; empty without a report. */
+const JoxDrawnValues *jox_run_drawn_values(const JoScene *scene);
 
 #endif

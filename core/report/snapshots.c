@@ -112,12 +112,14 @@ static bool is_moment_shown(const JoxSubject *s, int kind) {
 void jox_write_snapshots_html(FILE *out, const JoxSubject *s) {
     jox_maps_panels(out, s);
     for (int kind = 0; kind < JOX_MOMENTS; kind++) {
-        char file[32], title[128], when[64], caption[200];
+        char file[32], title[128], when[64], caption[320];
         if (!is_moment_shown(s, kind))
             continue;
         write_moment_names(s, kind, title, when);
         snprintf(file, sizeof file, "snapshot-%d", kind + 1);
-        snprintf(caption, sizeof caption, "%s, %s", title, when);
+        snprintf(caption, sizeof caption,
+                 "%s, %s. Floor: density " JOX_DENSITY_BY ", cells of %.3g m", title, when,
+                 (double)s->grid->cell);
         jox_html_figure(out, s->folder, file, caption, false);
     }
     jox_html_panels_end(out);

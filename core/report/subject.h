@@ -28,6 +28,7 @@ typedef struct JoxSubject {
     /* Overlap that 99 % of people stay below, as a share of their depth; and 99 % of those who
        touch, m. NAN: not known. */
     double overlap_p99, depth_p99;
+    JoxText *error; /* gets a sentence if a file of the page cannot be written */
 } JoxSubject;
 
 /* describe_point.c: appends a point in words, as "(18.1, 0.6) m, 0.6 m from the line south, in

@@ -3,6 +3,8 @@
    `include` by format/yaml_files.c, `mods` by mods_find.c, what a mod says about others by
    mods_read.c. */
 #include "geom/place_kinds.h"
+#include "scene/mod_key_rows.h"
+#include "scene/report_key_rows.h"
 #include "scene/scene_draft.h"
 
 #define FAR JOX_FARTHEST
@@ -97,6 +99,7 @@ static const JoxKey KEYS[] = {
     {"scene", "guard", TABLE, "", 0, 0, "", SAME_STRUCT, .content = "guard", .example = "guard: {people: remove, bodies: stop}",
      RESTART("the world is made with it"), .meaning = "what to do with people and bodies whose numbers become invalid"},
     {"scene", "limits", TABLE, "", 0, 0, "", TO(JoxSceneSpec, limits), .content = "limits", RESTART("behaviours are loaded under them"), .meaning = "limits on scripts"},
+    {"scene", "report", TABLE, "", 0, 0, "", TO(JoxSceneSpec, report), .content = "report", .example = "report: {author: A. Engineer, project: Station hall}", .meaning = "who made a report, and for what: its title block"},
     {"scene", "heatmap", TABLE, "", 0, 0, "", SAME_STRUCT, .content = "heatmap",
      .meaning = "area and time of the density map"},
     {"scene", "camera", TABLE, "", 0, 0, "", TO(JoxSceneSpec, camera), .content = "camera",
@@ -122,6 +125,7 @@ static const JoxKey KEYS[] = {
     {"scene", "floor", TEXT, "", 0, 0, "plain", TO(JoxSceneSpec, floor), .choices = FLOORS, .meaning = "material of the floor on the live page"},
     {"scene", "scenery", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, scenery, scenery_count), .example = "scenery: [{kind: tree, at: [2, 3]}]", .content = "scenery[]", .meaning = "things that the live page draws around people; no obstacles"},
 
+    JOX_REPORT_KEY_ROWS
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", TO(JoxSceneSpec, literal), .choices = "physical|literal",
      .meaning = "literal: the equations as they were printed (core/paper.md); parameters that they do not have are noted, as they then have no effect"},
@@ -281,6 +285,7 @@ static const JoxKey KEYS[] = {
     {"group", "memory", VALUES, "", 0, 0, "", READ_TO(jox_key_read_values, JoxGroup, memory, memory_count), .content = "draw*",
      .meaning = "values of their memory at the start"},
 
+    JOX_BASIS_KEY_ROW
     {"profile", "share", NUMBER, "", 1e-6, 1e6, "1", TO(JoxProfile, share), .meaning = "weight among the profiles of the group"},
     {"profile", "set", VALUES, "", 0, 0, "", READ_TO(jox_key_read_values, JoxProfile, set, set_count), .content = "value*",
      .meaning = "values in place of those that the group sets"},
@@ -376,21 +381,7 @@ static const JoxKey KEYS[] = {
     {"event", "lasts", NUMBER, "s", 0.01, 1e4, "", TO(JoxEvent, lasts), .meaning = "of a push: its duration"},
     {"event", "signal", TEXT, "", 0, 0, "", READ(jox_key_read_event_name), SELECTS(JOX_EVENT_SIGNAL), .meaning = "gives a signal that everybody hears, however far, by `heard`"},
 
-    {"mod", "name", TEXT, "", 0, 0, "!", TO(JoxMod, name), .meaning = "name of the mod: lower-case letters, digits, - and _"},
-    {"mod", "title", TEXT, "", 0, 0, "", TO(JoxMod, title), .meaning = "title for people"},
-    {"mod", "version", TEXT, "", 0, 0, "!", TO(JoxMod, version), .meaning = "three numbers: 1.2.0"},
-    {"mod", "api", WHOLE, "", 1, 1, "!", CHECKED, .meaning = "version of the engine's interface for mods"},
-    {"mod", "depends", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that it needs, which come before it: NAME, or \"NAME >= 1.2\""},
-    {"mod", "optional", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that it uses if they are applied, which come before it"},
-    {"mod", "conflicts", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that cannot be applied together with it"},
-    {"mod", "load_after", NAMES, "", 0, 0, "", EARLIER, .meaning = "mods that come before it if they are applied"},
-    {"mod", "settings", TABLE, "", 0, 0, "", READ(jox_key_read_settings), .content = "setting*", .meaning = "values that a scene may choose for it"},
-    {"setting", "value", TEXT, "", 0, 0, "!", TO(JoxModSetting, written), .content = "plain", .meaning = "value, unless the scene or --set gives another; its kind is that of the setting"},
-    {"setting", "choices", NAMES, "", 0, 0, "", READ(jox_key_read_setting_choices), .meaning = "the texts of which the value is one"},
-    {"setting", "unit", TEXT, "", 0, 0, "", TO(JoxModSetting, unit), .meaning = "unit of a number, as m/s"},
-    {"setting", "least", NUMBER, "", -1e12, 1e12, "-1e12", TO(JoxModSetting, least), .meaning = "the smallest number that may be chosen"},
-    {"setting", "greatest", NUMBER, "", -1e12, 1e12, "1e12", TO(JoxModSetting, greatest), .meaning = "the largest number that may be chosen"},
-    {"setting", "meaning", TEXT, "", 0, 0, "", TO(JoxModSetting, meaning), .meaning = "what the setting does, in a sentence"},
+    JOX_MOD_KEY_ROWS
 };
 
 static const JoxOwner OWNERS[] = {
@@ -406,6 +397,8 @@ static const JoxOwner OWNERS[] = {
      "if people were lost, and the summary counts `people_lost` and `bodies_lost`.", .struct_size = 0},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on.",
      .struct_size = sizeof(JoxSceneLimits)},
+    {"report", "report", "The title block of `jostle run SCENE --report DIR`; `--set report.author=NAME` sets a value for one run. What is not given is left blank, to be filled in by hand.",
+     .struct_size = sizeof(JoxSceneReport)},
     {"heatmap", "heatmap", "Area and time of the density map of a report.", .struct_size = 0},
     {"camera", "camera", "Of the live page and of pictures; the simulation does not use it.",
      .struct_size = sizeof(JoxSceneCamera), .finish = jox_finish_camera},

@@ -102,6 +102,12 @@ typedef struct JoxSceneLimits {
     double print;             /* lines printed in a second */
 } JoxSceneLimits;
 
+/* The title block of a report; NULL: not given. */
+typedef struct JoxSceneReport {
+    char *author, *organisation, *project, *reference;
+    char *checked_by, *approved_by, *date, *notes;
+} JoxSceneReport;
+
 /* A scene as it was read: all that a world is built from, as plain data. */
 typedef struct JoxSceneSpec {
     char *path, *title;
@@ -142,6 +148,7 @@ typedef struct JoxSceneSpec {
     JoxSceneCamera camera;
     JoxSceneView view;
     JoxSceneLimits limits;
+    JoxSceneReport report;
     JoxWalkLaw walking;
     bool heatmap;                    /* the area of the density map was given */
     JoxV2 heatmap_low, heatmap_high; /* m */

@@ -91,6 +91,7 @@ typedef struct JoxGroup {
     uint32_t memory_count;
     JoxProfile *profiles;
     uint32_t profile_count;
+    char *basis; /* source of its numbers, for reports; NULL: none */
     JoxJourneyStep
         *journey; /* from which its behaviour is made; NULL: the behaviour is in a file */
     uint32_t journey_count;

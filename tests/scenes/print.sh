@@ -1,18 +1,51 @@
 # A report's page on paper: printed by chromium, read by poppler.
 . tests/scenes/lib.sh
-"$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --report "$work/page" >/dev/null 2>&1
+"$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --set 'report.author=A. Engineer' --set 'report.organisation=Crowd </style> "Safety"' \
+    --set report.date=2026-05-04 --report "$work/page" >/dev/null 2>&1
 verdict "a run with a report" $?
-timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$work/profile" --no-pdf-header-footer --print-to-pdf="$work/page.pdf" "file://$work/page/index.html" >/dev/null 2>&1
+print() { timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$work/profile" --no-pdf-header-footer --print-to-pdf="$work/$2.pdf" "file://$work/page/$1.html" >/dev/null 2>&1; } # PAGE PDF
+print index page
 pages=$(pdfinfo "$work/page.pdf" | sed -n 's/^Pages: *//p')
 between "number of pages" "$pages" 8 18
 pdfinfo "$work/page.pdf" | grep -q '^Page size: .*A4'; verdict "pages are A4" $?
 pdftotext -l 1 -layout "$work/page.pdf" "$work/first.txt"
-grep -q "Who got out when. All 140 people left" "$work/first.txt" && grep -q "Cleared? Yes" "$work/first.txt" && grep -q "What is validated, and what is not" "$work/first.txt"; verdict "the first page has all of the summary" $?
+for text in "A. Engineer" "2026-05-04" "Crowd </style> \"Safety\"" "State hash at the end" "Prepared by" "Approved by" "Contents" "All 140 people left" "Cleared? Yes"; do
+    grep -qF -- "$text" "$work/first.txt"; verdict "the first page has: $text" $?
+done
 pdftotext "$work/page.pdf" - | tr -d '\f' >"$work/page.txt"
-sed -n 's/^<h2>\(.*\)<\/h2>$/\1/p' "$work/page/index.html" >"$work/heads"
-[ "$(grep -c . "$work/heads")" -ge 10 ] && [ "$(grep -xFf "$work/heads" "$work/page.txt" | awk '!seen[$0]++')" = "$(cat "$work/heads")" ]; verdict "all sections are there, in order" $?
+sed -n 's/^<h2[^>]*>\(.*\)<\/h2>$/\1/p' "$work/page/index.html" | sed 's/&ensp;/ /' >"$work/heads"
+tr -s ' \342\200\202' ' ' <"$work/page.txt" >"$work/plain.txt"
+[ "$(grep -c . "$work/heads")" -ge 10 ] && [ "$(grep -xFf "$work/heads" "$work/plain.txt" | awk '!seen[$0]++')" = "$(cat "$work/heads")" ]; verdict "all sections are there, with numbers, in order" $?
 pictures=$(grep -c '<img' "$work/page/index.html")
 # pdfimages lists each picture once; a missing picture has no row.
 between "number of pictures" "$(pdfimages -list "$work/page.pdf" | awk 'NR > 2 && $3 == "image" && $4 > 500' | sort -u -k11,11 | wc -l)" "$pictures" "$pictures"
+# Each page has its running head and number, and no word over the margins.
+cat >"$work/pages.py" <<'PYTHON'
+import re, sys
+pages = open(sys.argv[1], encoding="utf-8").read().split("<page ")[1:]
+heads = numbers = wide = 0
+heights = []
+for number, page in enumerate(pages, 1):
+    words = [(float(x), float(y), float(right), text) for x, y, right, text in
+             re.findall(r'<word xMin="([\d.-]+)" yMin="([\d.-]+)" xMax="([\d.-]+)" yMax="[\d.-]+">(.*?)</word>', page)]
+    heights += [float(b) - float(a) for a, b in re.findall(r'yMin="([\d.-]+)" xMax="[\d.-]+" yMax="([\d.-]+)"', page)]
+    top = [w[3] for w in words if w[1] < 50]
+    foot = " ".join(w[3] for w in words if w[1] > 785)
+    heads += "Evacuation" in top and "Crowd" in top
+    numbers += ("page %d of %s" % (number, sys.argv[2])) in foot and "evacuation.yaml" in foot
+    wide += sum(w[0] < 30 or w[2] > 565 for w in words)
+height = sorted(heights)[len(heights) // 2]  # pt; chromium shrinks pages that have something too wide
+for name, good in (("each page has its running head", heads == len(pages)), ("each page has its number", numbers == len(pages)),
+                   ("no word runs over the margins", wide == 0), ("pages are printed at full size", height > 8.0)):
+    print("ok " + name if good else "not ok %s (%d, %d, %d of %d, %.1f pt)" % (name, heads, numbers, wide, len(pages), height))
+PYTHON
 pdftotext -bbox "$work/page.pdf" "$work/boxes"
-[ "$(grep -c '<word' "$work/boxes")" -gt 500 ] && awk -F'"' '/<word/ && ($2 < 30 || $6 > 565) {print; bad = 1} END {exit bad}' "$work/boxes"; verdict "no word runs over the margins" $?
+python3 "$work/pages.py" "$work/boxes" "$pages"
+! grep -q "$work\|/home\|/tmp" "$work/page.txt"; verdict "no page has a path of this machine" $?
+# The same test fails for a page with a cell that is too wide, and without the running head.
+sed 's/<td>scenes\/evacuation.yaml/<td style="white-space:nowrap">a name that fits no page, as it is not broken, and goes on and on and on, and on and on and on, to the end/; s/@top-left/@top-centre/' \
+    "$work/page/index.html" >"$work/page/wide.html"
+print wide wide
+pdftotext -bbox "$work/wide.pdf" "$work/boxes"
+python3 "$work/pages.py" "$work/boxes" "$pages" >"$work/out"
+grep -q "^not ok pages are printed at full size" "$work/out" && grep -q "^not ok each page has its running head" "$work/out"; verdict "the test sees a cell that is too wide, and a page without its head" $?

@@ -82,7 +82,7 @@ done
 for file in index.html danger.csv danger.png levels.png plan.svg snapshot-2.png; do [ -s "$work/evac-page/$file" ]; verdict "the report has $file" $?; done
 tail -1 "$work/evac-page/danger.csv" | awk -F, '{exit !($2 == 0 && $NF == 140)}'; verdict "danger.csv ends with nobody there and 140 who left" $?
 missing=0
-for link in $(grep -o '\(src\|href\)="[^"]*"' "$work/evac-page/index.html" | cut -d'"' -f2); do [ -s "$work/evac-page/$link" ] || missing=1; done
+for link in $(grep -o '\(src\|href\)="[^"#]*"' "$work/evac-page/index.html" | cut -d'"' -f2); do [ -s "$work/evac-page/$link" ] || missing=1; done
 verdict "pictures of the page lie beside it" $missing
 grep -qF "$(sha256sum "$work/evac.sqlite" | cut -c1-64)" "$work/evac-page/index.html"; verdict "the page names the recording by its hash" $?
 awk 'BEGIN {print "# framerate: 10 fps"; for (f = 0; f < 300; f++) for (i = 0; i < 169; i++) if (i || f < 200) print i, f, (i % 13) * 0.37 + 0.05 * sin(f / 3 + i), int(i / 13) * 0.37, 0}' >"$work/dense.txt"

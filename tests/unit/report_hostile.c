@@ -294,6 +294,7 @@ static void each_target_is_quoted_by_its_own_rules(void **state) {
     expect_quoted(jox_quote_xml, "<a href=\"x\">'&\x01\n",
                   "&lt;a href=&quot;x&quot;&gt;&#39;&amp;?\n");
     expect_quoted(jox_quote_url, "a b\"\xc3\xa4/x.png", "a%20b%22%C3%A4/x.png");
+    expect_quoted(jox_quote_css, "a b\"</\xc3\xa4\n", "\"a b\\000022\\00003c\\00002f\xc3\xa4 \"");
     expect_quoted(jox_quote_csv, "plain name", "plain name");
     expect_quoted(jox_quote_csv, "a,\"b\"", "\"a,\"\"b\"\"\"");
     expect_quoted(jox_quote_shell, "groups.g.count=3", "groups.g.count=3");

@@ -50,6 +50,18 @@ void jox_quote_gnuplot(JoxText *out, const char *text) {
     jox_free(clean);
 }
 
+void jox_quote_css(JoxText *out, const char *text) {
+    char *clean = copy_cleaned(text);
+    jox_text_append(out, "\"", 1);
+    for (const unsigned char *c = (const unsigned char *)clean; *c; c++)
+        if (*c >= 0x80 || is_plain_character((char)*c, " -_.,:;()+"))
+            jox_text_append(out, (const char *)c, 1);
+        else
+            jox_text_printf(out, "\\%06x", *c);
+    jox_text_append(out, "\"", 1);
+    jox_free(clean);
+}
+
 void jox_quote_gnuplot_file(JoxText *out, const char *text) {
     JoxText path = {0};
     jox_text_printf(&path, "%s%s", *text == '/' ? "" : "./", text);

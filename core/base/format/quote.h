@@ -20,6 +20,9 @@ JoxQuote jox_quote_gnuplot;
 JoxQuote jox_quote_gnuplot_file;
 /* Writes text or the value of an attribute of HTML, SVG and XML; without the attribute's quotes. */
 JoxQuote jox_quote_xml;
+/* Writes a string of CSS in double quotes, harmless within <style>, too: all ASCII characters but
+   letters, digits, blanks and .,:;()-_+ are written by their code. */
+JoxQuote jox_quote_css;
 /* Writes a path for the attribute of a link: all except letters, digits and -_./ becomes %XX. */
 JoxQuote jox_quote_url;
 /* Writes a field of a CSV file (RFC 4180), in quotes if it needs them. */

@@ -22,10 +22,10 @@ const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
      "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
     {"voronoi_5", "Voronoi density of 5 per m\xc2\xb2", JOX_DANGER_VORONOI, 5.0,
      "the same limit for the space of single people: values scatter more and are higher",
-     "as density_5; cells as in Steffen and Seyfried, Physica A 389, 1902, 2010"},
+     "as for a density of 5; cells as in Steffen and Seyfried, Physica A 389, 1902, 2010"},
     {"voronoi_7", "Voronoi density of 7 per m\xc2\xb2", JOX_DANGER_VORONOI, 7.0,
      "the same limit for the space of single people",
-     "as density_7; cells as in Steffen and Seyfried, Physica A 389, 1902, 2010"},
+     "as for a density of 7; cells as in Steffen and Seyfried, Physica A 389, 1902, 2010"},
     {"pressure_002", "crowd pressure of 0.02 per s\xc2\xb2", JOX_DANGER_PRESSURE, 0.02,
      "crowd turbulence sets in", "Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007"},
     /* Men pushed against a flat bar 100 mm wide; 800 N where they could brace themselves. */

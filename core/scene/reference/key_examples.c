@@ -23,6 +23,7 @@ const JoxExample jox_scene_examples[] = {
      "guard: {people: remove, bodies: stop}\n"
      "limits: {memory: 16 MB}\n"
      "heatmap: {from: 5}\n"
+     "report: {author: A. Engineer, project: Hall 3}\n"
      "camera: {position: [0, -15, 12], target: [0, 0, 0]}\n"
      "view: {tools: [throw, drag, push]}\n"
      "places: {door: {line: [[10, -1], [10, 1]]}}\n"
@@ -37,6 +38,17 @@ const JoxExample jox_scene_examples[] = {
      "probes: {moved: {displacement: true}}\n"
      "events: [{at: 5, signal: go}]\n"
      "tally: {here: {group: standing}}\n"},
+    {"report", OPENING
+     "report:\n"
+     "  author: A. Engineer\n"
+     "  organisation: Crowd Safety Ltd\n"
+     "  project: Hall 3, emergency exits\n"
+     "  reference: CS-2031, revision B\n"
+     "  checked_by: B. Checker\n"
+     "  approved_by: C. Approver\n"
+     "  date: 2026-05-04\n"
+     "  notes: Speeds and pre-movement times as in the fire strategy of 2025.\n"
+     STANDER},
     {"tally", OPENING
      "tally:\n"
      "  worst: {memory: hits, group: blue, take: greatest, unit: hits}\n"
@@ -168,7 +180,7 @@ const JoxExample jox_scene_examples[] = {
      "  rope: {line: [[22, 8], [22, 0]]}\n"
      "groups:\n"
      "  audience: {mix: {walker.lua: 3, runner.lua: 1}, density: 1, in: hall, outside: [stage],\n"
-     "             party: 4, tags: [guest], set: {goal: exit, speed: 'normal(1.3, 0.2, 0.5, 2)'}}\n"
+     "             party: 4, tags: [guest], set: {goal: exit, speed: 'normal(1.3, 0.2, 0.5, 2)'}, basis: ticket sales of 2025}\n"
      "  staff: {behaviour: stander.lua, count: 12, fill: grid, in: stage, spacing: 60 cm, facing: 90 deg, team: house, colour: purple}\n"
      "  guards: {behaviour: stander.lua, at: [[23, 5], [24, 5]]}\n"
      "  press: {behaviour: stander.lua, count: 10, fill: line, in: rope}\n"

@@ -1,0 +1,16 @@
+/* The section on inputs of a run's page. */
+#ifndef JOX_REPORT_PAGE_INPUTS_H
+#define JOX_REPORT_PAGE_INPUTS_H
+
+#include <stdio.h>
+
+#include "report/drawn_values.h"
+#include "report/subject.h"
+#include "run/run.h"
+
+/* Writes who takes part, with values as given and as drawn, arrivals, openings, events and the
+   model. */
+void jox_page_put_inputs(FILE *out, const JoScene *scene, const JoxSubject *subject,
+                         const JoxDrawnValues *drawn);
+
+#endif
