@@ -80,7 +80,7 @@ static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FI
 /* Writes the strip of the number of people over each limit that anyone passed. */
 static void write_count_strip(const JoxDanger *d, FILE *script) {
     static const char *const COLOURS[] = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9",
-                                          "#cc79a7", "#000000", "#999933", "#882255"};
+                                          "#cc79a7", "#000000", "#999933", "#7d1f4a"};
     bool any = false;
     char name[64];
     fputs("unset arrow\nunset label\nset yrange [0:*]\nset ylabel 'people'\nset key at graph "

@@ -22,7 +22,7 @@ enum { JOX_COLOUR_GIVEN = 1 << 24 };
     X(sky, 0x56b4e9)                                                                               \
     X(purple, 0xcc79a7)                                                                            \
     X(yellow, 0xf0e442)                                                                            \
-    X(wine, 0x882255)
+    X(wine, 0x7d1f4a)
 /* X(name, rrggbb): the colour of people who belong to no class, as without a machine. */
 #define JOX_PLAIN_COLOURS(X) X(grey, 0x777777)
 

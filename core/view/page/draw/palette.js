@@ -3,7 +3,7 @@
 // for nothing to dark for the most, as in palette.c, one ramp for people and floor.
 
 export const CLASSES_TOLD = 8; // classes that all eyes tell apart
-const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442", "#882255"];
+const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442", "#7d1f4a"];
 const RAMP = ["#fbf6d3", "#fde39a", "#fcc562", "#f8a140", "#ee762f", "#d84a2c", "#b32536", "#82123f", "#4d0b3b"];
 // For figures that are no danger, such as speed.
 const CALM = ["#f6f5dc", "#d3e8cf", "#a3d6cf", "#6bbdcf", "#3c9cc4", "#2577ad", "#1a528b", "#142f63"];
