@@ -154,7 +154,7 @@ static const struct Inherited {
     PART("throw", toss),          PART("throw", toss_at),
     PART("throw", toss_speed),    PART("take", take),
     PART("drop", drop),           PART("grasp", grasp),
-    PART("grasp", grip),
+    PART("grasp", grip),          PART("stays_in", stays_in),
 #undef PART
 };
 
@@ -240,7 +240,8 @@ static int8_t find_goal_level(JoxBuild *b, const JoxState *state, uint32_t neste
     } OTHERS[] = {{"face", state->face},
                   {"kick", state->kick_at},
                   {"throw", state->toss_at},
-                  {"push_toward", state->push_toward}};
+                  {"push_toward", state->push_toward},
+                  {"stays_in", state->stays_in}};
     for (size_t k = 0; !key && k < sizeof OTHERS / sizeof *OTHERS; k++)
         key = is_one_of(m, OTHERS[k].target) ? OTHERS[k].key : NULL;
     uint32_t level = state->depth;

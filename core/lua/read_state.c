@@ -361,6 +361,23 @@ static void read_state_transitions(JoxBuild *b, int index, const char *path, Jox
     }
 }
 
+/* Reads a target that is a polygon, or an own value that may be one. */
+static int16_t read_area(JoxBuild *b, int index, const char *path, const char *key) {
+    const JoxScope *scope = b->script->scope;
+    char full[256];
+    jox_read_join(full, path, key);
+    const int16_t number = jox_read_target(b, index, path, key);
+    const JoxTarget *target = number < 0 ? NULL : &b->machine->targets[number];
+    if (target && jox_target_kind_moves(target->kind))
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: stays_in = \"yard\"",
+                        "'%s' needs a place, not a body or an agent", key);
+    else if (target && target->kind == JOX_TARGET_PLACE && target->arg >= 0 && scope->places &&
+             !jox_place_is_area(&scope->places[target->arg]))
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Name a polygon of the scene",
+                        "'%s' needs a place with an area", key);
+    return number;
+}
+
 void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     const char *known[96];
     lua_State *L = b->script->vm.L;
@@ -390,6 +407,7 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     state->push_toward = jox_read_target(b, index, path, "push_toward");
     state->face = jox_read_target(b, index, path, "face");
     state->approach = jox_read_mover(b, index, path, "approach");
+    state->stays_in = read_area(b, index, path, "stays_in");
     state->ignore = jox_read_tags(b, index, path, "ignore", false);
     state->push_only = jox_read_tags(b, index, path, "push_only", false);
     state->on_enter = jox_read_hook(b, index, path, "on_enter");

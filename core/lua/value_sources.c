@@ -197,7 +197,8 @@ static bool sets_key(const JoxState *state, const char *key) {
                 {"throw", state->toss >= 0},          {"become", state->become != NULL},
                 {"on_enter", state->on_enter >= 0},   {"on_exit", state->on_exit >= 0},
                 {"push_when", state->push_when >= 0}, {"ignore", state->ignore != 0},
-                {"push_only", state->push_only != 0}, {"push_toward", state->push_toward >= 0}};
+                {"push_only", state->push_only != 0}, {"push_toward", state->push_toward >= 0},
+                {"stays_in", state->stays_in >= 0}};
     for (size_t k = 0; k < sizeof KEYS / sizeof *KEYS; k++)
         if (strcmp(KEYS[k].key, key) == 0)
             return KEYS[k].set;

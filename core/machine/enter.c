@@ -9,7 +9,7 @@
 static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
     JoxAgents *a = run->agents;
-    int16_t asked[JOX_MOST_TERMS + 4];
+    int16_t asked[JOX_MOST_TERMS + 5];
     uint32_t count = 0;
     for (uint32_t t = 0; t < state->steer_count; t++)
         asked[count++] = state->steer[t].target;
@@ -17,6 +17,7 @@ static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     asked[count++] = state->kick_at;
     asked[count++] = state->toss_at;
     asked[count++] = state->push_toward;
+    asked[count++] = state->stays_in;
     for (uint32_t k = 0; k < count; k++) {
         const JoxTarget *target = asked[k] < 0 ? NULL : &machine->targets[asked[k]];
         const int32_t drawn = target ? jox_target_draw_place(run, i, target, 0) : -1;

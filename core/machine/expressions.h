@@ -41,6 +41,10 @@ enum { JOX_MOST_REGISTERS = 32 };
     X(neighbours, , "", "neighbours seen", run->neighbours->count[i])                              \
     X(driven, , "m/s", "speed that a person or an input log asks of the agent (`player`); 0: none", \
       jox_driven(run, i))                                                                          \
+    X(played, , "", "1 once a person or an input log drives the agent (`player`), also while it is to " \
+      "stand; before 0", jox_player_input(run, i) ? 1.0 : 0.0)                                                       \
+    X(button, , "", "1 while the person who drives the agent holds the button, else 0",            \
+      jox_player_input(run, i) ? jox_player_input(run, i)->button : 0.0)                                                                   \
     X(time, , "s", "simulated time", run->tick * run->dt)
 #define JOX_MEASURED(X) JOX_MEASURED_OTHERS(X) JOX_MEASURED_WORDS(X)
 /* clang-format on */

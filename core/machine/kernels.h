@@ -49,6 +49,9 @@ void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const 
 void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                      JoxSteer *steer);
 
+/* steering/stay_in.c: changes preferred velocities so that agents stay in places (`stays_in`). */
+void jox_machines_stay_in(JoxMachineRun *run);
+
 /* Executes one instruction for `count` agents of a batch, if it is arithmetic or reads the agents'
    columns; returns false, without effect, for all other instructions. */
 typedef bool JoxEvalKernel(const JoxMachineRun *run, const JoxInstruction *in,

@@ -44,6 +44,7 @@ JoxState jox_state_blank(char *name) {
                       .push_toward = -1,
                       .face = -1,
                       .approach = -1,
+                      .stays_in = -1,
                       .kick = -1,
                       .kick_at = -1,
                       .take = -1,

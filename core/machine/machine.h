@@ -183,6 +183,7 @@ typedef struct JoxState {
     int16_t push_toward;      /* target; -1: along the preferred velocity */
     bool push_nearest;        /* push_weight "nearest" instead of "equal" */
     int16_t face, approach;   /* targets; -1 none */
+    int16_t stays_in;         /* target: place that the agent does not leave; -1 none */
     uint64_t ignore, push_only;
     int16_t kick, kick_at; /* targets; -1 none */
     JoxValue kick_impulse; /* N s per kg of the body: the velocity change, m/s */

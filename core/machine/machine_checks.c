@@ -112,9 +112,9 @@ static void check_levels(const JoxMachine *m, const JoxState *state) {
 
 static void check_machine_state(const JoxMachine *m, const JoxState *state) {
     check_levels(m, state);
-    const int16_t targets[] = {state->push_toward, state->face,    state->approach,
-                               state->kick,        state->kick_at, state->take,
-                               state->toss,        state->toss_at, state->grasp};
+    const int16_t targets[] = {state->push_toward, state->face,    state->approach, state->kick,
+                               state->kick_at,     state->take,    state->toss,     state->toss_at,
+                               state->grasp,       state->stays_in};
     for (size_t n = 0; n < sizeof targets / sizeof *targets; n++)
         JOX_ASSERT(is_index(targets[n], m->target_count));
     JOX_ASSERT(is_index(state->push_when, m->expression_count));

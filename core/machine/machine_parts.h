@@ -223,8 +223,9 @@ float jox_spot_gap(const JoxMachineRun *run, uint32_t agent, const JoxSpot *spot
 bool jox_target_means(const JoxMachineRun *run, uint32_t agent, int32_t index, int32_t row);
 /* Returns the distance from the agent's centre to a target, m; INFINITY if absent. */
 float jox_target_distance(const JoxMachineRun *run, uint32_t agent, int32_t index);
-/* Returns the velocity that a person or an input log gives the agent, m/s, (0, 0) if none; and its
-   magnitude. */
+/* Returns what a person or an input log gives the agent; NULL: nothing so far. */
+const struct JoxPlayerInput *jox_player_input(const JoxMachineRun *run, uint32_t agent);
+/* Return the velocity that it gives, m/s, (0, 0) if none; and its magnitude. */
 JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t agent);
 float jox_driven(const JoxMachineRun *run, uint32_t agent);
 /* Returns the velocity that an agent preferred in the step before, m/s. If no machine reads it, it

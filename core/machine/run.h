@@ -296,10 +296,11 @@ typedef struct JoxMachineRun {
     JoxHookSections *hook_sections;
     void *call_context;
     JoxProgramWord *program_words; /* by the argument of PROGRAM_NUMBER, PROGRAM_CONDITION */
-    /* Velocities, m/s, that the player or the input log gives agents; the others get (0, 0). */
+    /* Velocities, m/s, and the button, 1 while it is held, that the player or the input log gives
+       agents; the others get (0, 0) and 0. */
     const struct JoxPlayerInput {
         uint32_t agent_id;
-        float vx, vy;
+        float vx, vy, button;
     } * inputs;
     uint32_t input_count;
     /* Distance fields, [place * JOX_ROUTE_KINDS + kind]; NULL where there is none yet. Lookups set

@@ -337,11 +337,16 @@ double jox_target_measure(const JoxMachineRun *run, uint32_t i, int32_t index, J
     return what == JOX_NOW_speed ? jox_length((JoxV2){spot.vx, spot.vy}) : 0.0;
 }
 
-JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t i) {
+const struct JoxPlayerInput *jox_player_input(const JoxMachineRun *run, uint32_t i) {
     for (uint32_t k = 0; k < run->input_count; k++)
         if (run->inputs[k].agent_id == run->agents->id[i])
-            return (JoxV2){run->inputs[k].vx, run->inputs[k].vy};
-    return (JoxV2){0.0f, 0.0f};
+            return &run->inputs[k];
+    return NULL;
+}
+
+JoxV2 jox_player_wants(const JoxMachineRun *run, uint32_t i) {
+    const struct JoxPlayerInput *input = jox_player_input(run, i);
+    return input ? (JoxV2){input->vx, input->vy} : (JoxV2){0.0f, 0.0f};
 }
 
 float jox_driven(const JoxMachineRun *run, uint32_t i) {

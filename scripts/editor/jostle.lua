@@ -87,6 +87,8 @@ function Counted:contains(item) end
 ---@field y jostle.Number position north, m
 ---@field neighbours jostle.Number neighbours seen
 ---@field driven jostle.Number speed that a person or an input log asks of the agent (`player`); 0: none, m/s
+---@field played jostle.Number 1 once a person or an input log drives the agent (`player`), also while it is to stand; before 0
+---@field button jostle.Number 1 while the person who drives the agent holds the button, else 0
 ---@field time jostle.Number simulated time, s
 ---@field density jostle.Number people per square metre about the agent, from its neighbours' distances, 1/m2
 ---@field headway jostle.Number free distance ahead to the next neighbour that does not come the other way; the perception radius if there is none, m
@@ -191,6 +193,8 @@ function Target:contains(item) end
 ---@field y jostle.Number position north, m
 ---@field neighbours jostle.Number neighbours seen
 ---@field driven jostle.Number speed that a person or an input log asks of the agent (`player`); 0: none, m/s
+---@field played jostle.Number 1 once a person or an input log drives the agent (`player`), also while it is to stand; before 0
+---@field button jostle.Number 1 while the person who drives the agent holds the button, else 0
 ---@field time jostle.Number simulated time, s
 ---@field density jostle.Number people per square metre about the agent, from its neighbours' distances, 1/m2
 ---@field headway jostle.Number free distance ahead to the next neighbour that does not come the other way; the perception radius if there is none, m
@@ -279,6 +283,7 @@ function Target:contains(item) end
 ---@field ignore? string|string[] the agent does not avoid agents and bodies with these tags
 ---@field face? jostle.AnyTarget where the agent looks; without it in its walking direction
 ---@field approach? jostle.AnyTarget body or agent that the agent does not avoid in advance; it only does not overlap it. Agents are then kept apart by contacts alone, where forces are on
+---@field stays_in? jostle.AnyTarget polygon that the agent does not leave of its own accord, as a player a court: it stops with its whole body before the edges, however it is steered or driven, and comes back if others pushed it out
 ---@field kick? jostle.Kick kicks a body that it touches, with no wall between. The body passes the agent's own body until it is clear of it
 ---@field take? jostle.AnyTarget body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body
 ---@field drop? jostle.AnyTarget body that the agent carries and lets fall, as `drop = holding`
@@ -674,7 +679,7 @@ function either(condition, a, b) end
 ---@return jostle.Number
 function clamp(a, least, greatest) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed fallen x y neighbours driven time density headway eagerness pushed compression load contacts holders time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed fallen x y neighbours driven played button time density headway eagerness pushed compression load contacts holders time_in_state
 ---@type jostle.Now
 now = nil
 

@@ -205,3 +205,30 @@ test("a target that comes is dodged to the nearer side, or to the other one wher
   local WALL_ABOVE = { { line = { { 8, 10.5 }, { 12, 10.5 } } } }
   near(stands_after(9.8, 6, WALL_ABOVE), 8.8, 0.15)
 end)
+
+test("who stays in a place stops before its edges, however it is steered, and comes back into it", function()
+  local function run(key, at, steer)
+    local behaviour = "return machine { name = \"w\", start = \"Go\", defaults = { speed = 3, max_speed = 3 },"
+      .. "states = { Go = { steer = " .. steer .. key .. " } } }"
+    local s = scene(yard { people = { behaviour = behaviour, at = { at } } })
+    local farthest = { -1, -1 }
+    for _ = 1, 200 do
+      s:step()
+      local a = s:agents()[1]
+      if s:time() > 5 then farthest = { math.max(farthest[1], a.x), math.max(farthest[2], a.y) } end
+    end
+    return farthest[1], farthest[2]
+  end
+  local KEY = ", stays_in = \"yard\""
+  for _, steer in ipairs { "drift(1, 0.7)", "function(me) return 3, 2 end" } do -- into the corner at 20, 20
+    local x, y = run(KEY, { 3, 10 }, steer)
+    truthy(x > 19.6 and x < 19.9 and y > 19.6 and y < 19.9, "it stands at " .. x .. ", " .. y)
+    x = run("", { 3, 10 }, steer)
+    truthy(x > 25, "without it it goes on")
+  end
+  local x, y = run(KEY, { 26, 12 }, "hold")
+  truthy(x > 19 and x < 19.9, "it comes back to " .. x)
+  near(y, 12, 0.1)
+  local LINE = "return machine { name = \"w\", start = \"A\", states = { A = { steer = hold, stays_in = \"mid\" } } }"
+  refused(yard { a = { behaviour = LINE, at = { { 1, 1 } } } }, "needs a place with an area")
+end)

@@ -346,6 +346,8 @@ const JoxTableKey jox_table_keys[] = {
     {"state", "face", "target", "", "where the agent looks; without it in its walking direction", "face = \"post\"", 0, 0},
     {"state", "approach", "target", "", "body or agent that the agent does not avoid in advance; it only does not overlap it. Agents are then kept apart by contacts alone, where forces are on",
      "approach = nearest \"ball\"", 0, 0},
+    {"state", "stays_in", "target", "", "polygon that the agent does not leave of its own accord, as a player a court: it stops with its whole body before the edges, however it is steered or driven, and comes back if others pushed it out",
+     "stays_in = \"yard\"", 0, 0},
     {"state", "kick", "table", "", "kicks a body that it touches, with no wall between. The body passes the agent's own body until it is clear of it", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
     {"state", "take", "target", "", "body to pick up, if it is within 0.6 m and slower than 8 m/s, hands reach it and there is room to hold it. It is carried in front, its middle at 1.2 m above the ground; nearer or to a side where a wall, or a body that is static, driven or heavier than 200 kg, leaves no room, and it falls where there is none. Hands reach over obstacles that are lower than the lowest point of the body", "take = nearest \"ball\"", 0, 0},
     {"state", "drop", "target", "", "body that the agent carries and lets fall, as `drop = holding`", "drop = nearest \"ball\"", 0, 0},

@@ -15,7 +15,7 @@ const JoxInputEntry *jox_input_take_due(JoxInputLog *log, uint64_t tick) {
     return due ? &log->entries[log->next++] : NULL;
 }
 
-void jox_input_set_player(JoxInputLog *log, uint32_t agent_id, float vx, float vy) {
+void jox_input_set_player(JoxInputLog *log, uint32_t agent_id, float vx, float vy, bool button) {
     uint32_t i = 0;
     while (i < log->present_count && log->present[i].agent_id != agent_id)
         i++;
@@ -23,7 +23,7 @@ void jox_input_set_player(JoxInputLog *log, uint32_t agent_id, float vx, float v
         JOX_RESERVE(log->present, log->present_capacity, i + 1);
         log->present_count++;
     }
-    log->present[i] = (struct JoxPlayerInput){agent_id, vx, vy};
+    log->present[i] = (struct JoxPlayerInput){agent_id, vx, vy, button};
 }
 
 void jox_input_entry_free(JoxInputEntry *entry) {

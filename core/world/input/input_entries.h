@@ -94,8 +94,9 @@ void jox_input_write(const JoxInputEntry *entry, JoxText *out);
 void jox_input_add(JoxInputLog *log, JoxInputEntry entry);
 /* Returns the next entry that is due at `tick`, and counts it as done; NULL if there is none. */
 const JoxInputEntry *jox_input_take_due(JoxInputLog *log, uint64_t tick);
-/* Sets the velocity, m/s, that the player of an agent wants from now on. */
-void jox_input_set_player(JoxInputLog *log, uint32_t agent_id, float vx, float vy);
+/* Sets the velocity, m/s, that the player of an agent wants from now on, and whether the player
+   holds the button. */
+void jox_input_set_player(JoxInputLog *log, uint32_t agent_id, float vx, float vy, bool button);
 void jox_input_entry_free(JoxInputEntry *entry);
 void jox_input_free(JoxInputLog *log);
 

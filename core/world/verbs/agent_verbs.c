@@ -63,7 +63,7 @@ bool jox_perform_player(JoWorld *world, const JoxInputEntry *entry, JoxText *why
     if (!to_come && find_live_agent(world, entry->number, why) == JOX_NO_INDEX)
         return false;
     jox_input_set_player(&world->state.input, entry->number, (float)entry->numbers[0],
-                         (float)entry->numbers[1]);
+                         (float)entry->numbers[1], entry->given > 2 && entry->numbers[2] > 0.5);
     return true;
 }
 

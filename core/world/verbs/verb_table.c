@@ -19,9 +19,11 @@
 #define FILES             {"N", JOX_WORD_FILES, 1, JOX_INPUT_FILE_COUNT, "files"}
 
 const JoxVerb jox_input_verbs[] = {
-    [JOX_INPUT_PLAYER] = {"player", {ID("AGENT"), SPEED("VX", 20), SPEED("VY", 20)}, 3, 3,
+    [JOX_INPUT_PLAYER] = {"player", {ID("AGENT"), SPEED("VX", 20), SPEED("VY", 20),
+     {"BUTTON", JOX_WORD_NUMBER, 0, 1, ""}}, 3, 4,
      "player 0 1.5 0",
-     "sets the velocity that the player of the agent with this id wants from now on", "player", jox_perform_player},
+     "sets the velocity that the player of the agent with this id wants from now on, and whether the "
+     "player holds the button: 1 or 0", "player", jox_perform_player},
     [JOX_INPUT_THROW] = {"throw",
      {CALLED("BODY"), METRES("X"), METRES("Y"), METRES("Z"), SPEED("VX", 100), SPEED("VY", 100),
       SPEED("VZ", 100), SPIN("WX"), SPIN("WY"), SPIN("WZ")}, 7, 10,
