@@ -6,7 +6,8 @@
 export MAKEFLAGS=
 make -s -j2 MODE=debug B=build/debug CFLAGS=-Werror build/debug/jostle
 verdict "gcc -O0 builds without a warning" $?
-make -s -j2 CC=clang CXX=clang++ B=build/clang CFLAGS=-Werror build/clang/jostle
+case ${CC-} in ccache*) cached="ccache " ;; *) cached= ;; esac # as .ci/run compiles
+make -s -j2 CC="${cached}clang" CXX="${cached}clang++" B=build/clang CFLAGS=-Werror build/clang/jostle
 verdict "clang builds without a warning" $?
 isas=
 for isa in scalar sse2 avx2 avx512 neon; do
@@ -17,7 +18,7 @@ others=
 if [ "$matrix" ]; then # NAME=PROGRAM of further builds
     for build in "gcc-O3 gcc g++ -O3 release" "clang-O0 clang clang++ -O0 debug" "clang-O3 clang clang++ -O3 release"; do
         set -- $build
-        make -s -j2 CC="$2" CXX="$3" MODE="$5" B="build/$1" CFLAGS="$4" "build/$1/jostle" || echo "not ok $1 builds"
+        make -s -j2 CC="$cached$2" CXX="$cached$3" MODE="$5" B="build/$1" CFLAGS="$4" "build/$1/jostle" || echo "not ok $1 builds"
         others="$others $1"
     done
 fi

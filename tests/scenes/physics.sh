@@ -28,7 +28,7 @@ between "number of recorded frames" "$(sql "$work/t.sqlite" "SELECT count(DISTIN
 [ "$(sql "$work/e.sqlite" "SELECT count(DISTINCT frame) || ' ' || max(frame) || ' ' || (SELECT value FROM metadata WHERE key = 'fps') FROM trajectory_data")" = "20 20 1" ]
 verdict "--record-every 1 records a frame per second" $?
 
-"$JOSTLE" run scenes/circle.yaml --for 400 --quiet --record "$work/c.sqlite" --summary "$work/c.json"
+"$JOSTLE" run scenes/circle.yaml --for 400 --quiet --summary "$work/c.json"
 between "circle: agents that arrive" "$(grep -o '"Rest": [0-9]*' "$work/c.json" | grep -o '[0-9]*')" 900 1000
 
 for forces in true false; do
