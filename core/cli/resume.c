@@ -93,7 +93,8 @@ static int continue_run(const Resume *resume, JoScene *scene, const char *note) 
         fprintf(stderr, "resumed at %g s\n", jo_world_time(jo_scene_world(scene)));
         jo_scene_show_progress(scene, (double)until * dt);
     }
-    while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal)
+    while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal &&
+           !jo_scene_over(scene))
         ok = jo_scene_step(scene, &error);
     int status = cli_finish_run(&cli_resume, scene, ok, &error, &files);
     if (status == JO_OK && report) {

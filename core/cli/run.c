@@ -235,12 +235,14 @@ static void print_unmet(Run *run, JoScene *scene) {
     run->troubled = true;
 }
 
-/* Makes the steps of the run, up to a breakpoint. */
+/* Makes the steps of the run, up to a breakpoint or, unless the options say how long it is, to the
+   end of a game's round. */
 static bool make_steps(Run *run, JoScene *scene, uint64_t steps, JoError *error) {
-    bool ok = true, broke = false;
-    for (uint64_t i = 0; ok && !broke && i < steps && !cli_signal; i++) {
+    bool ok = true, broke = false, over = false;
+    for (uint64_t i = 0; ok && !broke && !over && i < steps && !cli_signal; i++) {
         ok = jo_scene_step(scene, error);
         broke = ok && run->breaks.count && jo_scene_broke(scene);
+        over = !run->has_seconds && !run->has_steps && jo_scene_over(scene);
     }
     if (broke)
         fputs(jo_scene_broke(scene), stderr);
@@ -257,7 +259,7 @@ static int run_once(Run *run) {
     if (!scene)
         return print_run_error(&error, true);
     cli_catch_signals(true);
-    const uint64_t steps = count_run_steps(run, scene);
+    uint64_t steps = count_run_steps(run, scene);
     jo_scene_vet(scene, cli_keeper_vetter(run->keeper));
     if (!set_breaks(run, scene, &error)) {
         jo_scene_free(scene);
@@ -275,6 +277,8 @@ static int run_once(Run *run) {
         jo_scene_show_progress(scene, (double)steps * jo_scene_stats(scene).dt);
     ok = ok && make_steps(run, scene, steps, &error);
     int status = cli_finish_run(&cli_run, scene, ok, &error, &files);
+    if (jo_scene_over(scene) && !run->has_seconds && !run->has_steps)
+        steps = jo_world_tick(jo_scene_world(scene));
     if (begun)
         status = write_page_and_summary(run, scene, steps, status, &files);
     run->troubled |= cli_print_troubles(&cli_run, scene);

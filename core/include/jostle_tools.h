@@ -75,6 +75,8 @@ JO_API const char *jo_scene_broke(const JoScene *scene);
 /* Returns a line for each breakpoint that was not met so far, with what is known of the reason, as
    that its agent never came in; NULL if each was met. Free it by jo_free. */
 JO_API char *jo_scene_unmet(const JoScene *scene);
+/* Whether the round of the scene's game (`game` in its file) is over; false if it has none. */
+JO_API bool jo_scene_over(const JoScene *scene);
 /* Writes a checkpoint of a scene for which jo_scene_checkpoint was called, beyond those that are
    due. *written: whether the present state could be saved exactly; if not, it is written after the
    first step from now on after which it can be. False with `error` if writing failed. */

@@ -54,6 +54,10 @@ static const struct {
     {"danger.*", JOX_SUMMARY_FIGURE},
     {"probes.*", JOX_SUMMARY_FIGURE},
     {"tally.*", JOX_SUMMARY_FIGURE},
+    {"game.level", JOX_SUMMARY_GIVEN},
+    {"game.winner", JOX_SUMMARY_GIVEN},
+    {"game.over", JOX_SUMMARY_GIVEN},
+    {"game.*", JOX_SUMMARY_FIGURE},
 };
 
 JoxSummaryKind jox_summary_kind(const char *path) {

@@ -11,6 +11,7 @@
 #include "base/mem.h"
 #include "run/event_signals.h"
 #include "run/figure_listeners.h"
+#include "run/game_round.h"
 #include "run/input_actions.h"
 #include "run/input_log.h"
 #include "run/literal_notes.h"
@@ -173,6 +174,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         if (!def->no_density)
             jox_run_collect_densities(scene, NULL);
         jox_run_collect_standstills(scene);
+        jox_run_watch_game(scene);
         jox_run_collect_probes(scene);
     }
 }

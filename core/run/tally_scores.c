@@ -7,7 +7,7 @@
 #include "run/run.h"
 #include "run/tally_scores.h"
 
-static double count_tally(const JoScene *scene, const JoxTally *tally) {
+double jox_run_count_tally(const JoScene *scene, const JoxTally *tally) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxMachineSet *set = scene->world->machines.set;
     double sum = 0, least = INFINITY, greatest = -INFINITY;
@@ -45,7 +45,7 @@ void jox_run_add_tally(const JoScene *scene, JoxJson *json) {
         return;
     jox_json_object(json, "tally");
     for (uint32_t t = 0; t < spec->tally_count; t++)
-        jox_json_number(json, spec->tallies[t].name, count_tally(scene, &spec->tallies[t]));
+        jox_json_number(json, spec->tallies[t].name, jox_run_count_tally(scene, &spec->tallies[t]));
     jox_json_end(json);
 }
 
@@ -65,7 +65,7 @@ static void append_leader(const JoScene *scene, JoxText *out) {
     bool equal = false;
     for (uint32_t t = 0; t < spec->tally_count; t++) {
         const JoxTally *tally = &spec->tallies[t];
-        const double value = count_tally(scene, tally);
+        const double value = jox_run_count_tally(scene, tally);
         if (!isfinite(value) || (t && !are_rivals(tally, &spec->tallies[0])))
             return;
         equal = value == most || (equal && value < most);
@@ -86,7 +86,7 @@ void jox_run_say_tally(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     for (uint32_t t = 0; t < spec->tally_count; t++) {
         const JoxTally *tally = &spec->tallies[t];
-        const double value = count_tally(scene, tally);
+        const double value = jox_run_count_tally(scene, tally);
         jox_text_printf(out, "%s%.60s ", t ? ", " : " ", tally->name);
         if (isfinite(value))
             jox_text_printf(out, "%.4g%s%.20s", value, tally->unit ? " " : "",

@@ -6,7 +6,10 @@
 #include "base/format/json_writer.h"
 #include "base/text.h"
 #include "jostle.h"
+#include "scene/scene.h"
 
+/* Returns a score as it is now; NAN: a mean, least or greatest of nobody. */
+double jox_run_count_tally(const JoScene *scene, const JoxTally *tally);
 /* Adds ,"tally": {...} to a summary. */
 void jox_run_add_tally(const JoScene *scene, JoxJson *json);
 /* Appends the sentence of a run's last lines: each score, and who is ahead. */

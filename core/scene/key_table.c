@@ -3,6 +3,7 @@
    `include` by format/yaml_files.c, `mods` by mods_find.c, what a mod says about others by
    mods_read.c. */
 #include "geom/place_kinds.h"
+#include "scene/game_keys.h"
 #include "scene/mod_key_rows.h"
 #include "scene/report_key_rows.h"
 #include "scene/scene_draft.h"
@@ -121,6 +122,7 @@ static const JoxKey KEYS[] = {
     {"scene", "probes", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, probes, probe_count), .example = "probes: {door: {flow: [[0, 0], [1, 0]]}}", .content = "probe*", RESTART("they measure from the start on"), .meaning = "probes: what to measure"},
     {"scene", "events", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, events, event_count), .example = "events: [{at: 20, open: gate}]", .content = "event[]", .meaning = "what happens at given times"},
     {"scene", "tally", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, tallies, tally_count), .example = "tally: {red: {memory: hits, group: blue}}", .content = "tally*", .meaning = "scores, printed in the last lines of a run"},
+    {"scene", "game", TABLE, "", 0, 0, "", TO(JoxSceneSpec, game), .content = "game", .example = "game: {ours: red, theirs: blue, points: 5}", RESTART("a round keeps its rules"), .meaning = "a game of the `player` against the machine"},
 
     {"scene", "floor", TEXT, "", 0, 0, "plain", TO(JoxSceneSpec, floor), .choices = FLOORS, .meaning = "material of the floor on the live page"},
     {"scene", "scenery", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, scenery, scenery_count), .example = "scenery: [{kind: tree, at: [2, 3]}]", .content = "scenery[]", .meaning = "things that the live page draws around people; no obstacles"},
@@ -325,11 +327,8 @@ static const JoxKey KEYS[] = {
 
     {"sink", "at", TEXT, "", 0, 0, "!", READ_TO(jox_key_read_place, JoxAgentSink, place, place), .meaning = "place; agents that enter it are removed, but not through a wall or a closed gate"},
     {"sink", "group", TEXT, "", 0, 0, "", READ_TO(jox_key_read_group, JoxAgentSink, group, group), .meaning = "only agents of this group"},
-    {"tally", "memory", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxTally, memory, memory), .meaning = "name of a memory of behaviours whose values are evaluated"},
-    {"tally", "state", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxTally, state, state), .meaning = "only agents in the state of this name"},
-    {"tally", "group", TEXT, "", 0, 0, "", READ_TO(jox_key_read_group, JoxTally, group, group), .meaning = "only agents of this group"},
-    {"tally", "take", TEXT, "", 0, 0, "sum", TO(JoxTally, statistic), .choices = "sum|mean|least|greatest", .meaning = "statistic of the values of `memory`"},
-    {"tally", "unit", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxTally, unit, unit), .meaning = "unit printed after the number: s, points"},
+    JOX_TALLY_KEYS
+    JOX_GAME_KEYS
 
 #define X(kind, name, form, options, example_, meaning_) \
     {"probe", #name, PROBE_##form(name), SELECTS(JOX_PROBE_##kind), .meaning = meaning_},
@@ -463,10 +462,8 @@ static const JoxOwner OWNERS[] = {
      "same time are done in the order of the list.",
      .struct_size = sizeof(JoxEvent), .kind_offset = AT(JoxEvent, kind), .kind_error = "bad-event", .hint = "{at: 20, open: gate}",
      .finish = jox_finish_event},
-    {"tally", "Tallies", "`tally` maps names to numbers computed from the agents that are there: their count, or a statistic of a memory. "
-     "It stands in the summary under `tally`, and in a sweep and a comparison as a figure. The last lines of a run print it; of several with "
-     "the same `take` and unit, the greatest is ahead.",
-     .struct_size = sizeof(JoxTally), .name_offset = AT(JoxTally, name), .position_offset = AT(JoxTally, position), .finish = jox_finish_tally},
+    JOX_TALLY_OWNERS
+    JOX_GAME_OWNERS
     {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene uses it, and chooses "
      "its settings, by `mods: {calm: {patience: 60}}`.",
      .struct_size = sizeof(JoxMod)},
@@ -481,6 +478,7 @@ const JoxAlternative jox_scene_alternatives[] = {
     {"group", "count|density", JOX_AT_MOST_ONE},
     {"group", "count|density|at|starts", JOX_AT_LEAST_ONE},
     {"source", "rate|keep|every|times|curve", JOX_AT_LEAST_ONE},
+    {"game", "points|time|all", JOX_AT_LEAST_ONE},
 };
 const size_t jox_scene_alternative_count =
     sizeof jox_scene_alternatives / sizeof *jox_scene_alternatives;

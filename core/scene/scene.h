@@ -92,6 +92,35 @@ typedef struct JoxTally {
     char *unit;         /* NULL: none */
 } JoxTally;
 
+/* A level of a game: values that it sets for the agents of a group. */
+typedef struct JoxGameLevel {
+    char *name;
+    JoxPosition position; /* position of the name */
+    int32_t group;        /* -1: it sets nothing */
+    JoxGroupValue *set;
+    uint32_t set_count;
+} JoxGameLevel;
+
+/* A game between the player and the machine, in rounds: how a round ends, and who wins it. */
+typedef enum JoxGameTie { JOX_GAME_TIE_DRAW, JOX_GAME_TIE_OURS, JOX_GAME_TIE_THEIRS } JoxGameTie;
+typedef struct JoxGame {
+    bool given;
+    int32_t ours, theirs; /* tallies: scores of the player's side and of the other */
+    double points;        /* the first with so many wins; NAN: no such end */
+    double time;          /* s: a round ends then; NAN: no such end */
+    int32_t all;          /* it ends when the scores count all agents of this group; -1: no */
+    uint32_t tie;         /* JoxGameTie */
+    double rounds;        /* of a match */
+    double speed;         /* m/s, that the page asks of the player's agent */
+    char *how;            /* text on how to play; NULL: none */
+    char *button;         /* what the button does, a word; NULL: it is not used */
+    char *ball;           /* tag of bodies that the page marks; NULL: none */
+    JoxGameLevel *levels;
+    uint32_t level_count;
+    char *level; /* name of the level that is played; NULL: there are none */
+    JoxPosition position;
+} JoxGame;
+
 /* Limits on the Lua scripts of behaviours. */
 typedef struct JoxSceneLimits {
     double instructions;      /* instructions of one call */
@@ -140,6 +169,7 @@ typedef struct JoxSceneSpec {
     JoxScenery *scenery;
     uint32_t scenery_count;
     uint32_t floor;                    /* index of jox_floor_names */
+    JoxGame game;
     int32_t player_group;              /* -1: none */
     uint32_t player_agent;             /* index within that group */
     bool forces;                       /* false: collision avoidance alone */

@@ -128,6 +128,10 @@ JoxOwnerFinish jox_finish_event;
 JoxKeyRead jox_key_read_true, jox_key_read_states, jox_key_read_groups;
 JoxOwnerFinish jox_finish_probe, jox_finish_tally;
 
+/* game.c */
+JoxKeyRead jox_key_read_tally;
+JoxOwnerFinish jox_finish_game, jox_finish_level;
+
 /* mods_read.c */
 JoxKeyRead jox_key_read_settings;
 JoxKeyRead jox_key_read_setting_choices;

@@ -32,7 +32,8 @@ static bool simulate_run(const JoxSweepRun *run, const JoSceneDef *def, JoxText 
     jox_sweep_write_plan(scene, &plan);
     bool good = jox_sweep_collect(scene, (double)steps * dt, error) &&
                 (!run->data || jo_scene_data(scene, run->data, error));
-    for (uint64_t s = 0; good && s < steps; s++)
+    const bool to_the_end = run->steps || !isnan(run->seconds); /* also after a game's round */
+    for (uint64_t s = 0; good && s < steps && (to_the_end || !jo_scene_over(scene)); s++)
         good = jo_scene_step(scene, error);
     JoError ending = {0};
     const bool ended = jo_scene_finish(scene, &ending);

@@ -321,6 +321,7 @@ static void act_on_scene(Caller *c) {
         jo_scene_break(s, pick_name(c), &error);
         jo_free(jo_scene_why(s, &def, &error));
         jo_scene_broke(s);
+        jo_scene_over(s);
         jo_free(jo_scene_unmet(s));
     }
     if (what == 10) {

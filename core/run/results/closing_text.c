@@ -10,6 +10,7 @@
 #include "jostle_tools.h"
 #include "record/danger/trust.h"
 #include "run/figure_listeners.h"
+#include "run/game_round.h"
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
 #include "run/results/idle_input.h"
@@ -254,6 +255,7 @@ char *jo_scene_closing(const JoScene *scene) {
     say_events(scene, &text);
     say_drives(scene, &text);
     jox_run_say_tally(scene, &text);
+    jox_run_say_game(scene, &text);
     say_standing(scene, &text);
     jox_run_say_unleft(scene, &text);
     jox_run_say_lost(scene, &text);

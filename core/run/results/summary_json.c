@@ -14,6 +14,7 @@
 #include "record/aggregate.h"
 #include "record/danger/trust.h"
 #include "run/figure_listeners.h"
+#include "run/game_round.h"
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
 #include "run/results/kept_people.h"
@@ -360,6 +361,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_lua(&json, scene);
     jox_run_add_probes(scene, &json);
     jox_run_add_tally(scene, &json);
+    jox_run_add_game(scene, &json);
     jox_json_format(&json, "hash", "%016llx", (unsigned long long)jox_world_hash(world));
     /* without the counts of failed functions: equal hashes mean that the crowd moved alike */
     jox_json_format(&json, "hash_without_hooks", "%016llx",

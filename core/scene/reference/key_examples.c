@@ -37,7 +37,8 @@ const JoxExample jox_scene_examples[] = {
      "sinks: [{at: goal}]\n"
      "probes: {moved: {displacement: true}}\n"
      "events: [{at: 5, signal: go}]\n"
-     "tally: {here: {group: standing}}\n"},
+     "tally: {here: {group: standing}, there: {group: runner}}\n"
+     "game: {ours: there, theirs: here, time: 20}\n"},
     {"report", OPENING
      "report:\n"
      "  author: A. Engineer\n"
@@ -56,6 +57,33 @@ const JoxExample jox_scene_examples[] = {
      "places: {half: {polygon: [[0, -4], [8, -4], [8, 4], [0, 4]]}}\n"
      "bodies: [{shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [5, 0, 0.1], tags: [ball]}]\n"
      "groups: {blue: {behaviour: dodgeball.lua, at: [[2, 2]], set: {court: half}}}\n"},
+    {"game", OPENING
+     "player: red\n"
+     "tally: {red: {memory: hits, group: blue}, blue: {memory: hits, group: red}}\n"
+     "game:\n"
+     "  ours: red\n"
+     "  theirs: blue\n"
+     "  points: 5 # or at the end of\n"
+     "  time: 1 min\n"
+     "  all: blue # or when so many hits were counted as there are people in blue\n"
+     "  tie: theirs\n"
+     "  rounds: 3\n"
+     "  speed: 4 m/s\n"
+     "  how: Run into the ball, and keep out of its way.\n"
+     "  button: run\n"
+     "  ball: ball\n"
+     "  level: hard\n"
+     "  levels: {easy: {group: blue, set: {reaction: 1}}, hard: {}}\n"
+     "bodies: [{shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [5, 0, 0.1], tags: [ball]}]\n"
+     "places: {half: {polygon: [[0, -4], [8, -4], [8, 4], [0, 4]]}, other: {polygon: [[-8, -4], [0, -4], [0, 4], [-8, 4]]}}\n"
+     "groups:\n"
+     "  red: {behaviour: dodgeball.lua, at: [[-4, 0]], team: red, set: {court: other}}\n"
+     "  blue: {behaviour: dodgeball.lua, at: [[4, 0]], team: blue, set: {court: half}}\n"},
+    {"level", OPENING
+     "player: one\n"
+     "tally: {one: {group: one}, all: {}}\n"
+     "game: {ours: one, theirs: all, time: 5 s, levels: {easy: {}, hard: {group: other, set: {speed: 2}}}}\n"
+     "groups: {one: {behaviour: stander.lua, at: [[0, 0]]}, other: {behaviour: stander.lua, at: [[2, 2]]}}\n"},
     {"forces", OPENING
      "forces: {enabled: true, mode: literal}\n"
      STANDER},
