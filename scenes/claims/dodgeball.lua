@@ -106,8 +106,10 @@ return claim {
   held_out = "the strength and height of kicks, the reaction time and the attention were chosen on seeds 101 to 110 so "
     .. "that the duel has one to four points a minute; nothing was chosen on the rest, nor on the seeds 201 to 203",
   runs = {
-    -- A person drives red for 16 s; 8 s later it plays by itself.
-    duel = { scene = "../dodgeball.yaml", seeds = 10, duration = 325 },
+    -- Both play alike: blue as the behaviour says, not by a level of the game.
+    duel = { scene = "../dodgeball.yaml", seeds = 10, duration = 325, set = {
+      ["game.levels.normal.set.attention"] = 0.85, ["game.levels.normal.set.reaction"] = 0.3,
+      ["game.levels.normal.set.run_up"] = 2 } },
     many = { scene = "../dodgeball-500.yaml", seeds = 3 },
     -- Balls that keep bouncing fly more than they lie, so that there are points.
     bouncing = { scene = "../dodgeball-500.yaml", seeds = 3, duration = 30,

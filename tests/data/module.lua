@@ -25,7 +25,7 @@ end
 check("columns and agents agree", same)
 check("an agent has a state", ({ Dodge = 1, Hit = 1, Fetch = 1, Aim = 1, Throw = 1 })[agents[1].state])
 local summary = scene:summary()
-check("figures are tables", summary.agents == 6 and summary.tally.red >= 0 and summary.seed == 3)
+check("figures are tables", summary.agents == 6 and summary.tally.you >= 0 and summary.seed == 3)
 
 -- Errors.
 fails("a column that there is not", "no column 'z'", scene.column, scene, "z")

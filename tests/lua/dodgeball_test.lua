@@ -1,6 +1,6 @@
 -- dodgeball.lua: keeps away from the ball, steps aside when it comes flying, kicks one that lies in its own court.
 local LOG = "../../scenes/dodgeball.input" -- drives red from the start to 13 s, and stops it at 16 s
-local RETURNS = "../data/player-returns.input"
+local LINE = "../data/player-line.input" -- drives red to the right, with the button held, for 5 s
 
 local halves = require "parts/court"
 local function court(ball, own)
@@ -178,22 +178,38 @@ test("while it is driven a player does what it is told, and kicks what it touche
   s:run(0.1)
   local top = 0
   while s:time() < 11 do
-    equal(s:agents("a_red")[1].state, "Play")
+    local state = s:agents("a_red")[1].state
+    truthy(string.find(state, "Play") == 1 or state == "Strike" or state == "Hit", "a person plays, not " .. state)
     s:step()
     top = math.max(top, s:body("ball").z)
   end
   truthy(top > 0.3, "the ball is kicked")
 end)
 
-test("left alone for 8 s a player plays by itself, until it is driven again", function()
+test("a player runs while the button is held, stops before the line, and is left to the person", function()
   local game = court { 20, 20, 0.11 }
-  game.player, game.input = "a_red", RETURNS
+  game.player, game.input = "a_red", LINE
   local s = scene(game)
-  s:reaches("Play", { agents = "a_red", within = 15.1 })
-  s:run(1) -- nobody turns round on the spot
-  local x = s:agents("a_red")[1].x
-  s:run(0.9)
-  near(s:agents("a_red")[1].x, x + 0.9, 0.15)
+  s:reaches("Play.Run", { agents = "a_red", within = 0.2 })
+  s:reaches("Play.Rest", { agents = "a_red", within = 1.4 })
+  local farthest, fastest = -8, 0
+  while s:time() < 30 do
+    s:step()
+    farthest = math.max(farthest, s:agents("a_red")[1].x)
+    fastest = math.max(fastest, s:agents("a_red")[1].now)
+  end
+  truthy(farthest > -0.6 and farthest < -0.15, "the line holds at " .. farthest)
+  truthy(string.find(s:agents("a_red")[1].state, "Play") == 1, "the machine does not play for somebody who stands")
+end)
+
+test("a ball in the air hits a player who stands in its way", function()
+  local game = court({ 2, 0.1, 1 })
+  game.bodies[1].velocity = { -9, 0, 3 }
+  game.player, game.input = "a_red", "../data/player-stands.input"
+  local s = scene(game)
+  s:reaches("Hit", { agents = "a_red", within = 2 })
+  equal(s:agents("a_red")[1].hits, 1)
+  s:reaches("Play", { agents = "a_red", within = 1.2 })
 end)
 
 test("a court that is no place is refused", function()
