@@ -168,7 +168,7 @@ typedef struct JoxSceneSpec {
     uint32_t tally_count;
     JoxScenery *scenery;
     uint32_t scenery_count;
-    uint32_t floor;                    /* index of jox_floor_names */
+    uint32_t floor; /* index of jox_floor_names */
     JoxGame game;
     int32_t player_group;              /* -1: none */
     uint32_t player_agent;             /* index within that group */
