@@ -53,11 +53,11 @@ mean() { grep -o "\"bonds.$1\": {\"mean\": [-0-9.e]*" "$2" | grep -o '[-0-9.e]*$
 between "a weak wall breaks" "$(mean broken "$work/w.json")" 1 450
 between "speed of the front before the wall breaks, m/s" "$(mean front_speed "$work/w.json")" 0 0.1
 between "rows that press on the wall" "$(mean rows_pressing "$work/w.json")" 3 100
-"$JOSTLE" run scenes/wall-tight.yaml --for 60 --quiet --summary "$work/w.json"
+"$JOSTLE" run scenes/wall-tight.yaml --for 30 --quiet --summary "$work/w.json"
 between "a tight wall holds" "$(bonds broken "$work/w.json")" 0 0
 turned=$(bonds turned "$work/w.json")
 between "angle by which the tight wall turns, degrees" "${turned#-}" 3 180
-"$JOSTLE" run scenes/wall-heavy.yaml --for 60 --quiet --summary "$work/w.json"
+"$JOSTLE" run scenes/wall-heavy.yaml --for 30 --quiet --summary "$work/w.json"
 between "displacement of a heavy wall, m" "$(bonds moved "$work/w.json")" 0 0.1
 # A row of people who are pressed from both ends: feet hold it, and without them it buckles.
 aside() {
