@@ -29,6 +29,7 @@ typedef struct JoxWalls {
         bool solid;
         bool outline; /* boundary of the walkable area; its inside is walkable */
         float height; /* m; INFINITY: not given */
+        float drawn;  /* m: height up to which the live page draws it; 0: its height */
         char *name;   /* name of a gate; owned; NULL for other walls */
         bool open;    /* open gate: no obstacle */
         bool set;     /* opened or closed since it was made */

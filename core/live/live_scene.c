@@ -55,7 +55,10 @@ void jox_live_add_walls(const JoxWalls *walls, JoxJson *json) {
         jox_json_bool(json, "solid", ring->solid);
         jox_json_bool(json, "open", ring->open);
         jox_json_digits(json, "height",
-                        (double)(isfinite(ring->height) ? ring->height : JOX_WALL_HEIGHT), DIGITS);
+                        (double)(ring->drawn > 0.0f       ? ring->drawn
+                                 : isfinite(ring->height) ? ring->height
+                                                          : JOX_WALL_HEIGHT),
+                        DIGITS);
         jox_json_array(json, "points");
         for (uint32_t i = 0; i < n + twin; i++) /* a closed line repeats its first point */
             add_position(json, walls->vertices[ring->first + i % n].point);
@@ -378,6 +381,8 @@ uint64_t jox_live_version(const JoScene *scene) {
     jox_hash_add(&hash, &world->machines.edits_made, sizeof world->machines.edits_made);
     for (uint32_t v = 0; v < walls->count; v++) /* the status tells whether a wall is open */
         jox_hash_add(&hash, &walls->vertices[v].point, sizeof(JoxV2));
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        jox_hash_add(&hash, &walls->rings[r].drawn, sizeof walls->rings[r].drawn);
     for (uint32_t p = 0; p < world->model.place_count; p++)
         jox_hash_add(&hash, world->model.places[p].points,
                      world->model.places[p].count * sizeof(JoxV2));

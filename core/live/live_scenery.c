@@ -22,9 +22,13 @@ static void add_scenery_item(JoxJson *json, const JoxScenery *scenery) {
         add_scenery_points(json, "at", scenery->at, scenery->at_count);
     if (scenery->through_count)
         add_scenery_points(json, "through", scenery->through, scenery->through_count);
-    jox_json_digits(json, "turn", scenery->turn, DIGITS);
+    jox_json_array(json, "turns"); /* degrees, of each copy */
+    for (uint32_t k = 0; k < scenery->at_count; k++)
+        jox_json_digits(json, NULL, jox_scenery_turn(scenery, k), DIGITS);
+    jox_json_end(json);
     jox_json_numbers_of(json, "size", scenery->size, 3, DIGITS);
-    jox_json_digits(json, "doors", scenery->doors, DIGITS);
+    if (scenery->door_count)
+        jox_json_numbers_of(json, "doors", scenery->doors, (int)scenery->door_count, DIGITS);
     if (scenery->colour) {
         jox_colour_write(scenery->colour & 0xffffff, colour);
         jox_json_string(json, "colour", colour);
@@ -49,9 +53,10 @@ void jox_live_hash_scenery(const JoxSceneSpec *spec, JoxHash *hash) {
         jox_hash_add(hash, &s->kind, sizeof s->kind);
         jox_hash_add(hash, s->at, s->at_count * sizeof *s->at);
         jox_hash_add(hash, s->through, s->through_count * sizeof *s->through);
+        jox_hash_add(hash, s->faces, s->face_count * sizeof *s->faces);
         jox_hash_add(hash, &s->turn, sizeof s->turn);
         jox_hash_add(hash, s->size, sizeof s->size);
-        jox_hash_add(hash, &s->doors, sizeof s->doors);
+        jox_hash_add(hash, s->doors, s->door_count * sizeof *s->doors);
         jox_hash_add(hash, &s->colour, sizeof s->colour);
     }
 }

@@ -70,7 +70,8 @@ static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
             a->vertices[i].next != b->vertices[i].next)
             return false;
     for (uint32_t i = 0; i < a->ring_count; i++)
-        if (a->rings[i].height != b->rings[i].height || a->rings[i].solid != b->rings[i].solid ||
+        if (a->rings[i].height != b->rings[i].height || a->rings[i].drawn != b->rings[i].drawn ||
+            a->rings[i].solid != b->rings[i].solid ||
             !same_text(a->rings[i].name, b->rings[i].name) ||
             (!a->rings[i].set && a->rings[i].open != b->rings[i].open))
             return false;

@@ -6,7 +6,6 @@
 
 #include "base/mem.h"
 #include "geom/ground/standable.h"
-#include "geom/place_kinds.h"
 #include "geom/polygon.h"
 #include "run/run.h"
 
@@ -46,12 +45,20 @@ static void mark_walked(Floor *floor, JoxV2 at) {
         true;
 }
 
+/* Returns the kind of a place that is an area. */
+static int find_area_kind(void) {
+    int kind = 0;
+    while (jox_place_kinds[kind].outline != JOX_OUTLINE_RING)
+        kind++;
+    return kind;
+}
+
 /* Divides the floor into parts, and marks those that people start on or come in on. */
 static void lay_floor(Floor *floor, const JoScene *scene) {
     const JoxAgents *a = &scene->world->state.agents;
     JoxV2 corners[4] = {floor->low, jox_v2(floor->high.x, floor->low.y), floor->high,
                         jox_v2(floor->low.x, floor->high.y)};
-    JoxPlace box = {.name = "", .kind = JOX_PLACE_POLYGON, .points = corners, .count = 4};
+    JoxPlace box = {.name = "", .kind = find_area_kind(), .points = corners, .count = 4};
     jox_place_finish(&box);
     jox_standable_lay(&floor->ground, &box, 0.0f, MOST_CELLS, floor->walls, NULL, NULL);
     floor->walked = jox_alloc((size_t)floor->ground.part_count + 1, sizeof *floor->walked);
@@ -114,7 +121,7 @@ static bool find_walked(const Floor *floor, const JoxScenery *scenery, JoxV2 *sp
         return find_walked_fence(floor, scenery, spot);
     for (uint32_t k = 0; k < scenery->at_count; k++) {
         JoxV2 corners[4];
-        jox_scenery_footprint(scenery, scenery->at[k], corners);
+        jox_scenery_footprint(scenery, k, corners);
         if (find_walked_spot(floor, corners, spot))
             return true;
     }

@@ -160,9 +160,10 @@ static const JoxKey KEYS[] = {
     {"scenery", "at", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_read_scenery_at, JoxScenery, at, at_count), .content = "spots", .meaning = "its centre, or those of several copies; with `body`: from the body's own centre"},
     {"scenery", "through", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_read_points, JoxScenery, through, through_count), .content = "xy[2]", .meaning = "points of a line, parapet, fence or hedge, and corners of an area"},
     {"scenery", "turn", NUMBER, "deg", -1e4, 1e4, "0", TO(JoxScenery, turn), .meaning = "rotation about the vertical axis, anti-clockwise"},
+    {"scenery", "faces", POINT, "m", -FAR, FAR, "", READ_TO(jox_key_read_point, JoxScenery, faces, face_count), .meaning = "point that the front of each copy looks at, before it is turned by `turn`"},
     {"scenery", "size", POINT3, "m", 0, 1000, "", TO(JoxScenery, size), .meaning = "its own lengths along x, y and z; of what goes through points, y is the width. 0 and no size: those of its kind"},
     {"scenery", "colour", TEXT, "", 0, 0, "", READ_TO(jox_key_read_colour, JoxScenery, colour, colour), .meaning = "colour in place of that of its kind: " JOX_COLOUR_RULE},
-    {"scenery", "doors", WHOLE, "", 0, 12, "4", TO(JoxScenery, doors), .meaning = "of a train: number of its doors, at even distances"},
+    {"scenery", "doors", LIST, "m", -500, 500, "", READ(jox_key_read_doors), .content = "quantity[1]", .example = "doors: [-4, 4]", .meaning = "of a train: where along it its doors are, from its middle; each is 1.4 m wide. Default: four at even distances"},
     {"scenery", "body", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxScenery, body, body), .meaning = "body that carries it, as a train that moves"},
 
     {"place", "point", POINT, "m", -FAR, FAR, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_POINT), .meaning = "its centre"},
@@ -191,6 +192,7 @@ static const JoxKey KEYS[] = {
     {"wall", "closed", BOOL, "", 0, 0, "false", TO(JoxWallDraft, closed), .meaning = "of a line: its ends are joined"},
     {"wall", "height", NUMBER, "m", 0.01, 1000, "3", TO(JoxWallDraft, height),
      .meaning = "bodies can fly over the wall above this height; people never pass it"},
+    {"wall", "drawn", NUMBER, "m", 0.01, 1000, "", TO(JoxWallDraft, drawn), .meaning = "height up to which the live page draws it, in place of its height: a low one where scenery stands in its place"},
     {"wall", "name", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxWallDraft, name, name), .meaning = "name by which events open and close it; several walls may share it"},
     {"wall", "open", BOOL, "", 0, 0, "false", TO(JoxWallDraft, open), .meaning = "the wall is open, that is absent, until it is closed"},
 

@@ -37,6 +37,7 @@ enum { JOX_WALL_SOLID, JOX_WALL_LINE, JOX_WALL_FILE };
 typedef struct JoxWallDraft {
     int kind;          /* JOX_WALL_... */
     float height;      /* m */
+    float drawn;       /* m: height as drawn; NAN: not given */
     bool closed, open; /* its ends are joined; it is an open gate at the start */
     char *name;        /* NULL: it has none */
     double unit;       /* m, of a file's lengths */
@@ -96,7 +97,7 @@ JoxKeyRead jox_key_read_bodies, jox_key_read_turn, jox_key_read_hull, jox_key_re
 JoxKeyRead jox_key_read_part_shape;
 
 /* scenery.c */
-JoxKeyRead jox_key_read_scenery_at;
+JoxKeyRead jox_key_read_scenery_at, jox_key_read_doors;
 JoxOwnerFinish jox_finish_scenery;
 void jox_resolve_scenery(const JoxReader *reader, const JoxYaml *map, void *item);
 

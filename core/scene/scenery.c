@@ -32,12 +32,36 @@ void jox_key_read_scenery_at(const JoxReader *r, const JoxKey *key, const JoxYam
         jox_key_read_point(r, key, node, item);
 }
 
+/* Reads where along a train its doors are, m. */
+void jox_key_read_doors(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    enum { MOST_DOORS = 40 };
+    JoxScenery *scenery = item;
+    if (!node)
+        return;
+    if (node->kind != JOX_YAML_LIST || node->count < 1 || node->count > MOST_DOORS) {
+        jox_scene_error(r, node, "bad-type", key->example, "%s are a list of 1 to %d lengths",
+                        key->name, MOST_DOORS);
+        return;
+    }
+    scenery->doors = jox_arena_take(r->arena, node->count, sizeof *scenery->doors);
+    for (uint32_t d = 0; d < node->count; d++) {
+        double at;
+        if (!jox_read_number(r, node->items[d], "m", &at))
+            continue;
+        if (at >= key->least && at <= key->greatest)
+            scenery->doors[scenery->door_count++] = at;
+        else
+            jox_scene_error(r, node->items[d], "out-of-range", NULL, "this must be %g to %g m",
+                            key->least, key->greatest);
+    }
+}
+
 /* Reports keys that a kind does not have, and those that it lacks. */
 static bool check_form(const JoxReader *r, const JoxYaml *map, const JoxScenery *scenery) {
     const JoxSceneryKindInfo *kind = &jox_scenery_kinds[scenery->kind];
     const bool along = kind->form == JOX_SCENERY_LINE || kind->form == JOX_SCENERY_FENCE;
     const bool placed = kind->form == JOX_SCENERY_OPEN || kind->form == JOX_SCENERY_SOLID;
-    static const char *const PLACING[] = {"at", "turn", "body"};
+    static const char *const PLACING[] = {"at", "turn", "faces", "body"};
     const char *needed = placed ? "at" : "through";
     const uint32_t least = placed ? 1 : along ? 2 : 3;
     bool good = true;
@@ -102,11 +126,21 @@ void jox_resolve_scenery(const JoxReader *r, const JoxYaml *map, void *item) {
                     scenery->body);
 }
 
-void jox_scenery_footprint(const JoxScenery *scenery, JoxV2 at, JoxV2 corners[4]) {
+double jox_scenery_turn(const JoxScenery *scenery, uint32_t copy) {
+    JOX_ASSERT(copy < scenery->at_count);
+    if (scenery->face_count == 0)
+        return scenery->turn;
+    const JoxV2 back = jox_sub(scenery->at[copy], scenery->faces[0]); /* direction of its y axis */
+    return scenery->turn + atan2(-(double)back.x, (double)back.y) / JOX_DEGREE;
+}
+
+void jox_scenery_footprint(const JoxScenery *scenery, uint32_t copy, JoxV2 corners[4]) {
     static const float SIGNS[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     const bool trunk =
         scenery->kind == JOX_SCENERY_KIND_TREE || scenery->kind == JOX_SCENERY_KIND_LAMP;
-    const double most = trunk ? TRUNK : (double)INFINITY, turn = scenery->turn * JOX_DEGREE;
+    const double most = trunk ? TRUNK : (double)INFINITY;
+    const double turn = jox_scenery_turn(scenery, copy) * JOX_DEGREE;
+    const JoxV2 at = scenery->at[copy];
     const float x = (float)(0.5 * fmin(scenery->size[0], most));
     const float y = (float)(0.5 * fmin(scenery->size[1], most));
     const float c = (float)cos(turn), s = (float)sin(turn); /* no state: it is for warnings */

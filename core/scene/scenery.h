@@ -82,16 +82,21 @@ typedef struct JoxScenery {
     JoxV2 *at;      /* m: centres of its copies */
     JoxV2 *through; /* m: points of a line, fence or area */
     uint32_t at_count, through_count;
-    double turn;      /* degrees, anti-clockwise */
-    double size[3];   /* m */
-    double doors;     /* number of doors of a train */
+    double turn;  /* degrees, anti-clockwise */
+    JoxV2 *faces; /* m: point that the front of each copy looks at, before it is turned; or NULL */
+    uint32_t face_count;
+    double size[3]; /* m */
+    double *doors;  /* m: where along a train its doors are, from its middle */
+    uint32_t door_count;
     JoxColour colour; /* 0: that of its kind */
     char *body;       /* name of the body that carries it; NULL: it stands */
     JoxPosition position;
 } JoxScenery;
 
-/* Writes the corners of the box on the floor that a copy at `at` covers, m, anti-clockwise; of a
-   tree and a lamp: that of its trunk. */
-void jox_scenery_footprint(const JoxScenery *scenery, JoxV2 at, JoxV2 corners[4]);
+/* Returns the direction of a copy's x axis, degrees, anti-clockwise. */
+double jox_scenery_turn(const JoxScenery *scenery, uint32_t copy);
+/* Writes the corners of the box on the floor that a copy covers, m, anti-clockwise; of a tree and a
+   lamp: that of its trunk. */
+void jox_scenery_footprint(const JoxScenery *scenery, uint32_t copy, JoxV2 corners[4]);
 
 #endif

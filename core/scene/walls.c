@@ -1,5 +1,6 @@
 /* Reads walls of a scene: lines and solids, and files of walls (wall_files/). */
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -115,6 +116,8 @@ static void read_wall(const JoxReader *r, const JoxYaml *map) {
     else if (wall.points)
         jox_walls_add_polyline(walls, wall.points, wall.count, wall.closed, wall.height);
     JOX_ASSERT(walls->ring_count >= first);
+    for (uint32_t w = first; w < walls->ring_count && isfinite(wall.drawn); w++)
+        walls->rings[w].drawn = wall.drawn;
     if ((wall.points || wall.file) && named)
         jox_walls_name(walls, first, wall.name, wall.open);
 }

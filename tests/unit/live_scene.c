@@ -183,20 +183,22 @@ static void version_changes_with_bodies_but_not_with_gates(void **state) {
 static void scenery_is_sent_and_does_not_enter_the_hash(void **state) {
     (void)state;
     JoxText text = {0};
-    JoScene *bare = load_scene_text(WALK, "");
+    JoScene *bare = load_scene_text(WALK "walls: [{line: [[0, -9], [3, -9]], height: 3}]\n", "");
     step_scene(bare, 60);
     JoScene *dressed = load_scene_text(
         WALK "floor: marble\n"
+             "walls: [{line: [[0, -9], [3, -9]], height: 3, drawn: 0.5}]\n"
              "scenery:\n"
-             "  - {kind: bush, at: [5, 2]}\n"
+             "  - {kind: bush, at: [[5, 2], [0, 4]], faces: [0, 2]}\n"
              "  - {kind: hedge, through: [[0, 0], [3, 0]], size: [0, 0, 2], colour: sky}\n"
-             "  - {kind: train, at: [[0, 0], [0, 3]], turn: 90, doors: 2, body: coach}\n",
+             "  - {kind: train, at: [[0, 0], [0, 3]], turn: 90, doors: [1 m, -1], body: coach}\n",
         "");
     assert_true(jox_live_version(dressed) != jox_live_version(bare));
     step_scene(dressed, 60);
     assert_true(jo_world_hash(dressed->world) == jo_world_hash(bare->world));
     jox_live_scene(dressed, &text);
     parse_numbers(&text);
+    assert_near(number_at("walls.0.height", 0, 0, 0), 0.5, 1e-6);
     check_part(&text, "\"floor\": \"marble\"");
     check_part(&text, "\"colour\": \"#56b4e9\"");
     check_part(&text, "\"body\": \"coach\"");
@@ -206,8 +208,10 @@ static void scenery_is_sent_and_does_not_enter_the_hash(void **state) {
     assert_near(number_at("scenery.1.size.1", 0, 0, 0), 0.7, 1e-6);
     assert_near(number_at("scenery.1.size.2", 0, 0, 0), 2, 1e-6);
     assert_near(number_at("scenery.2.at.1.1", 0, 0, 0), 3, 1e-6);
-    assert_near(number_at("scenery.2.turn", 0, 0, 0), 90, 1e-6);
-    assert_near(number_at("scenery.2.doors", 0, 0, 0), 2, 0);
+    assert_near(number_at("scenery.0.turns.0", 0, 0, 0), -90, 1e-4); /* the front looks to -x */
+    assert_near(number_at("scenery.0.turns.1", 0, 0, 0), 0, 1e-4);
+    assert_near(number_at("scenery.2.turns.1", 0, 0, 0), 90, 1e-6);
+    assert_near(number_at("scenery.2.doors.1", 0, 0, 0), -1, 1e-6);
     jox_text_free(&text);
     jo_scene_free(dressed);
     jo_scene_free(bare);

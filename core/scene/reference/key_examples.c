@@ -121,7 +121,7 @@ const JoxExample jox_scene_examples[] = {
      "  walkers: {behaviour: walker.lua, at: [[2, 2], [2, 3]], set: {goal: tree}}\n"},
     {"wall", OPENING
      "walls:\n"
-     "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5}\n"
+     "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5, drawn: 0.4}\n"
      "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
      "  - {line: [[9, 5], [0, 5]], name: fence, open: true}\n"
      "  - {file: hall.wkt, unit: 1 cm, origin: [-3000, 0]}   # drawn in centimetres; 30 m further east\n"
@@ -131,9 +131,10 @@ const JoxExample jox_scene_examples[] = {
      "scenery:\n"
      "  - {kind: tree, at: [[-6, 8], [0, 8.5], [6, 8]], size: [5, 5, 8]}\n"
      "  - {kind: house, at: [0, 14], turn: 10, colour: '#c9a27a'}\n"
+     "  - {kind: bench, at: [[-3, 3], [3, 3]], faces: [0, 0]}\n"
      "  - {kind: line, through: [[-8, 0], [8, 0]], size: [0, 0.12, 0], colour: yellow}\n"
      "  - {kind: area, through: [[-8, -6], [8, -6], [8, -3], [-8, -3]], colour: green}\n"
-     "  - {kind: train, at: [0, 0], size: [12, 2.6, 3.2], doors: 3, body: coach}\n"
+     "  - {kind: train, at: [0, 0], size: [12, 2.6, 3.2], doors: [-4, 4], body: coach}\n"
      "bodies: [{name: coach, shape: {box: {size: [12, 2.6, 3]}}, kinematic: true, at: [-20, -4.5, 1.5], velocity: [1, 0, 0]}]\n"
      STANDER},
     {"body", OPENING
