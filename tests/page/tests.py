@@ -1,5 +1,6 @@
 """Tests of the live page: see run.sh."""
 import functools
+import json
 import os
 import shutil
 import subprocess
@@ -208,9 +209,25 @@ def breaks(browser):
     browser.wait("return !page.bar.paused", "the run does not go on after a breakpoint")
 
 
+def check_dressed(browser):
+    """Each kind of scenery has a shape, and that of the Tawaf is within its budget."""
+    kinds = json.loads(read("scripts", "scene.schema.json"))["definitions"]["scenery"]["properties"]["kind"]["enum"]
+    wrong = browser.run("""return arguments[0].filter((kind) => {
+        const item = {kind, at: [[1, 2]], turns: [30], through: [[0, 0], [4, 0], [4, 3]], size: [4, 3, 3], doors: [1]};
+        const {pile, paint} = page.view.ground.scenery.shape([item]), numbers = [...pile.position, ...pile.normal, ...paint.position];
+        return !numbers.length || !numbers.every(Number.isFinite);
+    })""", kinds)
+    expect(len(kinds) > 20 and not wrong, f"these kinds have no shape: {wrong}")
+    meshes, triangles, material = browser.run("""const ground = page.view.ground;
+        const made = ground.group.children.filter((n) => [ground.scenery.material, ground.scenery.paintMaterial].includes(n.material));
+        return [made.length, made.reduce((sum, n) => sum + n.geometry.attributes.position.count / 3, 0), ground.uniforms.material.value]""")
+    expect(meshes == 2 and 5000 < triangles < 300000 and material == 1, f"scenery: {meshes} meshes of {triangles} triangles on floor {material}")
+
+
 @served("run", "scenes/tawaf-few.yaml", "--view")
 def inspects(browser):
     """a click on a person shows state, parameters, velocities and why it changed"""
+    check_dressed(browser)
     browser.run("page.bar.toggle()")
     browser.wait("return page.bar.paused && page.crowd.share(performance.now()) === 1", "no pause")
     # Near enough that the person is large, and alone under the pointer.

@@ -2,17 +2,21 @@
 import * as THREE from "three";
 import { boxOf } from "./camera.js";
 import { table } from "./palette.js";
+import { Scenery } from "./scenery.js";
 import { bakeShade } from "./shade.js";
-import { FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED } from "./ground_shaders.js";
+import { FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED, SKY_FRAGMENT, SKY_VERTEX } from "./ground_shaders.js";
 import { meetsBlock } from "./sightline.js";
-import { Prism, wallMaterial } from "./walls.js";
+import { LANDMARK, Prism, wallMaterial } from "./walls.js";
 
+/** Materials of the floor, by their names in scenes, in the order of the shader's numbers. */
+const MATERIALS = ["plain", "marble", "asphalt", "concrete", "grass", "wood", "court", "sand", "paving", "carpet"];
 const OPEN = 0.04; // m, drawn height of an open gate
 
 const THEMES = {
-    light: { base: 0xf1f2f4, line: 0xd3d7dd, wall: 0x5b6573, edge: 0x2b333d, place: 0x0072b2, region: 0x8a94a3, sky: 0xe6e9ed },
-    dark: { base: 0x20242a, line: 0x353b44, wall: 0x8b97a8, edge: 0xc4cdd8, place: 0x56b4e9, region: 0x5d6774, sky: 0x15181c },
+    light: { base: 0xe9ebee, line: 0xcdd2d9, wall: 0xa9b1bb, edge: 0x5a6470, place: 0x0072b2, region: 0x8a94a3, sky: 0xe6eaef, zenith: 0xb4cbe2, dim: 1 },
+    dark: { base: 0x20242a, line: 0x353b44, wall: 0x6b7684, edge: 0xa9b4c0, place: 0x56b4e9, region: 0x5d6774, sky: 0x15181c, zenith: 0x0c1016, dim: 0.36 },
 };
+const LOW_SUN = 0.8; // m: height up to which ordinary walls cast a shadow, so that rooms stay light
 const GATE = 0xd55e00, GATE_EDGE = 0x7a3600;
 
 function circle([x, y], radius, sides = 40) {
@@ -40,13 +44,16 @@ function placeLines(place) {
 }
 
 export class Ground {
-    constructor() {
+    /** `poses`: the uniforms of bodies that have their poses. */
+    constructor(poses) {
         this.group = new THREE.Group();
         this.uniforms = {
             base: { value: new THREE.Color() }, line: { value: new THREE.Color() }, spacing: { value: 1 },
             field: { value: null }, ramp: { value: texture(table("value"), 256, 1, THREE.RGBAFormat) },
             cover: { value: new THREE.Vector4() }, gain: { value: 1 },
             shade: { value: null }, shaded: { value: new THREE.Vector4() },
+            material: { value: 0 }, dim: { value: 1 }, extent: { value: new THREE.Vector3(0, 0, 1) },
+            sky: { value: new THREE.Color() }, zenith: { value: new THREE.Color() },
         };
         // Camera position for lowering walls, and the box of the floor that they must not hide, m.
         this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 }, edge: { value: 0.4 } };
@@ -57,6 +64,13 @@ export class Ground {
         this.floor = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), material);
         this.floor.frustumCulled = false;
         this.floor.renderOrder = -1;
+        this.sky = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
+            uniforms: this.uniforms, vertexShader: SKY_VERTEX, fragmentShader: SKY_FRAGMENT, depthWrite: false, depthTest: false,
+        }));
+        this.sky.geometry.setAttribute("position", new THREE.Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
+        this.sky.frustumCulled = false;
+        this.sky.renderOrder = -2;
+        this.scenery = new Scenery(this.uniforms, this.seen, poses);
         this.materials = new Map(); // kept across scene messages, as a new material compiles its shader again
         this.walls = [];
         this.theme("light");
@@ -68,6 +82,9 @@ export class Ground {
         this.uniforms.line.value.set(this.colours.line);
         this.uniforms.ramp.value.image.data = table("value"); // of the theme
         this.uniforms.ramp.value.needsUpdate = true;
+        this.uniforms.sky.value.set(this.colours.sky);
+        this.uniforms.zenith.value.set(this.colours.zenith);
+        this.uniforms.dim.value = this.colours.dim;
         if (this.scene) this.set(this.scene);
     }
 
@@ -78,12 +95,14 @@ export class Ground {
         this.walls = scene.walls ?? [];
         this.open = Object.fromEntries(this.walls.filter((w) => w.name).map((w) => [w.name, Boolean(w.open)]));
         const [[x0, y0], [x1, y1]] = scene.area;
-        const margin = 3 * Math.max(x1 - x0, y1 - y0);
+        const margin = 3 * Math.max(8, Math.hypot(x1 - x0, y1 - y0)); // there it has faded into the sky
         this.floor.geometry.dispose();
         this.floor.geometry = new THREE.PlaneGeometry(x1 - x0 + 2 * margin, y1 - y0 + 2 * margin);
         this.floor.geometry.translate((x0 + x1) / 2, (y0 + y1) / 2, 0);
         this.uniforms.spacing.value = Math.max(x1 - x0, y1 - y0) > 80 ? 10 : 1;
-        this.group.add(this.floor);
+        this.uniforms.material.value = Math.max(0, MATERIALS.indexOf(scene.floor));
+        this.uniforms.extent.value.set((x0 + x1) / 2, (y0 + y1) / 2, Math.max(8, Math.hypot(x1 - x0, y1 - y0)));
+        this.group.add(this.floor, this.sky);
         const box = boxOf(this.walls.flatMap((w) => w.points ?? []));
         this.beside = box ? Math.min(1.2, 0.15 * Math.min(box[1][0] - box[0][0], box[1][1] - box[0][1])) : 1.2;
         this.seen.edge.value = this.beside / 3;
@@ -91,6 +110,7 @@ export class Ground {
         for (const wall of this.walls) if (!wall.name) fixed.wall(wall, wall.height || 2);
         this.addPrism(fixed, this.colours.wall, this.colours.edge);
         this.fixed = fixed.blocks;
+        for (const mesh of this.scenery.build(scene, this.beside)) this.group.add(mesh);
         const places = (scene.places ?? []).flatMap(placeLines);
         const regions = Object.values(scene.regions ?? {}).flatMap((points) => outline(points, true, 0.015));
         this.addLines(places, this.colours.place, 0.9);
@@ -139,13 +159,20 @@ export class Ground {
 
     /** Updates the shade around walls and closed gates, if they changed. */
     shade() {
-        const rings = this.blocks.filter((block) => block.high > OPEN).map((block) => block.ring), same = JSON.stringify(rings);
+        const walls = this.blocks.filter((block) => block.high > OPEN).map(({ ring, high }) => ({ ring, high: high < LANDMARK ? Math.min(high, LOW_SUN) : high }));
+        const rings = [...walls, ...this.scenery.rings.filter(({ ring }) => this.isNear(ring))], same = JSON.stringify(rings);
         if (same === this.shadeOf) return;
         this.shadeOf = same;
         this.uniforms.shade.value?.dispose();
         const baked = bakeShade(rings);
         this.uniforms.shade.value = baked?.texture ?? null;
         this.uniforms.shaded.value.set(...(baked?.cover ?? [0, 0, 0, 0]));
+    }
+
+    /** Returns whether a footprint lies near the scene, so that its shade is worth its texels. */
+    isNear(ring) {
+        const [[x0, y0], [x1, y1]] = this.scene.area, margin = 0.25 * Math.max(x1 - x0, y1 - y0);
+        return ring.some(([x, y]) => x > x0 - margin && x < x1 + margin && y > y0 - margin && y < y1 + margin);
     }
 
     /** Sets which gates are open; true if that changed. */
@@ -188,7 +215,7 @@ export class Ground {
     }
 
     clear() {
-        for (const part of [...this.group.children]) if (part !== this.floor) this.drop(part);
+        for (const part of [...this.group.children]) if (part !== this.floor && part !== this.sky) this.drop(part);
         this.gateParts = null;
     }
 

@@ -20,7 +20,7 @@ export class View {
         this.scene = new THREE.Scene();
         this.people = new People(this.renderer.slow ? LEAST_FIGURES : MOST_FIGURES);
         this.bodies = new Bodies();
-        this.ground = new Ground();
+        this.ground = new Ground(this.bodies.uniforms);
         this.scene.add(this.ground.group, this.people.group, this.bodies.group);
         this.scene.matrixWorldAutoUpdate = false; // everything is placed by shaders
         this.perspective = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 5000);

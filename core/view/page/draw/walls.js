@@ -3,24 +3,10 @@
 import * as THREE from "three";
 import { boxOf } from "./camera.js";
 import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./ground_shaders.js";
+import { FAR, acrossOf } from "./shapes.js";
 
 const THIN = 0.12; // m, drawn thickness of walls that have none
-const LANDMARK = 3.5; // m: solid blocks of this height are what the scene is about, and are never lowered
-const FAR = 1e6; // m: beside such a block nothing is hidden
-
-/** Returns the vector across a block's longest edge that ends `beside` m beside the block, m. */
-function acrossOf(points, [mx, my], beside) {
-    let longest = 0, x = 1, y = 0;
-    points.forEach((a, i) => {
-        const b = points[(i + 1) % points.length], length = Math.hypot(b[0] - a[0], b[1] - a[1]);
-        if (length <= longest) return;
-        longest = length;
-        x = (b[1] - a[1]) / length;
-        y = (a[0] - b[0]) / length;
-    });
-    const reach = Math.max(...points.map((p) => Math.abs((p[0] - mx) * x + (p[1] - my) * y)));
-    return [x * (reach + beside), y * (reach + beside)];
-}
+export const LANDMARK = 3.5; // m: solid blocks of this height are what the scene is about, and are never lowered
 
 /** A material of walls or of their edges. `seen`: uniforms of the shader that are shared. */
 export function wallMaterial(seen, colour, fragmentShader) {
