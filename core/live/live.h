@@ -103,6 +103,7 @@ typedef struct JoxLiveSession {
     bool fixed;          /* ranges of values are fixed */
     JoxLiveEnd end;      /* scenes: why the loop has ended the run */
     const char *failure; /* of a failed run: why */
+    const char *broke;   /* the breakpoint that paused the run, in words; NULL: none */
 } JoxLiveSession;
 
 /* ---- messages of a running scene ---- */

@@ -123,6 +123,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     add_costs(&json, live, scene);
     add_flows_and_gates(&json, scene);
     add_hints(&json, scene);
+    jox_json_string(&json, "broke", session->broke);
     jox_live_add_end(scene, session, &json);
     jox_json_end(&json);
 }

@@ -20,8 +20,10 @@ void jox_scene_page_pause(void *self, const JoxLiveRequest *request) {
     }
     if (!on && s->page.session.paused && jo_world_time(s->scene->world) >= s->until)
         s->until = INFINITY; /* continues beyond the scene's duration */
-    if (!on)
+    if (!on) {
         s->page.session.end = JOX_LIVE_GOES_ON;
+        s->page.session.broke = NULL;
+    }
     s->page.session.paused = on;
     s->steps = 0;
     s->page.last_status = 0.0; /* a status is sent at once */

@@ -40,6 +40,7 @@ static void pause_at_breakpoint(JoxScenePage *s) {
         return;
     jox_run_say(s->scene, "%s", jo_scene_broke(s->scene));
     jox_scene_page_show_agent(s, agent);
+    s->page.session.broke = jo_scene_broke(s->scene);
     s->page.session.paused = true;
     s->steps = 0;
     s->page.last_status = 0.0;

@@ -23,9 +23,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 JOSTLE = os.path.abspath(os.environ.get("JOSTLE", "build/release/jostle"))
 PICTURES = os.path.join(os.path.abspath(os.environ.get("B", "build/release")), "page")
 PATIENCE = 40  # s, for what should happen soon; much, as machines may be busy
-# Ten pictures a second: more would cost the processor, which draws them, and tell the tests nothing. While a picture is
-# saved the page draws hardly any: on a busy machine the browser would wait for its turn for minutes.
-SELDOM = "window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), window.between ?? 100);"
+# A picture each 0.4 s: more would cost the processor, which draws them, and tell the tests nothing; tests that need more set
+# `window.between`, ms. While a picture is saved the page draws hardly any: on a busy machine the browser would wait for its
+# turn for minutes.
+BETWEEN = 400
+SELDOM = f"window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), window.between ?? {BETWEEN});"
 
 
 class Failure(Exception):
@@ -144,6 +146,9 @@ class Browser:
         return self.find("#picture")
 
     def picture(self, name):
+        """Saves what is seen, for people to look at, if PICTURES is set: each costs a second of the processor."""
+        if not (os.environ.get("PICTURES") or name.startswith("failed-")):
+            return
         os.makedirs(PICTURES, exist_ok=True)
         self.run("window.between = 2000")
         for attempt in range(3):  # software graphics on a busy machine may be late for one
@@ -152,7 +157,7 @@ class Browser:
                 break
             except TimeoutException:
                 print(f"  the picture {name}.png is late ({attempt + 1})", file=sys.stderr)
-        self.run("window.between = 100")
+        self.run("delete window.between")
 
     def close(self):
         self.driver.quit()

@@ -4,8 +4,10 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import process from "node:process";
 import { amount } from "../../core/view/page/dom.js";
-import { classColour, valueColour, wayColour } from "../../core/view/page/draw/palette.js";
+import { roundDown } from "../../core/view/page/controls/compass.js";
+import { classColour, outerStates, valueColour, wayColour } from "../../core/view/page/draw/palette.js";
 import { endSentences } from "../../core/view/page/panels/end.js";
+import { KEYS } from "../../core/view/page/panels/help.js";
 import { censusText, newsLines } from "../../core/view/page/panels/news.js";
 
 // What people who lack one kind of cone see, of linear sRGB (Machado, Oliveira and Fernandes 2009).
@@ -50,6 +52,7 @@ function leastDifference(colours, eye) {
     return Math.min(...seen.flatMap((a, i) => seen.slice(0, i).map((b) => differenceOf(a, b))));
 }
 
+const page = (path) => readFileSync(new URL(`../../core/view/page/${path}`, import.meta.url), "utf8");
 const near = (a, b, by) => Math.abs(a - b) <= by;
 
 const TESTS = {
@@ -92,6 +95,43 @@ const TESTS = {
     "measured figures that are nothing are 0, with their unit": () => {
         const said = [[6.4e-11, "N"], [-2e-4, "m/s"], [0.25, "m"], [1234, "N"]].map((of) => amount(...of));
         assert.deepEqual(said, ["0 N", "0 m/s", "0.25 m", "1\u202f234 N"]);
+    },
+    "texts have a contrast of 4.5 to 1 at least, in both themes": () => {
+        const css = page("style.css"), themes = css.split("prefers-color-scheme: dark");
+        const read = (text) => Object.fromEntries([...text.slice(0, text.indexOf("}")).matchAll(/--([\w-]+): (#\w{6})/g)].map((m) => [m[1], [1, 3, 5].map((i) => parseInt(m[2].slice(i, i + 2), 16))]));
+        const light = ([r, g, b]) => dot([0.2126, 0.7152, 0.0722], [r, g, b].map((c) => (c <= 10 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4)));
+        const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
+        // What lies over the picture is 82 % opaque or more, and that may be black or white.
+        const over = (ground, under) => ground.map((c) => 0.82 * c + 0.18 * under);
+        for (const c of [read(themes[0]), read(themes[1])]) {
+            assert(Object.keys(c).length >= 9, `the colours of a theme are ${Object.keys(c)}`);
+            const pairs = [["text", c.ground], ["text", c.soft], ["faint", c.ground], ["faint", c.soft], ["accent", c.ground], ["accent", c.soft], ["accent-text", c.accent],
+                ["warn", c.ground], ["warn", c["warn-ground"]], ["text", over(c.ground, 0)], ["text", over(c.ground, 255)]];
+            for (const [text, ground] of pairs) assert(contrast(c[text], ground) >= 4.5, `${text} has ${contrast(c[text], ground).toFixed(2)} on ${ground}`);
+        }
+    },
+    "the list of keys has every key": () => {
+        const bound = page("main.js").split("bindKeys({")[1].split("}, this.player")[0];
+        const keys = [...bound.matchAll(/(?:^|[\s,{])(?:"([^"]+)"|(\w+)): (?:\(|step|turn)/g)].map((m) => m[1] ?? m[2]);
+        assert(keys.length > 20, `${keys.length} keys are bound`);
+        const names = { " ": "Space", Escape: "Esc", ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", "-": "−", "=": "+" };
+        const told = KEYS.flatMap(([text]) => text.split(" "));
+        const missing = keys.filter((key) => !told.includes(names[key] ?? (key.length === 1 ? key.toUpperCase() : key)));
+        assert.deepEqual(missing, []);
+    },
+    "a scale bar has a round length": () => assert.deepEqual([140, 99, 7, 0.3].map(roundDown), [100, 50, 5, 0.2]),
+    "outer states share a colour": () => {
+        const states = ["Greet", "Guard.Look", "Guard.Walk", "Rest"].map((name) => ({ machine: 0, name, colour: "#000000" }));
+        const outer = outerStates({ states, machines: [{ outer: [{ name: "Guard", within: [1, 2] }] }] });
+        assert.deepEqual(outer.map((o) => o.name), ["Greet", "Guard", "Guard", "Rest"]);
+        assert.equal(new Set(outer.map((o) => o.colour)).size, 3);
+    },
+    "values stand out from a dark floor too": () => {
+        for (const calm of [false, true]) {
+            const lightness = [...Array(17).keys()].map((i) => labOf(valueColour(i / 16, calm, true), EYES["all cones"])[0]);
+            assert(lightness.every((l, i) => i === 0 || l > lightness[i - 1] + 1), `a ramp's lightness is ${lightness}`);
+            assert(lightness[0] > 25, `nothing is as dark as the floor, ${lightness[0]}`);
+        }
     },
     "the end of a run is told in sentences": () => {
         const south = { name: "south", people: 97, last: 53 }, east = { name: "east", people: 0, last: null };

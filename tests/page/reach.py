@@ -38,6 +38,27 @@ def keyboard(browser):
            "the menu is not reached")
     browser.find("[title^=Seed]").send_keys(Keys.ESCAPE)
     expect(browser.run("return page.strip.menu.hidden && document.activeElement.id === 'more'"), "Escape does not close the menu")
+    browser.press(Keys.ENTER)
+    browser.wait("return page.strip.menu.contains(document.activeElement)", "the menu that opens has not the focus")
+    browser.run("page.strip.menu.querySelector('button').focus()")
+    stop = "return [...page.strip.menu.querySelectorAll('button, select, input')].indexOf(document.activeElement)"
+    first = browser.run(stop)
+    browser.press(Keys.ARROW_DOWN)
+    expect(browser.run(stop) == first + 1, "an arrow key does not go to the next control of the menu")
+    browser.press(Keys.ESCAPE)
+    # The list of keys keeps the focus, and gives it back.
+    browser.press("?")
+    expect(browser.run("return document.activeElement.closest('#help') !== null"), "the list of keys has not the focus")
+    for _ in range(3):
+        browser.press(Keys.TAB)
+        expect(browser.run("return document.activeElement.closest('#help') !== null"), "the focus leaves the list of keys")
+    browser.press(Keys.ESCAPE)
+    expect(browser.run("return document.getElementById('help').hidden && document.activeElement.id") == "more", "the focus does not come back from the list of keys")
+    # North, by its key.
+    browser.run("page.view.turnBy(0.7, 0, 1); page.redraw(); document.getElementById('compass').focus()")
+    browser.wait("return /Turn north up/.test(document.getElementById('compass').getAttribute('aria-label'))", "the compass does not turn")
+    browser.press(Keys.ENTER)
+    browser.wait("return document.getElementById('compass').getAttribute('aria-label') === 'Compass: north is up'", "the compass does not turn north up")
     # The crowd without a pointer: Enter at the middle of the picture chooses a person.
     browser.run("""const at = page.crowd.position([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)), 1);
         const t = page.view.orbit.target; page.view.moveBy(at[0] - t.x, at[1] - t.y);
@@ -143,6 +164,7 @@ def crowd_of_35000(browser):
     the quickest: what else runs on the machine only adds to a time. What 90 % of them take is told, not demanded.
     """
     browser.size(800, 500)  # software draws slowly, the script does not mind
+    browser.run("window.between = 100")
     browser.wait("return page.meter.pictures >= 5", "too few pictures", patience=40)
     browser.run("page.meter.spent.length = page.meter.calls.length = 0")
     browser.wait("return page.meter.spent.length >= 20", "too few pictures", patience=40)

@@ -198,11 +198,13 @@ def pulls(browser):
     browser.picture("push")
 
 
-@served("run", "scenes/office.yaml", "--view", "--break", "agent 9 enters Wait", "--break", "anybody enters Press")
+@served("run", "scenes/office.yaml", "--view", "--break", "agent 9 enters Wait", "--break", "anybody enters Press",
+        "--view-wait", "120")  # that the page is there when it breaks
 def breaks(browser):
     """a breakpoint pauses the page and shows the person, with the reason"""
     browser.wait("return page.bar.paused && page.person", "the page does not pause at a breakpoint", patience=60)
     browser.wait("return /breakpoint/.test(document.body.textContent)", "the page does not say which one")
+    expect(browser.run("return page.messages.standing.has('break')"), "which one it was does not stay")
     at = browser.run("return [page.person.id, page.person.state, document.getElementById('page-agent').checkVisibility()]")
     expect(at[1] in ("Wait", "Press") and at[2], f"agent {at[0]} in {at[1]} is shown, in a panel that is {'' if at[2] else 'not '}open")
     browser.run("page.bar.toggle()")

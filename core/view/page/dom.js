@@ -70,6 +70,24 @@ export function clock(seconds) {
     return `${minutes}:${rest}`;
 }
 
+/** What can have the focus within a node, in the order of Tab. */
+function stops(node) {
+    return [...node.querySelectorAll("button, select, input, a[href], [tabindex]")].filter((n) => !n.disabled && n.tabIndex >= 0 && n.getClientRects().length);
+}
+
+/** Moves the focus within a node: in a dialog Tab goes round; in a menu arrow keys move on from buttons, and Tab leaves it. */
+export function moveFocus(node, kind) {
+    node.addEventListener("keydown", (event) => {
+        const all = stops(node), at = all.indexOf(document.activeElement);
+        const step = kind === "menu" ? event.target instanceof HTMLButtonElement && { ArrowDown: 1, ArrowUp: -1 }[event.key]
+            : event.key === "Tab" && (event.shiftKey ? -1 : 1);
+        if (!step || all.length === 0 || (kind === "dialog" && all[at + step])) return; // within a dialog Tab does what it does
+        event.preventDefault();
+        event.stopPropagation();
+        all[(at + step + all.length) % all.length].focus();
+    });
+}
+
 /** Returns whether key presses belong to an input field. */
 export function typing(event) {
     const target = event.target;

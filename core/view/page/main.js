@@ -157,8 +157,8 @@ class Page {
         if (this.player.on) this.act.play(false);
         else if (this.tools.gesture) this.tools.cancel();
         else if (this.strip.close()) return true;
-        else if (this.end.close() || this.about.close()) return true;
         else if (!this.help.node.hidden) this.help.toggle(false);
+        else if (this.end.close() || this.about.close()) return true;
         else if (this.view.tool !== "select") this.tool("select");
         else this.inspect(null);
         return true;
@@ -229,6 +229,7 @@ class Page {
 
     takeStatus(status) {
         if (!this.recorded()) this.end.take(status);
+        this.messages.stand("break", status.broke && status.paused ? status.broke.trim() : "");
         this.bar.take(status);
         this.figures.take(status);
         this.legend.take(status);

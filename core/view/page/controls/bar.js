@@ -1,5 +1,5 @@
 // The bar over the picture: always one line. Controls that do not fit go into a menu at its end.
-import { byId, el, fill } from "../dom.js";
+import { byId, el, fill, moveFocus } from "../dom.js";
 import { icon } from "./icons.js";
 
 /** A button with an icon and a word; if there is little room the bar shows the icon only. */
@@ -21,8 +21,9 @@ export class Bar {
         this.menu = byId("menu");
         this.units = [];
         this.more = el("button", { type: "button", className: "iconed", id: "more", title: "More: controls without room in the bar",
-            "aria-expanded": "false", "aria-controls": "menu", onclick: () => this.open(this.menu.hidden) }, icon("more"), el("span", { className: "words" }, "More"));
+            "aria-expanded": "false", "aria-controls": "menu", onclick: () => this.open(this.menu.hidden, true) }, icon("more"), el("span", { className: "words" }, "More"));
         this.node.append(this.more);
+        moveFocus(this.menu, "menu");
         this.menu.addEventListener("keydown", (event) => {
             if (event.key === "Escape" && this.close()) event.stopPropagation();
         });
@@ -41,8 +42,10 @@ export class Bar {
         return nodes;
     }
 
-    open(on) {
+    /** Opens or closes the menu; `by` a press of its button: its first control gets the focus. */
+    open(on, by = false) {
         this.menu.hidden = !on || this.menu.childElementCount === 0;
+        if (by && !this.menu.hidden) this.menu.querySelector("button, select, input")?.focus({ preventScroll: true });
         this.more.setAttribute("aria-expanded", String(!this.menu.hidden));
     }
 

@@ -1,7 +1,7 @@
 // The list of keys, and times that the page spends; shown by `?`.
-import { byId, el, fill, figure, say } from "../dom.js";
+import { byId, el, fill, figure, moveFocus, say } from "../dom.js";
 
-const KEYS = [
+export const KEYS = [
     ["Space", "stop and go on"], [".", "one step"], ["1 2 3 4", "tools: look, throw, drag, push"],
     ["T", "from above"], ["F", "follow the chosen person"], ["H", "the whole scene"], ["N", "names: all, none, some"], ["A", "what the scene is about"],
     ["C", "next colour"], ["D", "next field on the floor"], ["P", "picture as PNG"],
@@ -42,14 +42,20 @@ export class Help {
         this.node = byId("help");
         this.parts = Object.fromEntries(["script", "calls", "draws", "pictures", "frames", "slots"].map((k) => [k, el("dd", {}, "–")]));
         const names = { script: "script a picture", calls: "graphics calls", draws: "draw calls", pictures: "pictures a second", frames: "frames received", slots: "slots" };
-        fill(this.node, el("h2", {}, "Keys"), el("dl", {}, KEYS.map(([key, text]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, text)])),
+        this.close = el("button", { type: "button", className: "close", "aria-label": "Close the list of keys", title: "Close (Esc)", onclick: () => this.toggle(false) }, "×");
+        moveFocus(this.node, "dialog");
+        fill(this.node, this.close, el("h2", { id: "help-title" }, "Keys"), el("dl", {}, KEYS.map(([key, text]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, text)])),
             el("h2", {}, "Measured"), el("dl", {}, Object.entries(this.parts).map(([k, dd]) => [el("dt", {}, names[k]), dd])));
         setInterval(() => this.measure(), 1000);
     }
 
     toggle(on = this.node.hidden) {
+        if (on === !this.node.hidden) return;
+        if (on) this.before = document.activeElement;
         this.node.hidden = !on;
-        if (on) this.measure();
+        if (!on) return void this.before?.focus?.(); // back to where the focus was
+        this.close.focus();
+        this.measure();
     }
 
     measure() {

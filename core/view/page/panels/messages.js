@@ -25,6 +25,7 @@ export class Messages {
 
     /** Shows a line that stays until an empty text replaces it. */
     stand(key, text) {
+        if ((this.standing.get(key)?.textContent ?? "") === text) return;
         this.standing.get(key)?.remove();
         this.standing.delete(key);
         if (!text) return;
