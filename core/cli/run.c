@@ -282,6 +282,7 @@ static int run_once(Run *run) {
     if (begun)
         status = write_page_and_summary(run, scene, steps, status, &files);
     run->troubled |= cli_print_troubles(&cli_run, scene);
+    run->troubled |= !jo_scene_meets_criteria(scene);
     if (!run->quiet && begun)
         cli_print_closing(scene, &files);
     if (run->profile)
@@ -455,6 +456,8 @@ const CliCommand cli_run = {
              "walls keep people from their goal, or a function of a behaviour failed in a tenth of "
              "its calls or more, or 100 times within a second, which suspends it, and was not "
              "corrected and reloaded, or no breakpoint was met (the run still goes on to its end), "
+             "or a criterion of the scene "
+             "is not met (with --seeds: the summary has the share of seeds that meet it), "
              "2 wrong usage, 3 bad "
              "input, also a mod that is asked for and is missing or does not load; 129, 130 and "
              "143: SIGHUP, SIGINT or SIGTERM ended it early, also with --view; its files and "

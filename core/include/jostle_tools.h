@@ -98,6 +98,8 @@ JO_API char *jo_scene_why(JoScene *scene, const JoWhyDef *def, JoError *error);
  * jo_scene_half_step, as many seconds of steps of that second scene, jo_scene_finish of it, and
  * jo_scene_page. */
 
+/* Whether the run so far meets all `criteria` of its scene; true if it has none. */
+JO_API bool jo_scene_meets_criteria(const JoScene *scene);
 /* Starts collecting what a report shows: densities, speeds by region, danger. Call it once, between
    two steps. jo_scene_finish then writes these, and the measurements of the scene's probes, as CSV
    files and pictures into `directory` (made if it is missing). */

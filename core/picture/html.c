@@ -36,7 +36,7 @@ static const char STYLE[] =
     "figure,tr,.summary p,.sign{break-inside:avoid}.scroll{overflow:visible}"
     "thead{break-inside:avoid;break-after:avoid}table{font-size:8.5pt;margin:.6rem 0;"
     "width:100%}th,td{padding:.15rem .5rem .15rem 0}td.n{white-space:normal}"
-    "figure.wide img{max-height:140mm;width:auto}.plan figure.wide img{max-height:78mm}"
+    "figure.wide img{max-height:118mm;width:auto}.plan figure.wide img{max-height:78mm}"
     ".csv{break-before:avoid;font-size:7.5pt;margin:-.4rem 0 "
     ".6rem}.panels{display:block;orphans:1;widows:1}.panels "
     "figure{display:inline-block;width:49%;margin-bottom:.6rem}"

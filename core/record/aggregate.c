@@ -58,6 +58,8 @@ static const struct {
     {"game.winner", JOX_SUMMARY_GIVEN},
     {"game.over", JOX_SUMMARY_GIVEN},
     {"game.*", JOX_SUMMARY_FIGURE},
+    {"criteria.*.figure", JOX_SUMMARY_FIGURE},
+    {"criteria.*.met", JOX_SUMMARY_FIGURE},
 };
 
 JoxSummaryKind jox_summary_kind(const char *path) {

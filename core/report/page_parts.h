@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/format/path.h"
+#include "record/danger/criteria.h"
 #include "report/page_table.h"
 #include "report/subject.h"
 #include "scene/scene.h"
@@ -47,6 +48,12 @@ void jox_page_put_signatures(FILE *out, const JoxSceneReport *given);
 /* Writes the name of a file as pages show it: relative to the present folder, or to that of the
    scene (or NULL), or its name alone. Returns `out`. */
 const char *jox_page_path(const char *path, const char *scene, char out[JOX_LONGEST_PATH]);
+
+/* Appends how many criteria are met, and names the others. */
+void jox_page_say_criteria(const JoxVerdict *verdicts, uint32_t count, JoxText *out);
+/* Writes the section on criteria; nothing if there are none. */
+void jox_page_put_criteria(FILE *out, const JoxSubject *subject, const JoxVerdict *verdicts,
+                           uint32_t count);
 
 /* Write sections of the page. jox_page_put_crowd writes the plan, the other three, and the
    probes' figures; leaving: who left when; danger: limits, maps and moments; levels: levels of

@@ -11,6 +11,7 @@
 #include "base/format/path.h"
 #include "base/format/plurals.h"
 #include "base/hash.h"
+#include "base/mem.h"
 #include "picture/html.h"
 #include "picture/html_sections.h"
 #include "picture/plot.h"
@@ -171,8 +172,14 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
     jox_html_body_begin(&body);
     FILE *out = body.out;
     if (out) {
+        const JoxCriterionEvidence evidence = jox_report_evidence(r);
+        const uint32_t count = jox_criteria_count(r->criteria);
+        JoxVerdict *verdicts = jox_alloc(count + 1, sizeof *verdicts);
+        for (uint32_t k = 0; k < count; k++)
+            verdicts[k] = jox_criteria_judge(r->criteria, k, &evidence);
         put_recording_title(page, r, &subject, hash);
         put_recording_summary(out, r, &subject);
+        jox_page_put_criteria(out, &subject, verdicts, count);
         jox_page_put_crowd(out, &subject);
         put_recording_figures(out, r, &subject);
         jox_html_heading(out, "How danger is measured");
@@ -180,9 +187,19 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
         put_recording_validation(out, r);
         put_recording_inputs(out, r, &subject, hash);
         jox_html_body_put(page, &body);
+        jox_free(verdicts);
         jox_html_end(page);
     }
     return jox_plot_close(page, "index.html", error) && out && !error->length;
+}
+
+JoxCriterionEvidence jox_report_evidence(const JoxReport *r) {
+    return (JoxCriterionEvidence){.danger = r->danger,
+                                  .exits = &r->exits,
+                                  .inside = (uint32_t)(r->crowd->people - r->exits.left),
+                                  .until = (double)r->crowd->last / r->crowd->fps,
+                                  .probes = (const JoxProbe *const *)r->probes,
+                                  .probe_count = r->count};
 }
 
 const JoxWalls *jox_report_walls(const JoxReport *r) {

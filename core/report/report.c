@@ -207,6 +207,9 @@ static void measure_recording(JoxReport *r) {
     if (r->spec)
         jox_danger_add_plan(r->danger, r->spec->places, r->spec->place_count, r->spec->probes,
                             r->spec->probe_count);
+    if (r->spec && r->spec->criterion_count)
+        r->criteria =
+            jox_criteria_create(r->spec->criteria, r->spec->criterion_count, r->spec->places);
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
         if (!t->history)
             frame.walls = jox_report_walls(r);
@@ -214,6 +217,8 @@ static void measure_recording(JoxReport *r) {
         for (uint32_t p = 0; p < r->count; p++)
             jox_probe_frame(r->probes[p], &frame);
         jox_danger_frame(r->danger, &frame, &r->exits);
+        if (r->criteria)
+            jox_criteria_sample(r->criteria, r->danger);
         if (jox_danger_local(r->danger)->time == frame.time)
             jox_story_add_sample(
                 &r->story, &(JoxStorySample){.frame = &frame,
@@ -256,6 +261,8 @@ static char *build_report_json(const JoxReport *r) {
     for (uint32_t p = 0; p < r->count; p++)
         jox_probe_json(r->probes[p], &json, jox_probe_def(r->probes[p])->name);
     jox_json_end(&json);
+    const JoxCriterionEvidence evidence = jox_report_evidence(r);
+    jox_criteria_json(r->criteria, &evidence, &json);
     jox_json_end(&json);
     jox_text_append(&out, "\n", 1);
     return out.data;
@@ -278,6 +285,7 @@ static char *make_report(const JoReportDef *def, JoError *error) {
     for (uint32_t p = 0; p < r.count; p++)
         jox_probe_free(r.probes[p]);
     jox_free(r.probes);
+    jox_criteria_free(r.criteria);
     jox_danger_free(r.danger);
     jox_exits_free(&r.exits);
     jox_story_free(&r.story);

@@ -4,6 +4,7 @@
 #define JOX_REPORT_REPORT_H
 
 #include "jostle_tools.h"
+#include "record/danger/criteria.h"
 #include "record/trajectories.h"
 #include "report/subject.h"
 #include "run/run.h"
@@ -17,6 +18,7 @@ typedef struct JoxReport {
     JoxProbe **probes;      /* probes of the scene, or default ones */
     uint32_t count;         /* number of probes */
     JoxDanger *danger;
+    JoxCriteria *criteria;            /* of the scene; NULL: none */
     JoxExits exits;                   /* people who are in no later frame; exits have no names */
     JoxTrajectoryReader *body_reader; /* for the bodies of a recording; NULL if it has none */
     JoxStory story;
@@ -29,6 +31,8 @@ const JoxWalls *jox_report_walls(const JoxReport *report);
 const char *jox_report_title(const JoxReport *report);
 /* Returns the report as a subject, which is valid as long as the report. */
 JoxSubject jox_report_subject(const JoxReport *report);
+/* Returns what verdicts on the scene's criteria need. */
+JoxCriterionEvidence jox_report_evidence(const JoxReport *report);
 /* Writes index.html into the report's folder. Returns false with a sentence in `error`. */
 bool jox_report_page(const JoxReport *report, JoxText *error);
 

@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/format/plurals.h"
 #include "base/guard.h"
+#include "base/mem.h"
 #include "jostle_tools.h"
 #include "picture/html.h"
 #include "picture/html_sections.h"
@@ -16,6 +17,7 @@
 #include "report/page_inputs.h"
 #include "report/page_parts.h"
 #include "report/run_subject.h"
+#include "run/criteria_listener.h"
 #include "run/figure_listeners.h"
 #include "run/literal_notes.h"
 #include "run/orca_flow_note.h"
@@ -259,9 +261,11 @@ static void put_run_inputs(FILE *out, const JoScene *scene, const JoxSubject *s)
 }
 
 /* Writes the head of the page, with the facts of the run, and lines to sign. */
-static void put_run_title(FILE *out, const JoScene *scene, const JoxSubject *s) {
+static void put_run_title(FILE *out, const JoScene *scene, const JoxSubject *s,
+                          const JoxVerdict *verdicts, uint32_t count) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
+    JoxText criteria = {0};
     char path[JOX_LONGEST_PATH], about[300] = "", foot[400], run[160], hash[32], program[64];
     snprintf(program, sizeof program, "Jostle %s", jo_version());
     jox_page_path(spec->path, NULL, path);
@@ -278,6 +282,9 @@ static void put_run_title(FILE *out, const JoScene *scene, const JoxSubject *s) 
     jox_html_fact(out, "Simulated", run);
     jox_html_fact(out, "State hash at the end", hash);
     jox_html_fact(out, "Program", program);
+    jox_page_say_criteria(verdicts, count, &criteria);
+    jox_html_fact(out, "Criteria", criteria.data);
+    jox_text_free(&criteria);
     jox_html_table_end(out);
     jox_page_put_signatures(out, &spec->report);
 }
@@ -298,8 +305,13 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
     if (out) {
         JoxSubject subject = jox_run_subject(scene, directory);
         subject.error = &text;
-        put_run_title(page, scene, &subject);
+        const uint32_t count = jox_run_count_criteria(scene);
+        JoxVerdict *verdicts = jox_alloc(count + 1, sizeof *verdicts);
+        for (uint32_t k = 0; k < count; k++)
+            verdicts[k] = jox_run_judge(scene, k);
+        put_run_title(page, scene, &subject, verdicts, count);
         put_run_summary(out, scene, &subject);
+        jox_page_put_criteria(out, &subject, verdicts, count);
         jox_page_put_inputs(out, scene, &subject, jox_run_drawn_values(scene));
         jox_page_put_crowd(out, &subject);
         put_run_pictures(out, scene, directory);
@@ -320,6 +332,7 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
         put_run_inputs(out, scene, &subject);
         jox_run_subject_free(&subject);
         jox_html_body_put(page, &body);
+        jox_free(verdicts);
         jox_html_end(page);
     }
     bool good = page && out && jox_plot_close(page, "index.html", &text) && !text.length;

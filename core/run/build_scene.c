@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/mem.h"
+#include "run/criteria_listener.h"
 #include "run/event_signals.h"
 #include "run/figure_listeners.h"
 #include "run/game_round.h"
@@ -176,5 +177,6 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_collect_standstills(scene);
         jox_run_watch_game(scene);
         jox_run_collect_probes(scene);
+        jox_run_collect_criteria(scene);
     }
 }

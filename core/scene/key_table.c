@@ -120,6 +120,7 @@ static const JoxKey KEYS[] = {
     {"scene", "player", TEXT, "", 0, 0, "", READ_TO(jox_key_read_group, JoxSceneSpec, player_group, player_group),
      .meaning = "group whose first agent the user drives"},
     {"scene", "probes", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, probes, probe_count), .example = "probes: {door: {flow: [[0, 0], [1, 0]]}}", .content = "probe*", RESTART("they measure from the start on"), .meaning = "probes: what to measure"},
+    {"scene", "criteria", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, criteria, criterion_count), .example = "criteria: {out in time: {cleared: 120}}", .content = "criterion*", RESTART("they are measured from the start on"), .meaning = "limits that the run is held against: pass or fail"},
     {"scene", "events", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, events, event_count), .example = "events: [{at: 20, open: gate}]", .content = "event[]", .meaning = "what happens at given times"},
     {"scene", "tally", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, tallies, tally_count), .example = "tally: {red: {memory: hits, group: blue}}", .content = "tally*", .meaning = "scores, printed in the last lines of a run"},
     {"scene", "game", TABLE, "", 0, 0, "", TO(JoxSceneSpec, game), .content = "game", .example = "game: {ours: red, theirs: blue, points: 5}", RESTART("a round keeps its rules"), .meaning = "a game of the `player` against the machine"},
@@ -382,6 +383,7 @@ static const JoxKey KEYS[] = {
     {"event", "lasts", NUMBER, "s", 0.01, 1e4, "", TO(JoxEvent, lasts), .meaning = "of a push: its duration"},
     {"event", "signal", TEXT, "", 0, 0, "", READ(jox_key_read_event_name), SELECTS(JOX_EVENT_SIGNAL), .meaning = "gives a signal that everybody hears, however far, by `heard`"},
 
+    JOX_CRITERION_KEY_ROWS
     JOX_MOD_KEY_ROWS
 };
 
@@ -400,6 +402,9 @@ static const JoxOwner OWNERS[] = {
      .struct_size = sizeof(JoxSceneLimits)},
     {"report", "report", "The title block of `jostle run SCENE --report DIR`; `--set report.author=NAME` sets a value for one run. What is not given is left blank, to be filled in by hand.",
      .struct_size = sizeof(JoxSceneReport)},
+    {"criterion", "Criteria", "`criteria` maps names to limits. The key of a criterion tells its kind. Each is one figure of a run against one limit: the report, the last lines of a run "
+     "and `--summary` say which are met, and `jostle run` ends with status 1 if one is not. One run is one seed: with `--seeds N` the mean of `criteria.NAME.met` is the share of seeds that meet it.",
+     .struct_size = sizeof(JoxCriterion), .kind_offset = AT(JoxCriterion, kind), .kind_error = "bad-criterion", .name_offset = AT(JoxCriterion, name), .finish = jox_finish_criterion},
     {"heatmap", "heatmap", "Area and time of the density map of a report.", .struct_size = 0},
     {"camera", "camera", "Of the live page and of pictures; the simulation does not use it.",
      .struct_size = sizeof(JoxSceneCamera), .finish = jox_finish_camera},

@@ -15,6 +15,58 @@
     {"report", "notes", TEXT, "", 0, 0, "", TO(JoxSceneReport, notes), .meaning = "assumptions and sources of the inputs, for the section on inputs"},
 /* clang-format on */
 
+/* Criteria. */
+#define JOX_CRITERION_ROW(kind, name, unit, greatest, example_, meaning_)                          \
+    {"criterion",                                                                                  \
+     #name,                                                                                        \
+     NUMBER,                                                                                       \
+     unit,                                                                                         \
+     0,                                                                                            \
+     greatest,                                                                                     \
+     "",                                                                                           \
+     TO(JoxCriterion, limits[JOX_CRITERION_##kind]),                                               \
+     SELECTS(JOX_CRITERION_##kind),                                                                \
+     .example = example_,                                                                          \
+     .meaning = meaning_},
+#define JOX_CRITERION_KEY_ROWS                                                                     \
+    JOX_CRITERION_KINDS(JOX_CRITERION_ROW){                                                        \
+        "criterion",                                                                               \
+        "margin",                                                                                  \
+        NUMBER,                                                                                    \
+        "",                                                                                        \
+        1,                                                                                         \
+        100,                                                                                       \
+        "1",                                                                                       \
+        TO(JoxCriterion, margin),                                                                  \
+        .meaning = "of cleared: factor on the time required, for what a model does not know"},     \
+        {"criterion",                                                                              \
+         "at",                                                                                     \
+         TEXT,                                                                                     \
+         "",                                                                                       \
+         0,                                                                                        \
+         0,                                                                                        \
+         "",                                                                                       \
+         READ_TO(jox_key_read_place, JoxCriterion, place, place),                                  \
+         .meaning = "of density: place in which it holds; everywhere without"},                    \
+        {"criterion",                                                                              \
+         "lasting",                                                                                \
+         NUMBER,                                                                                   \
+         "s",                                                                                      \
+         0,                                                                                        \
+         1e6,                                                                                      \
+         "0",                                                                                      \
+         TO(JoxCriterion, lasting),                                                                \
+         .meaning = "of density: it may be exceeded for so long in all"},                          \
+        {"criterion",                                                                              \
+         "of",                                                                                     \
+         TEXT,                                                                                     \
+         "",                                                                                       \
+         0,                                                                                        \
+         0,                                                                                        \
+         "",                                                                                       \
+         READ(jox_key_read_criterion_probe),                                                       \
+         .meaning = "of flow and waiting: name of the probe that measures it"},
+
 /* A group's or a profile's source. */
 #define JOX_BASIS_KEY_ROW                                                                          \
     {"group",                                                                                      \

@@ -14,6 +14,7 @@
 #include "geom/place.h"
 #include "geom/walls.h"
 #include "scene/scenery.h"
+#include "world/criterion.h"
 #include "world/exits.h"
 #include "world/population.h"
 #include "world/probe.h"
@@ -162,6 +163,8 @@ typedef struct JoxSceneSpec {
     uint32_t sink_count;
     JoxProbeDef *probes;
     uint32_t probe_count;
+    JoxCriterion *criteria;
+    uint32_t criterion_count;
     JoxEvent *events;
     uint32_t event_count;
     JoxTally *tallies;

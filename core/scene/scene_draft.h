@@ -133,6 +133,10 @@ JoxOwnerFinish jox_finish_probe, jox_finish_tally;
 JoxKeyRead jox_key_read_tally;
 JoxOwnerFinish jox_finish_game, jox_finish_level;
 
+/* criteria.c */
+JoxKeyRead jox_key_read_criterion_probe;
+JoxOwnerFinish jox_finish_criterion;
+
 /* mods_read.c */
 JoxKeyRead jox_key_read_settings;
 JoxKeyRead jox_key_read_setting_choices;

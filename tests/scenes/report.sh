@@ -127,3 +127,57 @@ awk 'BEGIN {print "# framerate: 5 fps"; for (f = 0; f < 250; f++) for (i = 0; i 
 verdict "a report on a made-up recording" $?
 outlined "its page, its plots and their ranges are as they were looked at" "$work/made" recording
 grep -q "39 of 40 people left: the first at [0-9.]* s, half of them by 2[0-9.]* s" "$work/made/index.html" && grep -q "Not cleared\|No. 1 person was still inside" "$work/made/index.html" && grep -q "at 0.0 s at (0.2, 2.0) m, in hall" "$work/made/index.html"; verdict "its summary says who left, and where it was dense" $?
+
+# Criteria: figure, limit and verdict in the summary, the page, the last lines and the exit status; the share of seeds.
+cat >"$work/held.yaml" <<'SCENE'
+include: made-run.yaml
+jostle: 1
+report: {author: A. Engineer, notes: Counted on 12 May.}
+criteria:
+  out in time: {cleared: 30, margin: 1.5}
+  out at once: {cleared: 5}
+  room: {density: 1, at: hall, lasting: 60}
+  packed: {density: 0.01}
+  door: {flow: 10, of: door}
+  through: {waiting: 30, of: passage}
+  hurt: {load: 6000}
+SCENE
+cat >"$work/made-run.yaml" <<'SCENE'
+jostle: 1
+title: A hall with a door
+duration: 30
+places: {hall: {polygon: [[0, 0], [8, 0], [8, 6], [0, 6]]}, exit: {point: [14, 3], radius: 1}}
+walls: [{line: [[8, 2.4], [8, 0], [0, 0], [0, 6], [8, 6], [8, 3.6]]}]
+groups:
+  people: {behaviour: walker.lua, count: 12, in: hall, set: {goal: exit, speed: 'normal(1.3, 0.2, 0.8, 1.8)'}, basis: a count}
+sinks: [{at: exit}]
+probes: {door: {flow: [[8, 3.6], [8, 2.4]]}, passage: {transit: [[[6, 6], [6, 0]], [[8, 3.6], [8, 2.4]]]}}
+SCENE
+"$JOSTLE" run "$work/held.yaml" --no-half-step --record "$work/held.sqlite" --report "$work/held" --summary "$work/held.json" >"$work/out" 2>&1
+[ $? = 1 ]; verdict "a run that fails a criterion ends with status 1" $?
+tr -s ' \n' ' ' <"$work/out" | grep -q 'Criterion out in time: met .* Criterion out at once: not met'; verdict "the last lines say which criteria are met" $?
+verdicts() { sed -n 's/^  "\(.*\)": {"figure": \([^,]*\), "limit": .*"met": \([^}]*\)}.*/\1 \3/p' "$1"; }
+wanted='out in time 1
+out at once 0
+room 1
+packed 0
+door 1
+through 1
+hurt 1'
+[ "$(verdicts "$work/held.json")" = "$wanted" ]; verdict "the summary has a verdict on each" $?
+last=$(number clearance_s "$work/held.json")
+between "the time required is the clearance time, times the margin" "$(sed -n 's/.*"out in time": {"figure": \([^,]*\).*/\1/p' "$work/held.json")" "$(awk -v t="$last" 'BEGIN {print 1.5 * t - 0.001}')" "$(awk -v t="$last" 'BEGIN {print 1.5 * t + 0.001}')"
+grep -q '^out at once,not met,.*,5,s,"time required: ' "$work/held/table-criteria.csv" && grep -q "5 of 7 met in this run; out at once: not met, packed: not met" "$work/held/index.html"; verdict "the page has the same verdicts" $?
+grep -q '^speed,people,"normal(1.3, 0.2, 0.8, 1.8) (scene)",12,1.[0-9]*,0.[0-9]*,' "$work/held/table-values.csv" && grep -q '^people,12,12,in hall,"\{0,1\}walker.lua; goal: exit"\{0,1\},,a count$' "$work/held/table-groups.csv"; verdict "inputs: values as given and as drawn, with their basis" $?
+"$JOSTLE" report "$work/held.sqlite" --scene "$work/held.yaml" --out "$work/held-again" --summary "$work/held-again.json" >/dev/null 2>&1
+[ "$(verdicts "$work/held-again.json")" = "$wanted" ]; verdict "its recording has the same verdicts" $?
+"$JOSTLE" run "$work/held.yaml" --seeds 3 --quiet --report "$work/held-seeds" --summary "$work/held-seeds.json" >/dev/null 2>&1
+grep -q '"criteria.out at once.met": {"mean": 0,' "$work/held-seeds.json" && grep -q '<td>out in time<td class=n>3 of 3' "$work/held-seeds/index.html"; verdict "with seeds, the share that meets each" $?
+wrong() { # TEXT CRITERION: check must refuse the criterion
+    printf 'include: made-run.yaml\njostle: 1\ncriteria:\n  it: {%s}\n' "$2" >"$work/wrong.yaml"
+    expect "a criterion {$2}" 3 "$1" "$JOSTLE" check "$work/wrong.yaml"
+}
+wrong "wrong.yaml:4:7: the criterion 'it' needs a probe" "flow: 1"
+wrong "wrong.yaml:4:21: there is no probe 'dor'. Did you mean 'door'?" "flow: 1, of: dor"
+wrong "wrong.yaml:4:24: waiting takes its figure from a probe of transit or visit" "waiting: 1, of: door"
+wrong "'at' goes with density" "cleared: 1, at: hall"

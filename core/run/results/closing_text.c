@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "jostle_tools.h"
 #include "record/danger/trust.h"
+#include "run/criteria_listener.h"
 #include "run/figure_listeners.h"
 #include "run/game_round.h"
 #include "run/probe_listener.h"
@@ -249,6 +250,7 @@ char *jo_scene_closing(const JoScene *scene) {
     say_people(scene, &text);
     say_states(scene, &text);
     jox_run_say_demand(scene, &text);
+    jox_run_say_criteria(scene, &text);
     jox_run_say_starts(scene, &text);
     jox_run_say_births(scene, &text);
     jox_run_say_kept(scene, &text);

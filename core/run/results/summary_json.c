@@ -13,6 +13,7 @@
 #include "jostle_tools.h"
 #include "record/aggregate.h"
 #include "record/danger/trust.h"
+#include "run/criteria_listener.h"
 #include "run/figure_listeners.h"
 #include "run/game_round.h"
 #include "run/probe_listener.h"
@@ -360,6 +361,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_danger(&json, scene);
     add_lua(&json, scene);
     jox_run_add_probes(scene, &json);
+    jox_run_add_criteria(scene, &json);
     jox_run_add_tally(scene, &json);
     jox_run_add_game(scene, &json);
     jox_json_format(&json, "hash", "%016llx", (unsigned long long)jox_world_hash(world));

@@ -38,7 +38,8 @@ const JoxExample jox_scene_examples[] = {
      "probes: {moved: {displacement: true}}\n"
      "events: [{at: 5, signal: go}]\n"
      "tally: {here: {group: standing}, there: {group: runner}}\n"
-     "game: {ours: there, theirs: here, time: 20}\n"},
+     "game: {ours: there, theirs: here, time: 20}\n"
+     "criteria: {not too dense: {density: 9}}\n"},
     {"report", OPENING
      "report:\n"
      "  author: A. Engineer\n"
@@ -50,6 +51,21 @@ const JoxExample jox_scene_examples[] = {
      "  date: 2026-05-04\n"
      "  notes: Speeds and pre-movement times as in the fire strategy of 2025.\n"
      STANDER},
+    {"criterion", OPENING
+     "criteria:\n"
+     "  everybody out: {cleared: 2 min, margin: 1.5} # required time times 1.5 within two minutes\n"
+     "  room in the hall: {density: 4, at: hall, lasting: 10}\n"
+     "  flow at the door: {flow: 1.3, of: door}\n"
+     "  way through: {waiting: 60, of: passage}\n"
+     "  nobody hurt: {load: 623}\n"
+     "duration: 20\n"
+     "places: {hall: {polygon: [[0, 0], [8, 0], [8, 6], [0, 6]]}, exit: {point: [14, 3], radius: 1}}\n"
+     "walls: [{line: [[8, 2.5], [8, 0], [0, 0], [0, 6], [8, 6], [8, 3.5]]}]\n"
+     "groups: {people: {behaviour: walker.lua, count: 10, in: hall, set: {goal: exit}}}\n"
+     "sinks: [{at: exit}]\n"
+     "probes:\n"
+     "  door: {flow: [[8, 3.5], [8, 2.5]]}\n"
+     "  passage: {transit: [[[6, 6], [6, 0]], [[8, 3.5], [8, 2.5]]]}\n"},
     {"tally", OPENING
      "tally:\n"
      "  worst: {memory: hits, group: blue, take: greatest, unit: hits}\n"

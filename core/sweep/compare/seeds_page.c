@@ -73,6 +73,36 @@ static void put_exits(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn)
     jox_html_table_end(out);
 }
 
+/* Writes how many runs meet each criterion of the scene, if it has any. */
+static void put_criteria_table(FILE *out, const JoxSide *side) {
+    static const char BEGIN[] = "criteria.", END[] = ".met";
+    bool begun = false;
+    for (uint32_t f = 0; f < side->figure_count; f++) {
+        const char *path = side->figures[f].name;
+        const size_t length = strlen(path);
+        if (strncmp(path, BEGIN, sizeof BEGIN - 1) != 0 || length < sizeof BEGIN + sizeof END - 2 ||
+            strcmp(path + length - (sizeof END - 1), END) != 0)
+            continue;
+        char name[128];
+        snprintf(name, sizeof name, "%.*s", (int)(length - (sizeof BEGIN + sizeof END - 2)),
+                 path + sizeof BEGIN - 1);
+        const JoxSpread figure = jox_spread_of_path(side, "criteria.%s.figure", name);
+        const uint32_t met = jox_spread_count_positive(side, path);
+        if (!begun) {
+            jox_html_heading(out, "Criteria");
+            jox_html_table(out, "criterion|>runs that meet it|>share|>figure (5 to 95 %)");
+        }
+        begun = true;
+        jox_html_row(out);
+        jox_html_cell(out, name);
+        fprintf(out, "<td class=n>%u of %u", met, side->runs);
+        jox_html_cell_number(out, 100.0 * met / side->runs, "%");
+        jox_spread_put_cell(out, &figure);
+    }
+    if (begun)
+        jox_html_table_end(out);
+}
+
 /* ---- danger ---- */
 
 static void put_limits_table(FILE *out, const JoxSide *side) {
@@ -270,6 +300,7 @@ static bool write_seeds_page(const JoxComparison *c, const JoxSide *side, const 
         put_spread_table(out, side);
         if (c->def->percentile > 0)
             jox_compare_put_percentiles(out, c);
+        put_criteria_table(out, side);
         put_exits(out, side, drawn);
         jox_html_heading(out, "Where it is dense");
         jox_seeds_put_maps(out, side, drawn);
