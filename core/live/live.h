@@ -93,6 +93,14 @@ void jox_live_sample_value(JoxLiveSample *sample, uint32_t stride, uint32_t i, f
 void jox_live_adapt_scale(JoxLiveScale *scale, const JoxLiveSample *sample, float least,
                           double now);
 
+/* The match of a game that a person plays on the page, round by round. Zero-initialised: none. */
+typedef struct JoxLiveMatch {
+    bool on;                      /* a match has begun; until then the machine plays */
+    bool judged;                  /* the present round is over and counted */
+    uint32_t round;               /* number of the present one, from 1 */
+    uint32_t ours, theirs, drawn; /* rounds won by either side; without a winner */
+} JoxLiveMatch;
+
 /* State of the page's loop that the status message reports: neither the scene nor the recording has
    it. */
 typedef struct JoxLiveSession {
@@ -104,6 +112,7 @@ typedef struct JoxLiveSession {
     JoxLiveEnd end;      /* scenes: why the loop has ended the run */
     const char *failure; /* of a failed run: why */
     const char *broke;   /* the breakpoint that paused the run, in words; NULL: none */
+    JoxLiveMatch match;  /* scenes with a game */
 } JoxLiveSession;
 
 /* ---- messages of a running scene ---- */

@@ -59,6 +59,12 @@ void jox_live_number_transitions(JoxLive *live, const JoxMachineRun *machines);
 /* Counts the transitions of a step, and drops those that are older than a second. Called after each
    step. */
 void jox_live_count_transitions(JoxLive *live, const JoScene *scene);
+/* live_game.c: each adds the member "game", null for a scene without one: of the scene message, the
+   rules; of a status, round and match as they stand. */
+void jox_live_add_rules(const JoScene *scene, JoxJson *json);
+void jox_live_add_match(const JoScene *scene, const JoxLiveMatch *match, JoxJson *json);
+/* Whether all rounds of the match are played, or one side can no longer be reached. */
+bool jox_live_is_match_over(const JoxGame *game, const JoxLiveMatch *match);
 /* Id of the agent that the scene's player drives; JOX_NO_INDEX: none. */
 uint32_t jox_live_player_id(const JoScene *scene);
 /* Computes the density of the present crowd, once per tick. */

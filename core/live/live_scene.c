@@ -362,6 +362,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
                       spec->view.colour > 0, &json);
     add_charts(&json, spec);
     add_scene_mods(&json, scene->mods);
+    jox_live_add_rules(scene, &json);
     jox_json_end(&json);
 }
 

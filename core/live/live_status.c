@@ -125,6 +125,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     add_hints(&json, scene);
     jox_json_string(&json, "broke", session->broke);
     jox_live_add_end(scene, session, &json);
+    jox_live_add_match(scene, &session->match, &json);
     jox_json_end(&json);
 }
 

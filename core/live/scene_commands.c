@@ -61,7 +61,10 @@ void jox_scene_page_restart(void *self, const JoxLiveRequest *request) {
         s->scene_def.seed = (uint64_t)seed;
     }
     JoError error = {0};
+    const JoxLiveMatch match = s->page.session.match;
+    jox_scene_page_replay_round(s);
     if (!jox_scene_page_load(s, &error)) {
+        s->page.session.match = match;
         s->scene_def = before;
         jox_live_refuse(request, error.text);
     }

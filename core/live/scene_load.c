@@ -1,4 +1,5 @@
 /* Loading, restarting and ending the scene of a live page. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -34,13 +35,33 @@ static bool set_breakpoints(JoxScenePage *s, JoError *error) {
     return good;
 }
 
+char *jox_scene_page_path(const JoxScenePage *s, const char *path) {
+    JoxText out = {0};
+    if (!path)
+        return NULL;
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    const size_t stem = dot && dot > name ? (size_t)(dot - path) : strlen(path);
+    jox_text_append(&out, path, stem);
+    if (s->starts > 1 && s->scene->spec->game.given)
+        jox_text_printf(&out, "-%u", s->starts);
+    jox_text_add(&out, path + stem);
+    return out.data;
+}
+
 /* Starts what `def` asks for: recording, input log, watch of files; then calls `begun`. */
 static bool begin_outputs(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
-    return (!def->record || jo_scene_record(s->scene, def->record, def->record_every, error)) &&
-           (!def->log_input || jo_scene_log_input(s->scene, def->log_input, error)) &&
-           (!def->watch || jo_scene_watch(s->scene, error)) && set_breakpoints(s, error) &&
-           (!def->begun || def->begun(def->begun_context, s->scene, error));
+    char *record = jox_scene_page_path(s, def->record),
+         *log = jox_scene_page_path(s, def->log_input);
+    const bool good = (!record || jo_scene_record(s->scene, record, def->record_every, error)) &&
+                      (!log || jo_scene_log_input(s->scene, log, error)) &&
+                      (!def->watch || jo_scene_watch(s->scene, error)) &&
+                      set_breakpoints(s, error) &&
+                      (!def->begun || def->begun(def->begun_context, s->scene, error));
+    jox_free(record);
+    jox_free(log);
+    return good;
 }
 
 static void put_overlay_file(void *context, const char *path, const char *text, size_t length) {
@@ -88,6 +109,7 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
         jox_live_say(&s->page, "error", ending.text);
     s->scene = next;
     jo_scene_vet(next, s->def->vetter);
+    s->starts++;
     s->failed = s->page.session.paused = false;
     s->page.session.end = JOX_LIVE_GOES_ON;
     s->page.session.broke = NULL;
@@ -96,7 +118,9 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
         jox_live_say(&s->page, "error", error->text);
     }
     s->steps = 0;
-    s->until = s->def->seconds > 0.0 ? s->def->seconds : jo_scene_duration(next);
+    s->until = s->def->seconds > 0.0      ? s->def->seconds
+               : s->page.session.match.on ? (double)INFINITY /* until the round is over */
+                                          : jo_scene_duration(next);
     s->began = 0.0;
     memset(s->inspectors, 0, sizeof s->inspectors);
     s->push_count = 0;

@@ -51,6 +51,7 @@ static void step_page_scene(JoxScenePage *s) {
     JoError error = {0};
     if (jo_scene_step(s->scene, &error)) {
         pause_at_breakpoint(s);
+        jox_scene_page_judge(s);
         pause_at_end(s);
     } else {
         jox_scene_page_fail(s, &error);
@@ -161,6 +162,7 @@ const JoxLiveSource jox_scene_page_source = {
     .verbs = {[JOX_LIVE_VERB_pause] = jox_scene_page_pause,
               [JOX_LIVE_VERB_step] = jox_scene_page_step,
               [JOX_LIVE_VERB_restart] = jox_scene_page_restart,
+              [JOX_LIVE_VERB_play] = jox_scene_page_play,
               [JOX_LIVE_VERB_input] = jox_scene_page_input,
               [JOX_LIVE_VERB_lua] = jox_scene_page_lua,
               [JOX_LIVE_VERB_inspect] = jox_scene_page_inspect},
@@ -199,6 +201,8 @@ static bool view_scene(const JoViewDef *def, JoError *error) {
     jox_live_page_close(&s.page);
     jox_scene_page_forget_errors(&s);
     jox_free(s.errors);
+    jox_free(s.overrides);
+    jox_free(s.level);
     return good && ended;
 }
 

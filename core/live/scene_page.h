@@ -33,13 +33,16 @@ typedef struct JoxScenePage {
     const JoViewDef *def;
     JoSceneDef scene_def; /* with the seed of the present run */
     JoScene *scene;
-    uint64_t steps;   /* still to be made while paused (command `step`) */
-    double until;     /* simulated time at which the run pauses by itself, s */
-    double began;     /* wall time at which the last step was due, s */
-    double opened;    /* wall time of the first call of `advance`, s */
-    bool has_started; /* the run no longer waits for its first browser */
-    bool embedded;    /* the scene belongs to the program (embedded_page.c) */
-    bool failed;      /* the run cannot continue; `failure` says why */
+    uint64_t steps;         /* still to be made while paused (command `step`) */
+    double until;           /* simulated time at which the run pauses by itself, s */
+    double began;           /* wall time at which the last step was due, s */
+    double opened;          /* wall time of the first call of `advance`, s */
+    bool has_started;       /* the run no longer waits for its first browser */
+    uint32_t starts;        /* how often the scene was started */
+    const char **overrides; /* settings of the present match's level; NULL: those of `def` */
+    char *level;            /* the setting that chooses the level */
+    bool embedded;          /* the scene belongs to the program (embedded_page.c) */
+    bool failed;            /* the run cannot continue; `failure` says why */
     char failure[1024];
     bool reported; /* messages being printed are errors that browsers already have as data */
     JoxLiveInspector inspectors[JOX_VIEW_CLIENTS];
@@ -60,6 +63,9 @@ void jox_scene_page_fail(JoxScenePage *scene, const JoError *error);
 /* Forwards a message of the scene to the caller's function, and to browsers unless they have it as
    data; `page` is the JoxScenePage. */
 void jox_scene_page_forward(void *page, const char *text);
+/* Returns the path of a file for the present start of the scene: of a game NAME-2.EXT for the
+   second and so on, so that each round keeps its files; else `path`. Free it by jox_free. */
+char *jox_scene_page_path(const JoxScenePage *scene, const char *path);
 /* Finishes recording and log, and frees the scene. False with `error` if a file is not whole. */
 bool jox_scene_page_end(JoxScenePage *scene, JoError *error);
 /* scene_errors.c: keeps the errors of loaded files and sends them; a JoxDiagnosed whose context is
@@ -74,6 +80,11 @@ void jox_scene_page_step(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_restart(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_input(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_lua(void *scene, const JoxLiveRequest *request);
+/* scene_match.c: the rounds of a match. Counts a round that is over; then the run is paused. */
+void jox_scene_page_judge(JoxScenePage *scene);
+void jox_scene_page_play(void *scene, const JoxLiveRequest *request);
+/* A run begins anew by the command `restart`: the present round again, or the end of the match. */
+void jox_scene_page_replay_round(JoxScenePage *scene);
 /* scene_inspectors.c: each browser can inspect one agent, and gets a message with each status. */
 /* Makes all browsers inspect the agent with this id. */
 void jox_scene_page_show_agent(JoxScenePage *s, uint32_t id);

@@ -13,9 +13,10 @@
     X(step, "")    /* "n": steps of a scene; frames of a recording, may be negative */             \
     X(speed, "")   /* "factor": pace, simulated seconds per second */                              \
     X(restart, "") /* "seed": of a scene; without it the present one */                            \
-    X(colour, "")  /* "by": a name of JOX_LIVE_COLOURS */                                          \
-    X(scale, "")   /* "fixed": whether ranges of values are the same for all scenes */             \
-    X(field, "")   /* "of": density, pressure or none */                                           \
+    X(play, JOX_LIVE_NEEDS_SCENE) /* the next round of a game, or "level": a new match */          \
+    X(colour, "")                 /* "by": a name of JOX_LIVE_COLOURS */                           \
+    X(scale, "") /* "fixed": whether ranges of values are the same for all scenes */               \
+    X(field, "") /* "of": density, pressure or none */                                             \
     X(seek, JOX_LIVE_NEEDS_RECORDING) /* "time": s */                                              \
     X(input, JOX_LIVE_NEEDS_SCENE)    /* "line": as in an input log */                             \
     X(lua, JOX_LIVE_NEEDS_SCENE)      /* "machine", "state", "parameter", "value" */               \

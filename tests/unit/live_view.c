@@ -366,6 +366,54 @@ static void view_that_cannot_start_returns_an_error(void **state) {
     assert_non_null(strstr(error.text, "/nowhere"));
 }
 
+static const char GAME[] = "jostle: 1\n"
+                           "seed: 3\n"
+                           "duration: 1000\n"
+                           "player: people\n"
+                           "groups:\n"
+                           "  people: {behaviour: stander.lua, at: [[0, 0], [3, 0]]}\n"
+                           "  others: {behaviour: stander.lua, at: [[6, 0]]}\n"
+                           "tally: {people: {group: people}, others: {group: others}}\n"
+                           "game: {ours: people, theirs: others, time: 1, rounds: 3,\n"
+                           "       levels: {easy: {}, hard: {group: others, set: {speed: 2}}}}\n";
+
+/* Rounds of a match have the next seed and logs of their own; a side that is two ahead has won. */
+static void match_is_played_round_by_round(void **state) {
+    (void)state;
+    write_test_file("scene.yaml", GAME);
+    begin_session(0);
+    join_session();
+    wait_for_json("\"type\": \"scene\"", "\"levels\": [\"easy\", \"hard\"]");
+    send_command("{\"do\": \"speed\", \"factor\": 20}");
+    wait_for_json("\"status\"", "\"game\": {\"on\": false");
+    send_command("{\"do\": \"play\", \"level\": \"medium\"}");
+    wait_for_json("\"refused\"", "no such level");
+    send_command("{\"do\": \"play\", \"level\": \"hard\"}");
+    wait_for_json("\"type\": \"scene\"", "\"level\": \"hard\"");
+    assert_non_null(strstr(last, "\"seed\": 3"));
+    wait_for_json("\"status\"", "\"winner\": \"ours\"");
+    assert_non_null(strstr(last, "\"paused\": true"));
+    assert_non_null(strstr(last, "\"round\": 1, \"won\": [1, 0, 0], \"match_over\": false"));
+    send_command("{\"do\": \"play\"}");
+    wait_for_json("\"type\": \"scene\"", "\"seed\": 4");
+    wait_for_json("\"status\"", "\"round\": 2, \"won\": [2, 0, 0], \"match_over\": true");
+    send_command("{\"do\": \"play\"}"); /* a new match at the same level */
+    wait_for_json("\"type\": \"scene\"", "\"seed\": 5");
+    assert_non_null(strstr(last, "\"level\": \"hard\""));
+    wait_for_json("\"status\"", "\"round\": 1, \"won\": [1, 0, 0]");
+    end_session();
+    assert_true(session.good);
+    jo_free(session.summary);
+    char log[4096] = "";
+    FILE *file = fopen(test_path("log-3.txt"), "r"); /* of the third start: the second round */
+    assert_non_null(file);
+    assert_true(fread(log, 1, sizeof log - 1, file) > 0);
+    fclose(file);
+    assert_non_null(strstr(log, "began 4 "));
+    assert_non_null(strstr(log, "0 player 0 0 0"));
+    write_test_file("scene.yaml", SCENE);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(new_page_gets_scene_errors_frames_and_status),
@@ -379,6 +427,7 @@ int main(void) {
         cmocka_unit_test(each_page_inspects_its_own_agent),
         cmocka_unit_test(file_errors_are_sent_until_mended),
         cmocka_unit_test(view_that_cannot_start_returns_an_error),
+        cmocka_unit_test(match_is_played_round_by_round),
     };
     return cmocka_run_group_tests(tests, make_session_folder, remove_test_folder);
 }

@@ -26,6 +26,11 @@ import { Player } from "./controls/player.js";
 import { Replay } from "./controls/replay.js";
 import { ScenePage } from "./panels/scene.js";
 import { Tools, TOOLS } from "./controls/tools.js";
+import { Gamepads } from "./controls/gamepad.js";
+import { Touch } from "./controls/touch.js";
+import { markBalls } from "./draw/ball_marks.js";
+import { PlayCamera } from "./draw/play_camera.js";
+import { GamePanel } from "./panels/game.js";
 import { View } from "./draw/view.js";
 
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
@@ -83,6 +88,10 @@ class Page {
         this.bar = new TimeBar(send, this.strip);
         this.replay = new Replay(send);
         this.player = new Player({ view: this.view, connection: this.connection });
+        this.game = new GamePanel({ send, play: (on) => this.playGame(on) });
+        this.gamepads = new Gamepads(this.player, () => this.game.press());
+        this.touch = new Touch(byId("stage"), this.player);
+        this.playCamera = new PlayCamera(this.view);
         this.tools = new Tools(byId("picture"), {
             view: this.view, crowd: this.crowd, overlay: this.overlay, connection: this.connection,
             inspect: (slot) => this.inspect(slot), box: () => this.act.box(),
@@ -154,6 +163,7 @@ class Page {
     }
 
     escape() {
+        if (this.game.pause()) return true;
         if (this.player.on) this.act.play(false);
         else if (this.tools.gesture) this.tools.cancel();
         else if (this.strip.close()) return true;
@@ -219,6 +229,7 @@ class Page {
         this.panel.offer("engine", live);
         this.panel.offer("machine", (scene.machines ?? []).length > 0);
         this.panel.offer("parameters", live && (scene.machines ?? []).length > 0);
+        this.game.set(scene);
         if (first || !this.toolBar.tools[this.view.tool]) this.tool("select");
         else this.toolBar.show(this.view.tool);
         if (first && COLOURS[scene.view?.colour]) this.colourBy(firstColour(scene));
@@ -231,6 +242,7 @@ class Page {
         if (!this.recorded()) this.end.take(status);
         this.messages.stand("break", status.broke && status.paused ? status.broke.trim() : "");
         this.bar.take(status);
+        this.game.take(status);
         this.figures.take(status);
         this.legend.take(status);
         this.machine.take(status);
@@ -393,6 +405,36 @@ class Page {
         this.redraw();
     }
 
+    /** Gives the player of a game to the person, or takes them away. */
+    playGame(on) {
+        const { game } = this.scene, { player } = this;
+        player.uses = Boolean(game?.button);
+        player.speed = game?.speed ?? player.speed;
+        if (!on) player.letGo();
+        player.on = on && player.id !== null;
+        this.touch.show(on, game?.button);
+        say(byId("hint"), on ? "" : TOOLS[this.view.tool].hint);
+        this.overlay.marks = null;
+        if (!on) return this.redraw();
+        this.overlay.marks = (pen) => markBalls(pen, this.view, this.balls());
+        if (this.view.top) this.top();
+        this.playCamera.begin();
+        player.join();
+        this.view.canvas.focus({ preventScroll: true });
+    }
+
+    /** Positions of the bodies that the game marks, m. */
+    balls() {
+        const { bodies, game } = this.scene;
+        return bodies.flatMap((body, row) => (game?.balls.includes(body.name) ? [this.crowd.bodyPosition(row)] : [])).filter(Boolean);
+    }
+
+    /** Keeps a game's camera behind the player. */
+    keepUpWithPlayer(share, now) {
+        const slot = this.overlay.players[0], at = slot === undefined ? null : this.crowd.position(slot, share);
+        if (at) this.playCamera.keepUp(at, () => [...Array(this.crowd.next.slots).keys()].filter((s) => s !== slot).map((s) => this.crowd.position(s, 1)).filter(Boolean), now);
+    }
+
     playing(on) {
         say(byId("hint"), on ? "W A S D or arrows drive the player. Escape ends." : TOOLS[this.view.tool].hint);
         if (on) this.view.canvas.focus();
@@ -425,6 +467,8 @@ class Page {
         const share = this.crowd.share(begun);
         const at = this.following ? this.crowd.position(this.slot, share) : null;
         if (at) this.eye.keepUp(at, begun);
+        this.gamepads.poll();
+        if (this.game.playing) this.keepUpWithPlayer(share, begun);
         if (this.view.draw(begun, this.drawn)) {
             this.overlay.draw(share);
             this.compass.update();

@@ -1,4 +1,5 @@
-// Keys that drive a player's agent: WASD or arrows, relative to the camera.
+// What a person gives the agent that they drive: a direction and a button, by keys (WASD or arrows, Space), a gamepad or
+// touch, relative to the camera.
 
 const KEYS = {
     w: [0, 1], arrowup: [0, 1], s: [0, -1], arrowdown: [0, -1],
@@ -13,8 +14,11 @@ export class Player {
         this.id = null;
         this.on = false;
         this.speed = 3; // m/s
-        this.held = new Set();
-        this.sent = "0 0";
+        this.uses = false; // whether the scene's game has a use for the button
+        this.held = new Set(); // keys
+        this.half = false; // Shift is held
+        this.sticks = new Map(); // by source: {right, up: -1 to 1, button}
+        this.sent = "";
         window.addEventListener("blur", () => this.letGo());
     }
 
@@ -24,34 +28,61 @@ export class Player {
         if (this.id === null) this.on = false;
     }
 
+    /** Takes over the agent at the beginning of a run: from now on the machine leaves it to the person. */
+    join() {
+        this.sent = "";
+        this.send();
+    }
+
     /** True if the key is the player's. */
     key(event, down) {
         const key = event.key.toLowerCase();
-        if (!this.on || this.id === null || !KEYS[key] || event.ctrlKey || event.metaKey || event.altKey) return false;
+        const mine = KEYS[key] || (this.uses && key === " ");
+        if (!this.on || this.id === null || !mine || event.ctrlKey || event.metaKey || event.altKey) return false;
         if (down) this.held.add(key);
         else this.held.delete(key);
-        this.send(event.shiftKey ? 0.5 : 1);
+        this.half = event.shiftKey;
+        this.send();
         return true;
+    }
+
+    /** Takes the state of a stick and a button, from a gamepad or from touch. */
+    stick(source, right, up, button) {
+        this.sticks.set(source, { right, up, button });
+        if (this.on) this.send();
     }
 
     letGo() {
         this.held.clear();
-        if (this.on) this.send(1);
+        this.sticks.clear();
+        if (this.on) this.send();
     }
 
-    /** Sends the wanted velocity, in the directions of the picture, if it changed. */
-    send(part) {
-        let right = 0, up = 0;
+    /** Returns what is wanted in the picture: right and up, together at most 1, and whether the button is held. */
+    wanted() {
+        let right = 0, up = 0, button = this.held.has(" ");
         for (const key of this.held) {
-            right += KEYS[key][0];
-            up += KEYS[key][1];
+            right += KEYS[key]?.[0] ?? 0;
+            up += KEYS[key]?.[1] ?? 0;
         }
-        const length = Math.hypot(right, up) || 1, size = (this.speed * part) / length;
+        const length = Math.max(1, Math.hypot(right, up)), part = this.half ? 0.5 : 1;
+        [right, up] = [(part * right) / length, (part * up) / length];
+        for (const stick of this.sticks.values()) {
+            button ||= stick.button;
+            if (Math.hypot(stick.right, stick.up) > Math.hypot(right, up)) [right, up] = [stick.right, stick.up];
+        }
+        return { right, up, button };
+    }
+
+    /** Sends the wanted velocity and the button, if they changed. */
+    send() {
+        const { right, up, button } = this.wanted();
         const m = this.page.view.camera.matrixWorld.elements; // its first column points right
         const flat = Math.hypot(m[0], m[1]) || 1, x = m[0] / flat, y = m[1] / flat;
-        const vx = size * (right * x - up * y), vy = size * (right * y + up * x);
-        const line = `${vx.toFixed(3)} ${vy.toFixed(3)}`;
-        if (line === this.sent) return;
-        if (this.page.connection.input("player", this.id, vx, vy)) this.sent = line;
+        const round = (v) => Number(v.toFixed(2)) || 0; // m/s, so that a trembling stick does not fill the log
+        const vx = round(this.speed * (right * x - up * y)), vy = round(this.speed * (right * y + up * x));
+        const words = this.uses ? [vx, vy, Number(button)] : [vx, vy], line = `${this.id} ${words.join(" ")}`;
+        if (line === this.sent || this.id === null) return;
+        if (this.page.connection.input("player", this.id, ...words)) this.sent = line;
     }
 }

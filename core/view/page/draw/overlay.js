@@ -27,6 +27,7 @@ export class Overlay {
         this.forces = null; // forces on the chosen person
         this.players = []; // slots
         this.sketch = null; // drawing of the active tool: function(pen, project)
+        this.marks = null; // drawing of a game's marks: function(pen)
         this.cross = false; // whether the cross in the middle is shown, for use by keys
         this.blank = true; // nothing is on the canvas
     }
@@ -61,7 +62,7 @@ export class Overlay {
 
     draw(share) {
         const pen = this.pen, ratio = this.view.ratio;
-        const still = this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross;
+        const still = this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross && !this.marks;
         const blank = still && this.names === "none" && !this.pointer;
         const stamp = still && !blank ? this.stamp() : "";
         if ((blank && this.blank) || (stamp && stamp === this.drawn)) return; // clearing takes time, too, when the processor draws
@@ -75,8 +76,9 @@ export class Overlay {
         if (this.names !== "none" || this.pointer) this.drawLabels();
         for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", "player");
         if (this.chosen !== null) this.drawChosen(share);
+        this.marks?.(pen);
         this.sketch?.(pen, (x, y, z) => this.view.project(x, y, z));
-        if (this.cross) this.drawCross();
+        if (this.cross && !this.marks) this.drawCross();
     }
 
     /** What names depend on where nothing else is drawn: the camera, the window, the pointer. */
