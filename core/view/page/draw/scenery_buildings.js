@@ -13,14 +13,14 @@ function arcade(pile, [x, y, z], { colour = CREAM }) {
         const z0 = s * high;
         for (let k = 0; k < bays; k++) {
             const x0 = -x / 2 + k * wide;
-            pile.arch(x0, x0 + wide, f, f + 0.6, z0, z0 + 0.55 * high, z0 + high - 0.25, tone(colour, 0.98 + 0.03 * (k % 2)), { foot: 0 });
+            pile.arch(x0, x0 + wide, f, f + 0.6, z0, z0 + 0.55 * high, z0 + high - 0.25, tone(colour, 0.98 + 0.03 * (k % 2)));
         }
-        pile.box(-x / 2, f - 0.15, z0 + high - 0.25, x / 2, f + 0.6, z0 + high, tone(colour, 1.15), { foot: 0 });
+        pile.box(-x / 2, f - 0.15, z0 + high - 0.25, x / 2, f + 0.6, z0 + high, tone(colour, 1.15));
     }
     pile.box(-x / 2, b - 0.3, 0, x / 2, b, roof, tone(colour, 0.9));
-    pile.box(-x / 2, f, roof - 0.3, x / 2, b, roof, tone(colour, 1.05), { foot: 0 });
-    pile.box(-x / 2, f - 0.1, roof, x / 2, f + 0.25, z, colour, { foot: 0 });
-    for (let k = 0; k < bays; k++) pile.ball(-x / 2 + (k + 0.5) * wide, 0.1 * y, roof, [0.3 * wide, Math.min(0.3 * wide, 0.36 * y), 0.26 * wide], tone(colour, 1.2), { half: true, foot: 0 });
+    pile.box(-x / 2, f, roof - 0.3, x / 2, b, roof, tone(colour, 1.05));
+    pile.box(-x / 2, f - 0.1, roof, x / 2, f + 0.25, z, colour);
+    for (let k = 0; k < bays; k++) pile.ball(-x / 2 + (k + 0.5) * wide, 0.1 * y, roof, [0.3 * wide, Math.min(0.3 * wide, 0.36 * y), 0.26 * wide], tone(colour, 1.2), { half: true });
 }
 
 function minaret(pile, [x, y, z], { colour = CREAM }) {
@@ -28,26 +28,26 @@ function minaret(pile, [x, y, z], { colour = CREAM }) {
     pile.block(-r, -r, r, r, 0);
     for (const [from, to, share, sides] of levels) {
         if (sides === 4) pile.box(-r, -r, from * z, r, r, to * z, colour);
-        else pile.post(0, 0, from * z, to * z, share * r, tone(colour, 1.05), { sides, taper: 0.95, foot: 0 });
+        else pile.post(0, 0, from * z, to * z, share * r, tone(colour, 1.05), { sides, taper: 0.95 });
     }
     for (const [at, share] of [[0.28, 1.12], [0.58, 1.02], [0.8, 0.74]]) {
-        pile.post(0, 0, at * z - 0.03 * z, at * z, 0.7 * share * r, tone(colour, 0.9), { sides: 12, taper: 1.4, foot: 0 });
-        pile.post(0, 0, at * z, at * z + 0.02 * z, share * r, tone(colour, 1.15), { sides: 12, foot: 0 });
+        pile.post(0, 0, at * z - 0.03 * z, at * z, 0.7 * share * r, tone(colour, 0.9), { sides: 12, taper: 1.4 });
+        pile.post(0, 0, at * z, at * z + 0.02 * z, share * r, tone(colour, 1.15), { sides: 12 });
     }
-    pile.ball(0, 0, 0.89 * z, [0.38 * r, 0.38 * r, 0.05 * z], tone(colour, 1.2), { half: true, foot: 0 });
-    pile.post(0, 0, 0.93 * z, z, 0.12 * r, GOLD, { sides: 6, taper: 0.05, foot: 0 });
+    pile.ball(0, 0, 0.89 * z, [0.38 * r, 0.38 * r, 0.05 * z], tone(colour, 1.2), { half: true });
+    pile.post(0, 0, 0.93 * z, z, 0.12 * r, GOLD, { sides: 6, taper: 0.05 });
 }
 
 /** Windows of one face of a house: on y, between x0 and x1. */
 function windows(pile, x0, x1, y, way, storeys, high, seed, shutter) {
     const columns = Math.max(1, Math.round((x1 - x0) / 2.7)), wide = (x1 - x0) / columns;
-    const pane = (a, b, low, top, out, colour) => pile.box(a, y + (way < 0 ? -out : 0), low, b, y + (way < 0 ? 0 : out), top, colour, { foot: 0 });
+    const pane = (a, b, low, top, out, colour) => pile.box(a, y + (way < 0 ? -out : 0), low, b, y + (way < 0 ? 0 : out), top, colour, { foot: high });
     const door = Math.floor(columns * draw(seed, 7));
     for (let s = 0; s < storeys; s++) {
         for (let k = 0; k < columns; k++) {
             const mid = x0 + (k + 0.5) * wide, low = s * high + 0.9, top = s * high + Math.min(high - 0.5, 2.4);
             if (s === 0 && way < 0 && k === door) {
-                pane(mid - 0.65, mid + 0.65, 0, 2.35, 0.05, FRAME);
+                pane(mid - 0.65, mid + 0.65, 0.02, 2.35, 0.05, FRAME);
                 pane(mid - 0.52, mid + 0.52, 0, 2.2, 0.08, tone(shutter, 0.8));
                 continue;
             }
@@ -56,9 +56,9 @@ function windows(pile, x0, x1, y, way, storeys, high, seed, shutter) {
             pane(mid - 0.03, mid + 0.03, low, top, 0.085, FRAME);
             if (way < 0) for (const side of [-1, 1]) pane(mid + side * 0.74 - 0.18, mid + side * 0.74 + 0.18, low - 0.05, top + 0.05, 0.06, shutter);
             if (way < 0 && s > 0 && draw(seed, s, k) < 0.25) { // a balcony
-                pile.box(mid - 0.95, y - 0.6, s * high + 0.1, mid + 0.95, y, s * high + 0.22, tone(FRAME, 0.8), { foot: 0 });
-                for (let n = 0; n <= 8; n++) pile.box(mid - 0.93 + 0.23 * n, y - 0.58, s * high + 0.22, mid - 0.9 + 0.23 * n, y - 0.55, s * high + 1.05, tone(PANE, 0.5), { foot: 0 });
-                pile.box(mid - 0.95, y - 0.6, s * high + 1.02, mid + 0.95, y - 0.53, s * high + 1.08, tone(PANE, 0.5), { foot: 0 });
+                pile.box(mid - 0.95, y - 0.6, s * high + 0.1, mid + 0.95, y, s * high + 0.22, tone(FRAME, 0.8));
+                for (let n = 0; n <= 8; n++) pile.box(mid - 0.93 + 0.23 * n, y - 0.58, s * high + 0.22, mid - 0.9 + 0.23 * n, y - 0.55, s * high + 1.05, tone(PANE, 0.5));
+                pile.box(mid - 0.95, y - 0.6, s * high + 1.02, mid + 0.95, y - 0.53, s * high + 1.08, tone(PANE, 0.5));
             }
         }
     }
@@ -66,10 +66,10 @@ function windows(pile, x0, x1, y, way, storeys, high, seed, shutter) {
 
 function house(pile, [x, y, z], { colour, seed }) {
     const a = x / 2, b = y / 2, wall = colour ?? PLASTERS[Math.floor(6 * draw(seed))], tile = TILES[Math.floor(3 * draw(seed, 2))], eaves = 0.82 * z;
-    const storeys = Math.max(1, Math.round(eaves / 3)), high = eaves / storeys, shutter = SHUTTERS[Math.floor(4 * draw(seed, 3))], foot = 0;
+    const storeys = Math.max(1, Math.round(eaves / 3)), high = eaves / storeys, shutter = SHUTTERS[Math.floor(4 * draw(seed, 3))], foot = eaves;
     pile.block(-a, -b, a, b, z);
     pile.box(-a, -b, 0, a, b, eaves, wall);
-    pile.box(-a - 0.03, -b - 0.03, 0, a + 0.03, b + 0.03, 0.5, tone(wall, 0.8));
+    pile.box(-a - 0.03, -b - 0.03, 0, a + 0.03, b + 0.03, 0.5, tone(wall, 0.8), { foot });
     windows(pile, -a + 0.3, a - 0.3, -b, -1, storeys, high, seed, shutter);
     windows(pile, -a + 0.3, a - 0.3, b, 1, storeys, high, seed, shutter);
     const o = 0.35;

@@ -44,10 +44,10 @@ function bench(pile, [x, y, z], { colour = WOOD }) {
     for (const end of [-1, 1]) {
         const at = end * (x / 2 - 0.2);
         pile.box(at - 0.04, -y / 2 + 0.05, 0, at + 0.04, y / 2 - 0.05, seat, DARK);
-        pile.box(at - 0.03, y / 2 - 0.12, seat, at + 0.03, y / 2 - 0.06, z, DARK, { foot: 0 });
+        pile.box(at - 0.03, y / 2 - 0.12, seat, at + 0.03, y / 2 - 0.06, z, DARK);
     }
-    for (let k = 0; k < 3; k++) pile.box(-x / 2, -y / 2 + k * (y / 3.3), seat, x / 2, -y / 2 + k * (y / 3.3) + 0.24 * y, seat + 0.04, tone(colour, 0.96 + 0.04 * k), { foot: 0 });
-    for (const at of [seat + 0.12, z - 0.12]) pile.box(-x / 2, y / 2 - 0.12, at, x / 2, y / 2 - 0.07, at + 0.1, colour, { foot: 0 });
+    for (let k = 0; k < 3; k++) pile.box(-x / 2, -y / 2 + k * (y / 3.3), seat, x / 2, -y / 2 + k * (y / 3.3) + 0.24 * y, seat + 0.04, tone(colour, 0.96 + 0.04 * k));
+    for (const at of [seat + 0.12, z - 0.12]) pile.box(-x / 2, y / 2 - 0.12, at, x / 2, y / 2 - 0.07, at + 0.1, colour);
 }
 
 function seats(pile, [x, y, z], { colour, seed }) {
@@ -97,11 +97,11 @@ function stage(pile, [x, y, z]) {
     const deck = Math.min(1.2, 0.2 * z), a = x / 2, b = y / 2, truss = rgb(0x8d939b);
     pile.block(-a, -b, a, b, z);
     pile.box(-a, -b, 0, a, b, deck, rgb(0x24262b), { top: rgb(0x4a3f38) });
-    pile.box(-a, b - 0.15, deck, a, b, z - 0.6, rgb(0x17181c), { foot: 0 });
+    pile.box(-a, b - 0.15, deck, a, b, z - 0.6, rgb(0x17181c));
     const wide = 0.62 * a, low = deck + 0.28 * (z - deck), high = z - 1;
     for (let k = 0; k < 12; k++) { // the screen: bands of colour
         const p = -wide + (2 * wide * k) / 12, q = -wide + (2 * wide * (k + 1)) / 12, own = [0x2a1f6f, 0x5b2a86, 0xa6317f, 0xe0524f, 0xf0924a, 0xf7cf62][Math.min(k, 11 - k)];
-        pile.face([[p, b - 0.17, low], [q, b - 0.17, low], [q, b - 0.17, high], [p, b - 0.17, high]], rgb(own), 0, 0.85);
+        pile.face([[p, b - 0.17, low], [q, b - 0.17, low], [q, b - 0.17, high], [p, b - 0.17, high]], rgb(own), 1, 0.85);
     }
     for (const px of [-1, 1]) {
         for (const py of [-1, 1]) {
@@ -110,8 +110,8 @@ function stage(pile, [x, y, z]) {
         }
         for (let k = 0; k < 3; k++) { // loudspeakers beside the deck
             const at = px * (a - 1.1);
-            pile.box(at - 0.5, -b + 0.1, deck + 0.85 * k, at + 0.5, -b + 0.8, deck + 0.85 * k + 0.8, rgb(0x1d1f23), { foot: 0 });
-            pile.box(at - 0.36, -b + 0.08, deck + 0.85 * k + 0.14, at + 0.36, -b + 0.1, deck + 0.85 * k + 0.66, rgb(0x3a3d43), { foot: 0 });
+            pile.box(at - 0.5, -b + 0.1, deck + 0.85 * k, at + 0.5, -b + 0.8, deck + 0.85 * k + 0.8, rgb(0x1d1f23));
+            pile.box(at - 0.36, -b + 0.08, deck + 0.85 * k + 0.14, at + 0.36, -b + 0.1, deck + 0.85 * k + 0.66, rgb(0x3a3d43));
         }
     }
     for (const [py, lift] of [[-b + 0.25, 0], [b - 0.25, 0]]) {
@@ -148,7 +148,7 @@ function goal(pile, [x, y, z], { colour = WHITE }) {
 function posts(pile, [x, , z], { colour = WHITE }) {
     for (const end of [-1, 1]) {
         pile.post((end * x) / 2, 0, 0, 1.6, 0.14, rgb(0x2d5fa8), { sides: 10 });
-        pile.post((end * x) / 2, 0, 0, z, 0.06, colour, { sides: 8, foot: 0 });
+        pile.post((end * x) / 2, 0, 0, z, 0.06, colour, { sides: 8 });
     }
     pile.bar([-x / 2, 0, Math.min(3, 0.4 * z)], [x / 2, 0, Math.min(3, 0.4 * z)], 0.1, colour, 0.5);
 }
@@ -174,7 +174,7 @@ function turnstile(pile, [x, y, z]) {
 function kiosk(pile, [x, y, z], { colour = rgb(0x3f6f8f) }) {
     pile.block(-x / 2, -y / 2, x / 2, y / 2, z);
     pile.box(-x / 2, -y / 2, 0, x / 2, y / 2, 1, tone(colour, 0.85));
-    pile.box(-x / 2 + 0.06, -y / 2 + 0.06, 1, x / 2 - 0.06, y / 2 - 0.06, z - 0.4, rgb(0xbcd0da), { foot: 0 });
+    pile.box(-x / 2 + 0.06, -y / 2 + 0.06, 1, x / 2 - 0.06, y / 2 - 0.06, z - 0.4, rgb(0xbcd0da));
     pile.box(-x / 2 - 0.12, -y / 2 - 0.3, z - 0.4, x / 2 + 0.12, y / 2 + 0.12, z, colour, { foot: 1 });
     pile.box(-x / 2, -y / 2 - 0.14, 0.96, x / 2, -y / 2, 1.02, WOOD, { foot: 0.3 });
     for (let k = 0; k < 5; k++) pile.box(-x / 2 + 0.15 + (k * (x - 0.3)) / 5, -y / 2 + 0.03, 1.15, -x / 2 + 0.1 + ((k + 1) * (x - 0.3)) / 5, -y / 2 + 0.05, 1.6, [0xd9534a, 0xe9b949, 0x7fae4d, 0x2b6ca3, 0xf0e2b8].map(rgb)[k], { foot: 0.3 });
@@ -188,16 +188,16 @@ function side(pile, x, y, z, way, gaps, colour) {
         const [p, q] = [cuts[k], cuts[k + 1]];
         if (q - p < 0.05) continue;
         pile.box(p, y - thick, 0, q, y + thick, 0.95, rgb(0xe3e6e9));
-        pile.box(p, y + way * thick - 0.012, 0.45, q, y + way * thick + 0.012, 0.72, colour, { foot: 0 });
-        pile.box(p, y - thick, 2.05, q, y + thick, z - 0.3, rgb(0xe3e6e9), { foot: 0 });
+        pile.box(p, y + way * thick - 0.012, 0.45, q, y + way * thick + 0.012, 0.72, colour);
+        pile.box(p, y - thick, 2.05, q, y + thick, z - 0.3, rgb(0xe3e6e9));
         const panes = Math.max(1, Math.round((q - p) / 1.6)), wide = (q - p) / panes;
         for (let n = 0; n < panes; n++) {
-            pile.box(p + n * wide, y - thick, 0.95, p + n * wide + 0.12, y + thick, 2.05, rgb(0xe3e6e9), { foot: 0 });
-            pile.box(p + n * wide + 0.12, y - 0.02, 0.95, p + (n + 1) * wide, y + 0.02, 2.05, GLASS, { foot: 0 });
+            pile.box(p + n * wide, y - thick, 0.95, p + n * wide + 0.12, y + thick, 2.05, rgb(0xe3e6e9));
+            pile.box(p + n * wide + 0.12, y - 0.02, 0.95, p + (n + 1) * wide, y + 0.02, 2.05, GLASS);
         }
-        pile.box(q - 0.12, y - thick, 0.95, q, y + thick, 2.05, rgb(0xe3e6e9), { foot: 0 });
+        pile.box(q - 0.12, y - thick, 0.95, q, y + thick, 2.05, rgb(0xe3e6e9));
     }
-    for (const g of gaps) pile.box(g - 0.7, y - thick, 2.1, g + 0.7, y + thick, z - 0.3, colour, { foot: 0 });
+    for (const g of gaps) pile.box(g - 0.7, y - thick, 2.1, g + 0.7, y + thick, z - 0.3, colour);
 }
 
 function train(pile, [x, y, z], { colour = rgb(0xc8452f), doors }) {
@@ -208,17 +208,17 @@ function train(pile, [x, y, z], { colour = rgb(0xc8452f), doors }) {
     for (const end of [-1, 1]) {
         pile.block(end * a - 0.06, -b, end * a + 0.06, b, 0);
         pile.box(end * a - 0.06, -b, 0, end * a + 0.06, b, 1, colour);
-        pile.box(end * a - 0.05, -b + 0.25, 1, end * a + 0.05, b - 0.25, 2.1, DARK, { foot: 0 });
-        for (const edge of [-b, b - 0.25]) pile.box(end * a - 0.06, edge, 1, end * a + 0.06, edge + 0.25, 2.1, rgb(0xe3e6e9), { foot: 0 });
-        pile.box(end * a - 0.06, -b, 2.1, end * a + 0.06, b, z - 0.3, colour, { foot: 0 });
-        for (const edge of [-1, 1]) pile.box(end * a + 0.05 * end - 0.02, edge * 0.72 * b - 0.12, 0.55, end * a + 0.05 * end + 0.02, edge * 0.72 * b + 0.12, 0.75, LIGHT, { glow: 1, foot: 0 });
+        pile.box(end * a - 0.05, -b + 0.25, 1, end * a + 0.05, b - 0.25, 2.1, DARK);
+        for (const edge of [-b, b - 0.25]) pile.box(end * a - 0.06, edge, 1, end * a + 0.06, edge + 0.25, 2.1, rgb(0xe3e6e9));
+        pile.box(end * a - 0.06, -b, 2.1, end * a + 0.06, b, z - 0.3, colour);
+        for (const edge of [-1, 1]) pile.box(end * a + 0.05 * end - 0.02, edge * 0.72 * b - 0.12, 0.55, end * a + 0.05 * end + 0.02, edge * 0.72 * b + 0.12, 0.75, LIGHT, { glow: 1 });
     }
     pile.block(-a, -b, a, b, 0, true);
     for (let k = 0; k + 1 < Math.round(x / 1.1); k++) { // seats along the far side
         pile.box(-a + 0.4 + 1.1 * k, b - 0.55, 0.4, -a + 1.35 + 1.1 * k, b - 0.1, 0.48, rgb(0x3d5f8f));
     }
     pile.roof = z - 0.3; // whoever looks from above sees into it
-    pile.box(-a, -b, z - 0.3, a, b, z, rgb(0xc2c7cc), { taper: 0.97, foot: 0 });
+    pile.box(-a, -b, z - 0.3, a, b, z, rgb(0xc2c7cc), { taper: 0.97 });
 }
 
 /** The draped cube: black cloth with a gold band, a door towards +x, and a skirt of marble. */
@@ -228,7 +228,7 @@ function kaaba(pile, [x, y, z]) {
     pile.prism([[-a - 0.3, -b - 0.3], [a + 0.3, -b - 0.3], [a + 0.3, b + 0.3], [-a - 0.3, b + 0.3]], 0, 0.35, rgb(0xe9e4d8), { taper: 0.97 });
     for (const [from, to, own] of bands) {
         const out = own === cloth ? 0 : 0.03;
-        pile.box(-a - out, -b - out, from * z + (from ? 0 : 0.3), a + out, b + out, to * z, own, { top: to === 1 ? rgb(0xd8d3c6) : own, foot: 0 });
+        pile.box(-a - out, -b - out, from * z + (from ? 0 : 0.3), a + out, b + out, to * z, own, { top: to === 1 ? rgb(0xd8d3c6) : own });
     }
     for (const [w, n] of [[x, 0], [y, 1]]) { // ornaments of the band, and lamps of gold thread under it
         const count = Math.round(w / 1.1);
@@ -236,16 +236,16 @@ function kaaba(pile, [x, y, z]) {
             const at = -w / 2 + ((k + 0.5) * w) / count;
             for (const way of [-1, 1]) {
                 const [h, k0, k1] = n ? [way * (a + 0.045), at - 0.32, at + 0.32] : [way * (b + 0.045), at - 0.32, at + 0.32];
-                const spot = (z0, z1, c0, c1) => (n ? pile.box(h - 0.012, c0, z0, h + 0.012, c1, z1, gold, { foot: 0 }) : pile.box(c0, h - 0.012, z0, c1, h + 0.012, z1, gold, { foot: 0 }));
+                const spot = (z0, z1, c0, c1) => (n ? pile.box(h - 0.012, c0, z0, h + 0.012, c1, z1, gold) : pile.box(c0, h - 0.012, z0, c1, h + 0.012, z1, gold));
                 spot(0.683 * z, 0.722 * z, k0, k1);
                 if (k % 3 === 1) spot(0.585 * z, 0.635 * z, at - 0.28, at + 0.28);
             }
         }
     }
-    pile.box(a, -b + 1.9, 2.1, a + 0.1, -b + 3.9, 5.3, gold, { foot: 0 });
-    pile.box(a + 0.08, -b + 2.1, 2.25, a + 0.13, -b + 3.7, 5.1, rgb(0xe2c476), { foot: 0 });
-    pile.ball(a + 0.05, -b - 0.02, 1.5, [0.22, 0.22, 0.26], rgb(0xd5d7da), { foot: 0 }); // the frame of the Black Stone
-    pile.ball(a + 0.16, -b - 0.13, 1.5, [0.12, 0.12, 0.15], rgb(0x201a18), { foot: 0 });
+    pile.box(a, -b + 1.9, 2.1, a + 0.1, -b + 3.9, 5.3, gold);
+    pile.box(a + 0.08, -b + 2.1, 2.25, a + 0.13, -b + 3.7, 5.1, rgb(0xe2c476));
+    pile.ball(a + 0.05, -b - 0.02, 1.5, [0.22, 0.22, 0.26], rgb(0xd5d7da)); // the frame of the Black Stone
+    pile.ball(a + 0.16, -b - 0.13, 1.5, [0.12, 0.12, 0.15], rgb(0x201a18));
     pile.bar([0.8, b, z - 1.2], [0.8, b + 1.3, z - 1.35], 0.22, gold, 0); // the spout over the Hijr
 }
 
@@ -253,22 +253,22 @@ function maqam(pile, [x, y, z]) {
     const r = Math.min(x, y) / 2, gold = rgb(0xc9a24a);
     pile.block(-r, -r, r, r, z, true);
     pile.post(0, 0, 0, 0.7, r, rgb(0x3a3835), { sides: 8 });
-    pile.post(0, 0, 0.7, z - 0.9, 0.86 * r, rgb(0xb9cdd2), { sides: 8, foot: 0 });
+    pile.post(0, 0, 0.7, z - 0.9, 0.86 * r, rgb(0xb9cdd2), { sides: 8 });
     for (let k = 0; k < 8; k++) {
         const t = (2 * Math.PI * k) / 8;
-        pile.post(0.9 * r * Math.cos(t), 0.9 * r * Math.sin(t), 0.7, z - 0.9, 0.05, gold, { sides: 5, foot: 0 });
+        pile.post(0.9 * r * Math.cos(t), 0.9 * r * Math.sin(t), 0.7, z - 0.9, 0.05, gold, { sides: 5 });
     }
-    pile.post(0, 0, z - 0.9, z - 0.75, r, gold, { sides: 8, foot: 0 });
-    pile.ball(0, 0, z - 0.75, [0.85 * r, 0.85 * r, 0.6], gold, { half: true, foot: 0 });
-    pile.post(0, 0, z - 0.2, z, 0.04, gold, { sides: 5, foot: 0 });
+    pile.post(0, 0, z - 0.9, z - 0.75, r, gold, { sides: 8 });
+    pile.ball(0, 0, z - 0.75, [0.85 * r, 0.85 * r, 0.6], gold, { half: true });
+    pile.post(0, 0, z - 0.2, z, 0.04, gold, { sides: 5 });
 }
 
 function pillar(pile, [x, y, z], { colour = STONE }) {
     const r = Math.min(x, y) / 2;
     pile.block(-r, -r, r, r, z);
     pile.box(-1.15 * r, -1.15 * r, 0, 1.15 * r, 1.15 * r, 0.25, colour);
-    pile.post(0, 0, 0.25, z - 0.3, 0.88 * r, colour, { sides: 12, taper: 0.92, foot: 0 });
-    pile.box(-1.2 * r, -1.2 * r, z - 0.3, 1.2 * r, 1.2 * r, z, tone(colour, 1.1), { foot: 0 });
+    pile.post(0, 0, 0.25, z - 0.3, 0.88 * r, colour, { sides: 12, taper: 0.92 });
+    pile.box(-1.2 * r, -1.2 * r, z - 0.3, 1.2 * r, 1.2 * r, z, tone(colour, 1.1));
 }
 
 function block(pile, [x, y, z], { colour = rgb(0xb9b3a6) }) {
@@ -285,7 +285,7 @@ export const ALONG = {
     parapet(pile, length, wide, high, { colour = rgb(0xddd8cd) }) {
         pile.block(-wide / 2, -wide / 2, length + wide / 2, wide / 2, high);
         pile.box(-wide / 2, -wide / 2, 0, length + wide / 2, wide / 2, high - 0.08, colour);
-        pile.box(-0.62 * wide, -0.62 * wide, high - 0.08, length + 0.62 * wide, 0.62 * wide, high, tone(colour, 1.3), { foot: 0 });
+        pile.box(-0.62 * wide, -0.62 * wide, high - 0.08, length + 0.62 * wide, 0.62 * wide, high, tone(colour, 1.3));
     },
     fence(pile, length, wide, high, { colour = METAL }) {
         pile.block(0, -wide / 2, length, wide / 2, 0);
@@ -297,7 +297,7 @@ export const ALONG = {
         pile.block(0, -wide / 2, length, wide / 2, high);
         pile.box(0, -0.42 * wide, 0, length, 0.42 * wide, 0.8 * high, tone(colour, 0.9));
         for (let k = 0; k <= length / (0.8 * wide); k++) {
-            pile.ball(Math.min(length, 0.8 * wide * k), 0, 0.62 * high, [0.62 * wide, 0.55 * wide, 0.4 * high * (0.9 + 0.2 * draw(seed, k))], tone(colour, 0.9 + 0.2 * draw(seed, k, 1)), { foot: 0 });
+            pile.ball(Math.min(length, 0.8 * wide * k), 0, 0.62 * high, [0.62 * wide, 0.55 * wide, 0.4 * high * (0.9 + 0.2 * draw(seed, k))], tone(colour, 0.9 + 0.2 * draw(seed, k, 1)));
         }
     },
 };
