@@ -1,201 +1,236 @@
-// People: everyone as a point, those near the eye as figures, and the shade around their feet. Three
-// draw calls for any number.
+// People: meshes in three levels of detail by distance, sprites of the same figure beyond, and the shade around their
+// feet. Six draw calls for any number. Records are uploaded as they come; figure/levels.js chooses who is drawn how.
 import * as THREE from "three";
 import { NOBODY, PERSON } from "../net/crowd.js";
-import { makeFigure } from "./figure.js";
-import { FIGURE_FRAGMENT, FIGURE_VERTEX, POINT_FRAGMENT, POINT_VERTEX, SHADE_FRAGMENT, SHADE_VERTEX } from "./shaders.js";
+import { atlasOf, bakeAtlas } from "./figure/atlas.js";
+import { makeBody } from "./figure/body.js";
+import { ROW } from "./figure/decode.js";
+import { Levels } from "./figure/levels.js";
+import { CLOTHES } from "./figure/looks.js";
+import { MESH_FRAGMENT, MESH_VERTEX } from "./figure/mesh.js";
+import { Motion } from "./figure/motion.js";
+import { ACTIONS, bakePoses } from "./figure/poses.js";
+import { FAR_SHADE_FRAGMENT, FAR_SHADE_VERTEX, SHADE_FRAGMENT, SHADE_VERTEX } from "./figure/shadow.js";
+import { SPRITE_FRAGMENT, SPRITE_VERTEX } from "./figure/sprites.js";
 
-const FIGURES = 4608; // at most; a little more than are chosen, for the margin
-const MARGIN = 0.4; // m: people in this margin are drawn as both, so that nobody is missing between two frames
-const RINGS = 128; // rings around the camera, of equal area
-const FIGURE_PIXELS = 20; // people who are taller on the screen are drawn as figures
+const PIXELS = [150, 84, 40]; // least height of people on the screen in each mesh level
+// At most so many people in each mesh level; on a processor that draws by itself the least of it, and more as time allows.
+const MOST = [110, 450, 1500], LEAST = [4, 16, 60];
+const SPRITES = PIXELS.length; // list of those who are sprites; the next one is of all meshes
+const ABOVE = [0.82, 0.97]; // sine of the eye's elevation between which the simulated outlines appear on the floor
+const JUMP = 5; // s between two frames from which on nobody is seen to walk
 
 export class People {
-    /** `most`: people drawn as figures, at most. */
-    constructor(most) {
-        this.uniforms = {
-            mapA: { value: new THREE.Vector4() }, mapB: { value: new THREE.Vector4() },
-            share: { value: 1 }, swapped: { value: 0 }, classes: { value: 1 },
-            colours: { value: null }, pixels: { value: 1 }, tall: { value: 0 },
-            nearer: { value: 0 }, eye: { value: new THREE.Vector3() }, passed: { value: 1 }, clock: { value: 0 },
-        };
-        this.most = most; // fewer where drawing is slow
+    /** `slow`: whether the processor draws the pictures. */
+    constructor(slow) {
+        this.slow = slow;
+        this.detail = slow ? 0.1 : 1; // share of MOST that is drawn as meshes
+        this.levels = new Levels(PIXELS, MOST);
+        this.motion = new Motion();
+        this.atlas = slow ? atlasOf(4, [20, 36]) : atlasOf(6, [32, 56]);
+        this.uniforms = this.makeUniforms();
         this.capacity = 0;
-        this.counts = new Uint32Array(RINGS);
-        this.newest = 1; // index of the newer of the two buffers
+        this.newest = 1; // index of the newer of the two records
         this.personVersion = -1;
         this.group = new THREE.Group();
-        this.makeFigures();
-        this.grow(1024);
+        this.makeLayers();
+        this.grow(ROW);
+        this.allow();
     }
 
-    material(vertexShader, fragmentShader, more = {}) {
-        return new THREE.RawShaderMaterial({ uniforms: this.uniforms, vertexShader, fragmentShader, ...more });
+    makeUniforms() {
+        const { columns, rows, phases, poses } = this.atlas, of = (value) => ({ value });
+        this.kinds = integers(new Uint8Array(4 * 256), 256, THREE.RGBAIntegerFormat, THREE.UnsignedByteType);
+        this.poses = posesTexture();
+        return {
+            older: of(null), newer: of(null), motion: of(null), person: of(null), kinds: of(this.kinds), colours: of(null), poses: of(this.poses),
+            olderMap: of(new THREE.Vector4()), newerMap: of(new THREE.Vector4()), share: of(1), classes: of(1), clock: of(0),
+            from: of(new THREE.Vector3()), upright: of(1), eye: of(new THREE.Vector3()), flat_view: of(0), metre: of(1), above: of(0),
+            cells: of(new THREE.Vector4(columns, rows, phases, poses)), texels: of(this.atlas.cell[1]), boxes: of(null), plain: of(this.slow ? 1 : 0), least: of(this.slow ? 2.5 : 1), atlasClothes: of(null), atlasBody: of(null), atlasSurface: of(null),
+        };
     }
 
-    /** Creates buffers for so many slots; the next frame fills them again. */
-    grow(slots) {
-        while (this.capacity < slots) this.capacity = Math.max(1024, 2 * this.capacity);
-        if (this.points) {
-            this.group.remove(this.points, this.shades);
-            this.points.geometry.dispose();
+    /** Creates a mesh for each level, one for the sprites and one for the shade. */
+    makeLayers() {
+        const material = (vertexShader, fragmentShader, more = {}) => new THREE.RawShaderMaterial({
+            glslVersion: THREE.GLSL3, vertexShader, fragmentShader, ...more, uniforms: { ...this.uniforms, reach: { value: new THREE.Vector2() } },
+        });
+        const add = (of, geometry, drawn, list, order = 0) => {
+            const layer = new of(geometry ? instanced(geometry) : new THREE.BufferGeometry(), drawn);
+            layer.frustumCulled = false;
+            layer.renderOrder = order;
+            layer.visible = false; // until choose() knows who is drawn
+            this.group.add(layer);
+            return { layer, list };
+        };
+        const quad = quadGeometry(), soft = { transparent: true, depthWrite: false };
+        this.bodies = PIXELS.map((_, level) => makeBody(level));
+        const meshes = this.bodies.map((body, level) => add(THREE.Mesh, bodyGeometry(body), material(MESH_VERTEX, MESH_FRAGMENT), level));
+        // Shades are over the floor, under all that stands on it.
+        this.layers = [...meshes, add(THREE.Points, null, material(SPRITE_VERTEX, SPRITE_FRAGMENT), SPRITES),
+            add(THREE.Mesh, quad, material(SHADE_VERTEX, SHADE_FRAGMENT, soft), SPRITES + 1, -0.5),
+            add(THREE.Points, null, material(FAR_SHADE_VERTEX, FAR_SHADE_FRAGMENT, soft), SPRITES, -0.5)];
+    }
+
+    /** Creates room for so many slots; the next frame fills it again. */
+    grow(need) {
+        while (this.capacity < need) this.capacity = Math.max(ROW, 2 * this.capacity);
+        for (const texture of [...(this.records ?? []), this.moves, this.persons]) texture?.dispose();
+        const empty = () => new Uint32Array(2 * this.capacity).fill(NOBODY << 8);
+        this.records = [0, 1].map(() => integers(empty(), ROW, THREE.RGIntegerFormat, THREE.UnsignedIntType));
+        this.motion.grow(this.capacity);
+        this.moves = integers(new Uint16Array(this.motion.bytes.buffer), ROW, THREE.RGBAIntegerFormat, THREE.UnsignedShortType);
+        this.persons = integers(new Uint8Array(PERSON * this.capacity), ROW, THREE.RGBAIntegerFormat, THREE.UnsignedByteType);
+        this.uniforms.motion.value = this.moves;
+        [this.uniforms.older.value, this.uniforms.newer.value] = this.records;
+        this.uniforms.person.value = this.persons;
+        this.levels.grow(this.capacity);
+        const slots = this.levels.lists.map((list, k) => {
+            const attribute = k === SPRITES ? new THREE.BufferAttribute(list, 1) : new THREE.InstancedBufferAttribute(list, 1);
+            return attribute.setUsage(THREE.DynamicDrawUsage);
+        });
+        for (const { layer, list } of this.layers) {
+            layer.geometry.dispose();
+            layer.geometry.setAttribute("slot", slots[list]);
         }
-        const empty = () => new Uint8Array(8 * this.capacity).fill(NOBODY);
-        this.buffers = [0, 1].map(() => new THREE.InterleavedBuffer(empty(), 8));
-        this.persons = new THREE.BufferAttribute(new Uint8Array(PERSON * this.capacity), PERSON);
-        const geometry = new THREE.BufferGeometry();
-        setRecords(geometry, this.buffers);
-        geometry.setAttribute("person", this.persons);
-        this.chests = [0, 1].map(() => new THREE.BufferAttribute(new Uint8Array(this.capacity), 1));
-        setChests(geometry, this.chests);
-        this.looks = Uint8Array.from({ length: this.capacity }, (_, slot) => lookOf(slot));
-        geometry.setAttribute("look", new THREE.BufferAttribute(this.looks, 1));
-        for (const buffer of [...this.buffers, ...this.chests]) buffer.setUsage(THREE.DynamicDrawUsage);
-        this.points = new THREE.Points(geometry, this.pointMaterial ??= this.material(POINT_VERTEX, POINT_FRAGMENT));
-        this.points.frustumCulled = false;
-        this.shades = new THREE.Points(geometry, this.shadeMaterial ??= this.material(SHADE_VERTEX, SHADE_FRAGMENT, {
-            transparent: true, depthWrite: false,
-        }));
-        this.shades.frustumCulled = false;
-        this.shades.renderOrder = -0.5; // over the floor, under all that stands on it
-        this.group.add(this.shades, this.points);
+        this.slots = slots;
         this.personVersion = -1;
     }
 
-    makeFigures() {
-        const figure = makeFigure();
-        const geometry = new THREE.InstancedBufferGeometry();
-        geometry.setIndex(new THREE.BufferAttribute(figure.index, 1));
-        geometry.setAttribute("corner", new THREE.BufferAttribute(figure.corner, 3));
-        geometry.setAttribute("normal", new THREE.BufferAttribute(figure.normal, 3));
-        geometry.setAttribute("swing", new THREE.BufferAttribute(figure.swing, 3));
-        this.near = [0, 1].map(() => new THREE.InstancedInterleavedBuffer(new Uint8Array(8 * FIGURES), 8));
-        this.nearPersons = new THREE.InstancedBufferAttribute(new Uint8Array(PERSON * FIGURES), PERSON);
-        setRecords(geometry, this.near);
-        geometry.setAttribute("person", this.nearPersons);
-        this.nearChests = [0, 1].map(() => new THREE.InstancedBufferAttribute(new Uint8Array(FIGURES), 1));
-        setChests(geometry, this.nearChests);
-        this.nearLooks = new THREE.InstancedBufferAttribute(new Uint8Array(FIGURES), 1);
-        geometry.setAttribute("look", this.nearLooks);
-        for (const buffer of [...this.near, ...this.nearChests]) buffer.setUsage(THREE.DynamicDrawUsage);
-        this.figures = new THREE.Mesh(geometry, this.material(FIGURE_VERTEX, FIGURE_FRAGMENT));
-        this.figures.frustumCulled = false;
-        this.group.add(this.figures);
+    /** Takes what groups wear and what states do, of a scene message. */
+    set(scene) {
+        this.kinds.image.data.fill(0);
+        (scene.groups ?? []).slice(0, 256).forEach((group, i) => (this.kinds.image.data[4 * i] = Math.max(0, CLOTHES.indexOf(group.clothes))));
+        (scene.states ?? []).slice(0, 255).forEach((state, i) => (this.kinds.image.data[4 * i + 1] = Math.max(0, ACTIONS.indexOf(state.pose))));
+        this.kinds.needsUpdate = true;
     }
 
-    /** Uploads a frame: into the older buffer if it is a new tick, else over the newest. */
+    /** Uploads a frame: into the older record if it is a new tick, else over the newest. */
     upload(crowd, kind) {
-        const frame = crowd.next;
+        const frame = crowd.next, { previous } = crowd;
         if (frame.slots > this.capacity) {
             this.grow(frame.slots);
-            this.write(this.newest, crowd.previous);
+            this.write(this.newest, previous);
         }
-        if (kind === "new") this.newest = 1 - this.newest;
+        if (kind === "new") {
+            this.newest = 1 - this.newest;
+            this.motion.take(previous, frame, crowd.snap || frame.time - previous.time > JUMP || frame.time <= previous.time);
+            this.moves.needsUpdate = true;
+        }
         this.write(this.newest, frame);
-        this.uniforms.passed.value = Math.max(1e-3, frame.time - crowd.previous.time);
-        this.uniforms.swapped.value = this.newest === 0 ? 1 : 0;
-        this.points.geometry.setDrawRange(0, frame.slots);
+        const u = this.uniforms;
+        u.newer.value = this.records[this.newest];
+        u.older.value = this.records[1 - this.newest];
+        for (const [map, of] of [[u.newerMap, frame], [u.olderMap, previous]]) map.value.set(of.x0, of.y0, of.sx, of.sy);
         this.uploadPersons(crowd);
     }
 
     /** Updates radii and groups that changed. */
     uploadPersons(crowd) {
         if (this.personVersion === crowd.personVersion) return;
-        this.persons.array.set(crowd.person.subarray(0, PERSON * this.capacity));
+        this.persons.image.data.set(crowd.person.subarray(0, PERSON * this.capacity));
         this.persons.needsUpdate = true;
         this.personVersion = crowd.personVersion;
     }
 
     write(which, frame) {
-        const buffer = this.buffers[which];
-        buffer.array.set(frame.bytes);
-        buffer.clearUpdateRanges();
-        buffer.addUpdateRange(0, frame.bytes.length);
-        if (frame.slots > 0) buffer.needsUpdate = true;
-        if (frame.chests) {
-            this.chests[which].array.set(frame.chests);
-            this.chests[which].needsUpdate = true;
-        }
-        this.uniforms[which === 0 ? "mapA" : "mapB"].value.set(frame.x0, frame.y0, frame.sx, frame.sy);
+        const texture = this.records[which], data = new Uint8Array(texture.image.data.buffer);
+        data.set(frame.bytes);
+        for (let slot = frame.slots; slot < this.filled; slot++) data[8 * slot + 5] = NOBODY;
+        this.filled = Math.max(this.filled ?? 0, frame.slots);
+        texture.needsUpdate = true;
     }
 
-    /** Chooses who is drawn as a figure: the nearest to `eye` (m) who are tall enough on the screen. */
-    chooseNear(crowd, eye, pixels, top) {
-        const u = this.uniforms, frame = crowd.next;
-        u.eye.value.copy(eye);
-        const reach = top ? 0 : this.reachOf(frame, eye, (1.7 * pixels) / FIGURE_PIXELS);
-        const count = reach > 0 ? this.collect(crowd, eye, reach) : 0;
-        this.figures.geometry.instanceCount = count;
-        this.figures.visible = count > 0 && frame !== null;
-        u.nearer.value = count > 0 ? reach : 0;
-        for (const [buffer, size] of [[this.near[0], 8], [this.near[1], 8], [this.nearPersons, PERSON], [this.nearLooks, 1],
-            [this.nearChests[0], 1], [this.nearChests[1], 1]]) {
-            buffer.clearUpdateRanges();
-            buffer.addUpdateRange(0, size * count);
-            if (count > 0) buffer.needsUpdate = true;
+    /** Chooses how everybody is drawn; `view`: {camera, top, metre: pixels of a metre at 1 m or everywhere, target}. */
+    choose(crowd, { camera, top, metre, target }) {
+        const u = this.uniforms, look = camera.matrixWorldInverse.elements, from = top ? target : camera.position;
+        const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+        u.eye.value.copy(camera.position);
+        u.from.value.copy(from);
+        u.upright.value = top ? 0 : 1;
+        u.flat_view.value = top ? 1 : 0;
+        u.metre.value = metre;
+        u.above.value = Math.min(1, Math.max(0, (look[10] - ABOVE[0]) / (ABOVE[1] - ABOVE[0])));
+        this.levels.choose(crowd.next, matrix, from, metre, top);
+        const { reach, counts } = this.levels;
+        for (const { layer, list } of this.layers) {
+            layer.material.uniforms.reach.value.set(Math.min(reach[list - 1] ?? 0, 1e9), Math.max(1e-3, Math.min(reach[list] ?? 1e9, 1e9)));
+            if (list === SPRITES) layer.geometry.setDrawRange(0, counts[list]);
+            else layer.geometry.instanceCount = counts[list];
+            layer.visible = counts[list] > 0;
         }
+        this.slots.forEach((slot, list) => { // only these are uploaded
+            slot.clearUpdateRanges();
+            slot.addUpdateRange(0, counts[list]);
+            if (counts[list] > 0) slot.needsUpdate = true;
+        });
     }
 
-    /** Returns the distance (m), at most `furthest`, within which all people may be figures. */
-    reachOf(frame, eye, furthest) {
-        const rise = eye.z - 0.85, flat = furthest * furthest - rise * rise;
-        if (flat <= 0) return 0;
-        const { words, bytes, x0, y0, sx, sy } = frame, counts = this.counts.fill(0), perRing = RINGS / flat;
-        for (let slot = 0, w = 0; slot < frame.slots; slot++, w += 4) {
-            const dx = x0 + sx * words[w] - eye.x, dy = y0 + sy * words[w + 1] - eye.y, d = dx * dx + dy * dy;
-            if (d < flat && bytes[2 * w + 5] !== NOBODY) counts[(d * perRing) | 0]++;
-        }
-        let ring = 0;
-        for (let sum = 0; ring < RINGS; ring++) {
-            sum += counts[ring];
-            if (sum > this.most) break;
-        }
-        return ring === 0 ? 0 : Math.sqrt((ring / RINGS) * flat + rise * rise);
+    /** Takes how long pictures take, ms: fewer people are meshes where they are slow. */
+    spare(took) {
+        if (took > 60) this.detail = Math.max(0.02, 0.9 * this.detail);
+        else if (took < 25) this.detail = Math.min(1, 1.02 * this.detail + 0.001);
+        this.allow();
     }
 
-    /** Copies the records of those within `reach` m; returns how many there are. */
-    collect(crowd, eye, reach) {
-        const b = crowd.next, a = crowd.previous, person = crowd.person;
-        const { words, bytes, x0, y0, sx, sy } = b;
-        const newer = this.near[this.newest].array, older = this.near[1 - this.newest].array;
-        const persons = this.nearPersons.array, looks = this.nearLooks.array;
-        const chests = this.nearChests.map((chest) => chest.array);
-        const rise = eye.z - 0.85, flat = (reach + MARGIN) ** 2 - rise * rise;
-        let count = 0;
-        for (let slot = 0, w = 0; slot < b.slots && count < FIGURES; slot++, w += 4) {
-            const dx = x0 + sx * words[w] - eye.x, dy = y0 + sy * words[w + 1] - eye.y;
-            if (dx * dx + dy * dy > flat || bytes[2 * w + 5] === NOBODY) continue;
-            const to = 8 * count, from = 8 * slot, known = slot < a.slots;
-            for (let k = 0; k < 8; k++) {
-                newer[to + k] = bytes[from + k];
-                older[to + k] = known ? a.bytes[from + k] : NOBODY;
-            }
-            for (let k = 0; k < PERSON; k++) persons[PERSON * count + k] = person[PERSON * slot + k];
-            if (b.chests) {
-                chests[this.newest][count] = b.chests[slot];
-                chests[1 - this.newest][count] = (known ? a.chests : b.chests)?.[slot] ?? b.chests[slot];
-            }
-            looks[count] = this.looks[slot];
-            count++;
-        }
-        return count;
+    allow() {
+        this.levels.most = MOST.map((most, level) => Math.max(LEAST[level], Math.round(this.detail * most)));
+    }
+
+    /** Bakes the atlas of sprites, at start and after the graphics card was lost. */
+    bake(renderer) {
+        const { target, boxes } = bakeAtlas(renderer, this.atlas, makeBody(this.slow ? 2 : 1, true), !this.slow);
+        const [clothes, body, surface] = target.textures, u = this.uniforms;
+        u.boxes.value = boxes;
+        u.atlasClothes.value = clothes;
+        u.atlasBody.value = body;
+        u.atlasSurface.value = surface;
     }
 }
 
-/** 0 to 255: how the person of a slot differs from others, the same in every picture. */
-function lookOf(slot) {
-    return (Math.imul(slot + 1, 0x9e3779b1) >>> 24) & 255;
+/** A texture of integers, `wide` texels in a row. */
+function integers(data, wide, format, type) {
+    const channels = { [THREE.RGIntegerFormat]: 2, [THREE.RGBAIntegerFormat]: 4 }[format];
+    const texture = new THREE.DataTexture(data, wide, data.length / channels / wide, format, type);
+    if (type === THREE.UnsignedIntType) texture.internalFormat = "RG32UI";
+    texture.unpackAlignment = 1;
+    texture.needsUpdate = true;
+    return texture;
 }
 
-function setChests(geometry, [a, b]) {
-    geometry.setAttribute("chestA", a);
-    geometry.setAttribute("chestB", b);
+function posesTexture() {
+    const { data, width, height } = bakePoses();
+    const texture = new THREE.DataTexture(data, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
+    texture.wrapS = THREE.RepeatWrapping;
+    texture.minFilter = texture.magFilter = THREE.LinearFilter;
+    texture.needsUpdate = true;
+    return texture;
 }
 
-function setRecords(geometry, [a, b]) {
-    const attribute = (buffer, at) => new THREE.InterleavedBufferAttribute(buffer, 4, at, false);
-    geometry.setAttribute("position", attribute(a, 0));
-    geometry.setAttribute("infoA", attribute(a, 4));
-    geometry.setAttribute("placeB", attribute(b, 0));
-    geometry.setAttribute("infoB", attribute(b, 4));
+function bodyGeometry(body) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setIndex(new THREE.BufferAttribute(body.index, 1));
+    geometry.setAttribute("position", new THREE.BufferAttribute(body.position, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(body.normal, 3));
+    for (const [name, size] of [["bone", 4], ["piece", 1]]) {
+        const attribute = new THREE.BufferAttribute(body[name], size);
+        attribute.gpuType = THREE.IntType;
+        geometry.setAttribute(name, attribute);
+    }
+    return geometry;
+}
+
+function quadGeometry() {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setIndex([0, 1, 2, 0, 2, 3]);
+    geometry.setAttribute("corner", new THREE.BufferAttribute(new Float32Array([-1, -1, 1, -1, 1, 1, -1, 1]), 2));
+    return geometry;
+}
+
+/** A geometry of which instances are drawn, with the vertices of another. */
+function instanced(geometry) {
+    const made = new THREE.InstancedBufferGeometry();
+    made.setIndex(geometry.index);
+    for (const [name, attribute] of Object.entries(geometry.attributes)) made.setAttribute(name, attribute);
+    return made;
 }

@@ -9,8 +9,6 @@ import { People } from "./people.js";
 
 THREE.ColorManagement.enabled = false; // colours are sRGB all along, as in pictures
 const FIELD_OF_VIEW = 34; // degrees
-const LEAST_FIGURES = 500, MOST_FIGURES = 4096; // people drawn as figures
-const SLOW = 60; // ms per picture from which on fewer figures are drawn
 
 export class View {
     constructor(canvas, crowd) {
@@ -18,7 +16,7 @@ export class View {
         this.crowd = crowd;
         this.renderer = makeRenderer(canvas);
         this.scene = new THREE.Scene();
-        this.people = new People(this.renderer.slow ? LEAST_FIGURES : MOST_FIGURES);
+        this.people = new People(this.renderer.slow);
         this.bodies = new Bodies();
         this.ground = new Ground(this.bodies.uniforms);
         this.scene.add(this.ground.group, this.people.group, this.bodies.group);
@@ -38,6 +36,11 @@ export class View {
         this.slow = 0;
         this.called = 0; // ms that the calls of the last picture took; with software rendering they block
         this.useControls();
+        this.people.bake(this.renderer);
+        canvas.addEventListener("webglcontextrestored", () => {
+            this.people.bake(this.renderer);
+            this.dirty = true;
+        });
     }
 
     makeControls(camera) {
@@ -80,6 +83,7 @@ export class View {
     /** Takes a scene message; the camera stays where it is when the scene is the same. */
     set(scene) {
         this.ground.set(scene);
+        this.people.set(scene);
         this.bodies.set(scene.bodies ?? []);
         if (this.crowd.next) this.bodies.upload(this.crowd);
         this.named = { state: scene.states ?? [], group: scene.groups ?? [], outer: outerStates(scene) };
@@ -253,12 +257,9 @@ export class View {
         camera.updateMatrixWorld();
         this.ground.seenFrom(camera.position, this.top);
         if (this.crowd.next) {
-            const pixels = this.pixelsOfMetre(), { previous, next } = this.crowd;
+            const { previous, next } = this.crowd;
             this.people.uniforms.clock.value = (next.time - (1 - share) * (next.time - previous.time)) % 1000;
-            this.people.uniforms.pixels.value = pixels;
-            const look = camera.getWorldDirection(new THREE.Vector3());
-            this.people.uniforms.tall.value = Math.sqrt(Math.max(0, 1 - look.z * look.z));
-            this.people.chooseNear(this.crowd, camera.position, pixels, this.top);
+            this.people.choose(this.crowd, { camera, top: this.top, metre: this.pixelsOfMetre(), target: this.controls.target });
         }
         const begun = performance.now();
         this.renderer.render(this.scene, camera);
@@ -268,13 +269,12 @@ export class View {
         return true;
     }
 
-    /** Draws fewer figures when pictures are slow, and more when they are fast again. */
+    /** Draws fewer people as meshes when pictures are slow, and more when they are fast again. */
     spare(now, drawn) {
         const took = now - (drawn ?? now);
         if (took <= 0 || took > 500) return;
         this.slow += 0.1 * (took - this.slow);
-        if (this.slow > SLOW) this.people.most = Math.max(LEAST_FIGURES, Math.floor(0.9 * this.people.most));
-        else if (this.slow < 25) this.people.most = Math.min(MOST_FIGURES, Math.ceil(1.02 * this.people.most));
+        this.people.spare(this.slow);
     }
 
     /** CSS pixels of a point (m): [x, y, depth]; null behind the eye. */

@@ -1,0 +1,166 @@
+// The atlas of sprites: the figure of body.js drawn at start in poses and from directions into three textures,
+// which hold what colour and light are computed from: the shares of parts in a pixel, its normal, and how open it is.
+import * as THREE from "three";
+import { PART } from "./body.js";
+import { SURFACE } from "./looks.js";
+import { ACTIONS, FRAMES, GAIT_COUNT, poseOf } from "./poses.js";
+import { skinMesh } from "./skin.js";
+
+export const WAYS = 8; // directions around half of the body; the other half is the mirrored pose
+export const RISES = 5; // elevations: of the upright from the side to from above, of those who lie from their feet to their head
+export const HALF = [0.68, 1.1]; // m: half of what a cell shows, across and up
+export const MIDDLE = 0.95; // m: height of its middle
+const RISE = Math.PI / 8, LYING_RISE = Math.PI / 6; // rad between elevations
+const EDGE = 0.04; // share of a cell around the figure that belongs to it
+
+// Gaits whose phases the atlas has, as rows of the texture of poses; it also has one who stands, and the actions.
+const WALKS = [2, 3, 5];
+const SEEN = { throw: 12 }; // frame of an action that is not its first
+
+/** Numbers of an atlas: `phases` of a gait, texels of a `cell`, `poses`, cells across and up (trousers, then robes). */
+export function atlasOf(phases, cell) {
+    const poses = 1 + WALKS.length * phases + ACTIONS.length - 1;
+    return { phases, cell, poses, columns: WAYS * RISES, rows: 2 * poses };
+}
+
+/** Row of the texture of poses, and frame, of each pose of an atlas. */
+function listPoses({ phases }) {
+    const out = [[0, 0]];
+    for (const gait of WALKS) for (let k = 0; k < phases; k++) out.push([gait, Math.round(((k + 0.5) * FRAMES) / phases)]);
+    ACTIONS.slice(1).forEach((name, a) => out.push([GAIT_COUNT + a, SEEN[name] ?? 0]));
+    return out;
+}
+
+/** Towards the eye, right and up of a column of cells, in the frame of the body; `lies`: of the row of those who lie. */
+function axesOf(column, lies) {
+    const yaw = (((column % WAYS) + 0.5) * Math.PI) / WAYS, level = Math.floor(column / WAYS);
+    const rise = lies ? (level - 2) * LYING_RISE : level * RISE, [c, s] = [Math.cos(yaw), Math.sin(yaw)], [d, u] = [Math.cos(rise), Math.sin(rise)];
+    return { eye: [c * d, s * d, u], right: [-s, c, 0], up: [-c * u, -s * u, d] };
+}
+
+const dot = (a, x, y, z) => a[0] * x + a[1] * y + a[2] * z;
+
+/** The box of points from a direction, in halves of a cell: [x0, y0, x1, y1]. */
+function boxOf(position, index, { right, up }) {
+    let [x0, y0, x1, y1] = [1, 1, -1, -1];
+    for (const i of index) {
+        const x = position[3 * i], y = position[3 * i + 1], z = position[3 * i + 2] - MIDDLE;
+        const a = dot(right, x, y, z) / HALF[0], b = dot(up, x, y, z) / HALF[1];
+        x0 = Math.min(x0, a), x1 = Math.max(x1, a), y0 = Math.min(y0, b), y1 = Math.max(y1, b);
+    }
+    return [Math.max(-1, x0 - EDGE), Math.max(-1, y0 - EDGE), Math.min(1, x1 + EDGE), Math.min(1, y1 + EDGE)];
+}
+
+const BAKE_VERTEX = `
+precision highp float;
+precision highp int;
+in vec3 position, normal, model; // moved by the pose; in the pose of the model
+in uint part;
+in vec4 cell, eye;               // column and row; towards the eye
+in vec3 right, up;
+uniform vec2 grid;               // cells across and up
+out vec3 facing, where;
+out vec2 inside;
+flat out uint of;
+void main() {
+    vec3 at = position - vec3(0.0, 0.0, ${MIDDLE});
+    inside = vec2(dot(at, right) / ${HALF[0]}, dot(at, up) / ${HALF[1]});
+    facing = normal;
+    where = model;
+    of = part;
+    gl_Position = vec4((cell.xy + 0.5 + 0.5 * inside) / grid * 2.0 - 1.0, -dot(at, eye.xyz) / 4.0, 1.0);
+}`;
+
+const BAKE_FRAGMENT = `
+precision highp float;
+precision highp int;
+in vec3 facing, where;
+in vec2 inside;
+flat in uint of;
+layout(location = 0) out vec4 clothes;  // shares of top, sleeves, hips, legs
+layout(location = 1) out vec4 body;     // of skin, hair and shoes; and of all
+layout(location = 2) out vec4 surface;  // normal, and the share of the sky that is seen
+` + SURFACE + `
+void main() {
+    if (max(abs(inside.x), abs(inside.y)) > 0.98) discard;
+    uint p = of == ${PART.skirt}u ? (where.z < 0.5 ? ${PART.leg}u : ${PART.hips}u) : of;
+    bool hair = p == ${PART.cover}u || (p == ${PART.head}u && hairy(where));
+    clothes = vec4(p == ${PART.top}u, p == ${PART.sleeve}u, p == ${PART.hips}u, p == ${PART.leg}u);
+    body = vec4(!hair && (p == ${PART.skin}u || p == ${PART.head}u), hair, p == ${PART.shoe}u, 1.0);
+    surface = vec4(0.5 + 0.5 * normalize(facing), openOf(where, of));
+}`;
+
+/** Indices of the triangles of a mesh that people in trousers show, or in robes. */
+function indexOf(mesh, robe) {
+    const shown = (i) => (robe ? mesh.bone[4 * i + 3] !== PART.leg : mesh.piece[i] === 0), out = [];
+    for (let t = 0; t < mesh.index.length; t += 3) {
+        const corners = mesh.index.subarray(t, t + 3);
+        if (corners.every(shown)) out.push(...corners);
+    }
+    return new Uint16Array(out);
+}
+
+/** The cells of a row, as attributes of instances. */
+function cellsOf(atlas, row, lies) {
+    const cell = [], eye = [], right = [], up = [];
+    for (let column = 0; column < atlas.columns; column++) {
+        const axes = axesOf(column, lies);
+        cell.push(column, row, 0, 0);
+        eye.push(...axes.eye, 0);
+        right.push(...axes.right);
+        up.push(...axes.up);
+    }
+    return { cell: [cell, 4], eye: [eye, 4], right: [right, 3], up: [up, 3] };
+}
+
+/**
+ * Bakes an atlas by a renderer from a mesh without hat and bag: {target of three textures, boxes: what figures cover of cells};
+ * `smooth`: whether texels are interpolated.
+ */
+export function bakeAtlas(renderer, atlas, mesh, smooth) {
+    const { cell, columns, rows, poses } = atlas, scene = new THREE.Scene(), boxes = new Float32Array(4 * columns * rows);
+    const material = new THREE.RawShaderMaterial({
+        glslVersion: THREE.GLSL3, vertexShader: BAKE_VERTEX, fragmentShader: BAKE_FRAGMENT, blending: THREE.NoBlending,
+        uniforms: { grid: { value: new THREE.Vector2(columns, rows) } },
+    });
+    const parts = new THREE.BufferAttribute(mesh.bone.filter((_, i) => i % 4 === 3), 1), model = new THREE.BufferAttribute(mesh.position, 3);
+    parts.gpuType = THREE.IntType;
+    const outfits = [false, true].map((robe) => indexOf(mesh, robe));
+    listPoses(atlas).forEach(([of, frame], pose) => {
+        const moved = skinMesh(mesh, poseOf(of, frame)), lies = pose === poses - 1;
+        outfits.forEach((index, outfit) => {
+            const geometry = new THREE.InstancedBufferGeometry(), row = pose + outfit * poses;
+            geometry.setIndex(new THREE.BufferAttribute(index, 1));
+            geometry.setAttribute("position", new THREE.BufferAttribute(moved.position, 3));
+            geometry.setAttribute("normal", new THREE.BufferAttribute(moved.normal, 3));
+            geometry.setAttribute("model", model);
+            geometry.setAttribute("part", parts);
+            for (const [name, [values, size]] of Object.entries(cellsOf(atlas, row, lies))) geometry.setAttribute(name, new THREE.InstancedBufferAttribute(new Float32Array(values), size));
+            geometry.instanceCount = columns;
+            const drawn = new THREE.Mesh(geometry, material);
+            drawn.frustumCulled = false;
+            scene.add(drawn);
+            for (let column = 0; column < columns; column++) boxes.set(boxOf(moved.position, index, axesOf(column, lies)), 4 * (row * columns + column));
+        });
+    });
+    const target = new THREE.WebGLRenderTarget(columns * cell[0], rows * cell[1], {
+        count: 3, generateMipmaps: true, depthBuffer: true,
+        minFilter: smooth ? THREE.LinearMipmapNearestFilter : THREE.NearestMipmapNearestFilter, magFilter: smooth ? THREE.LinearFilter : THREE.NearestFilter,
+    });
+    drawInto(renderer, target, scene);
+    for (const drawn of scene.children) drawn.geometry.dispose();
+    material.dispose();
+    const covered = new THREE.DataTexture(boxes, columns, rows, THREE.RGBAFormat, THREE.FloatType);
+    covered.needsUpdate = true;
+    return { target, boxes: covered };
+}
+
+function drawInto(renderer, target, scene) {
+    const colour = renderer.getClearColor(new THREE.Color()), alpha = renderer.getClearAlpha();
+    renderer.setClearColor(0, 0);
+    renderer.setRenderTarget(target);
+    renderer.clear();
+    renderer.render(scene, new THREE.Camera());
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(colour, alpha);
+}
