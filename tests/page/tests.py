@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 
+import figures
 import following
 import nested
 import reach
@@ -28,7 +29,7 @@ const spot = new Uint8Array(4);
 let seen = 0, all = 0;
 for (let slot = 0; slot < page.crowd.next.slots; slot += 3) {
     const at = page.crowd.position(slot, page.crowd.share(performance.now()));
-    const s = at && v.project(at[0], at[1], 0.8);
+    const s = at && v.project(at[0], at[1], 1.25);
     if (!s || s[0] < 0 || s[1] < 0 || s[0] >= v.wide || s[1] >= v.high) continue;
     gl.readPixels(s[0] * v.ratio, gl.drawingBufferHeight - 1 - s[1] * v.ratio, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, spot);
     all++;
@@ -635,29 +636,6 @@ def replays(browser):
         shutil.rmtree(folder)
 
 
-def torsos(browser):
-    """torsos are drawn as broad and deep as they are, and a person's panel tells of them"""
-    folder = temporary_copy({"scene.yaml": """jostle: 1
-groups:
-  torsos: {behaviour: stander.lua, at: [[0, 0]], facing: 90, set: {breadth: 0.45, depth: 0.25}}
-  discs: {behaviour: stander.lua, at: [[2, 0]], set: {breadth: 0.4, depth: 0.4}}
-"""})
-    session = Session("run", os.path.join(folder, "scene.yaml"), "--view")
-    try:
-        browser.open(session)
-        browser.wait("return page.crowd.torso(0)", "there is no torso")
-        told = browser.run("return [page.crowd.torso(0), page.crowd.reach(0), page.crowd.torso(1), page.crowd.reach(1)]")
-        expect(told == [{"breadth": 0.45, "depth": 0.25, "chest": 90}, 0.225, None, 0.2], f"the page knows {told}")
-        browser.run("page.view.setTop(true)")
-        browser.run("page.inspect(0); page.panel.show('agent')")
-        browser.wait("return /0.45 m, 0.25 m/.test(document.getElementById('page-agent').textContent)", "the panel does not tell of the torso")
-        browser.picture("torsos")
-        expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
-    finally:
-        session.stop()
-        shutil.rmtree(folder)
-
-
 # Which of some spots, in m, people are drawn on: the picture there differs from one without people.
 DRAWN = """
 const v = page.view, gl = v.renderer.getContext();
@@ -728,7 +706,7 @@ events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, torsos, fallen, edits, settings, *nested.TESTS, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, *figures.TESTS, fallen, edits, settings, *nested.TESTS, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

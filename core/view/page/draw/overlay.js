@@ -55,13 +55,13 @@ export class Overlay {
     }
 
     resize() {
-        this.canvas.width = Math.round(this.view.wide * this.view.ratio);
-        this.canvas.height = Math.round(this.view.high * this.view.ratio);
+        this.canvas.width = Math.round(this.view.wide * this.view.screenRatio);
+        this.canvas.height = Math.round(this.view.high * this.view.screenRatio);
         this.blank = true;
     }
 
     draw(share) {
-        const pen = this.pen, ratio = this.view.ratio;
+        const pen = this.pen, ratio = this.view.screenRatio;
         const still = this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross && !this.marks;
         const blank = still && this.names === "none" && !this.pointer;
         const stamp = still && !blank ? this.stamp() : "";

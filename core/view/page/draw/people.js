@@ -100,7 +100,7 @@ export class People {
     /** Takes what groups wear and what states do, of a scene message. */
     set(scene) {
         this.kinds.image.data.fill(0);
-        (scene.groups ?? []).slice(0, 256).forEach((group, i) => (this.kinds.image.data[4 * i] = Math.max(0, CLOTHES.indexOf(group.clothes))));
+        (scene.groups ?? []).slice(0, 256).forEach((group, i) => (this.kinds.image.data[4 * i] = Math.max(0, CLOTHES.indexOf(scene.clothes?.[group.name]))));
         (scene.states ?? []).slice(0, 255).forEach((state, i) => (this.kinds.image.data[4 * i + 1] = Math.max(0, ACTIONS.indexOf(state.pose))));
         this.kinds.needsUpdate = true;
     }

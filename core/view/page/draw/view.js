@@ -9,6 +9,8 @@ import { People } from "./people.js";
 
 THREE.ColorManagement.enabled = false; // colours are sRGB all along, as in pictures
 const FIELD_OF_VIEW = 34; // degrees
+const LONGEST = 4000; // ms between pictures: longer is a pause
+const FAST = 40, SLOW = 240, COARSE = 0.5; // ms between pictures of a processor below which it draws all pixels, and above which half along a side
 
 export class View {
     constructor(canvas, crowd) {
@@ -33,7 +35,8 @@ export class View {
         this.tables = {};
         this.colourBy("state");
         this.dirty = true;
-        this.slow = 0;
+        this.slow = 0; // ms between pictures, averaged
+        this.coarse = 1; // share of the screen's pixels along a side that are drawn
         this.called = 0; // ms that the calls of the last picture took; with software rendering they block
         this.useControls();
         this.people.bake(this.renderer);
@@ -211,13 +214,20 @@ export class View {
         const wide = Math.max(1, Math.round(box.width)), high = Math.max(1, Math.round(box.height));
         this.wide = wide;
         this.high = high;
-        this.ratio = Math.min(2, window.devicePixelRatio || 1);
-        this.renderer.setPixelRatio(this.ratio);
-        this.renderer.setSize(wide, high, false);
+        this.sharpen();
         this.perspective.aspect = wide / high;
         this.perspective.updateProjectionMatrix();
         this.frameFlat();
         if (this.peopled && !this.handled) this.goHome();
+        this.dirty = true;
+    }
+
+    /** Sets the pixels of the picture; `whole`: as many as the screen has, however slow. */
+    sharpen(whole = false) {
+        this.screenRatio = Math.min(2, window.devicePixelRatio || 1);
+        this.ratio = whole ? this.screenRatio : this.screenRatio * this.coarse;
+        this.renderer.setPixelRatio(this.ratio);
+        this.renderer.setSize(this.wide, this.high, false);
         this.dirty = true;
     }
 
@@ -269,12 +279,16 @@ export class View {
         return true;
     }
 
-    /** Draws fewer people as meshes when pictures are slow, and more when they are fast again. */
+    /** Draws fewer people as meshes when pictures are slow, and more when they are fast again; a processor then draws fewer pixels. */
     spare(now, drawn) {
         const took = now - (drawn ?? now);
-        if (took <= 0 || took > 500) return;
+        if (took <= 0 || took > LONGEST) return;
         this.slow += 0.1 * (took - this.slow);
         this.people.spare(this.slow);
+        const coarse = !this.renderer.slow || this.slow < FAST ? 1 : this.slow > SLOW ? COARSE : this.coarse;
+        if (coarse === this.coarse) return;
+        this.coarse = coarse;
+        this.sharpen();
     }
 
     /** CSS pixels of a point (m): [x, y, depth]; null behind the eye. */

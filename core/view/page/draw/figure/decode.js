@@ -1,6 +1,7 @@
 // GLSL that reads a person's record: the bytes of two frames as they came, and what motion.js adds. People slide
 // from the previous frame to the next one. Lengths in m, angles in rad.
 import { GAIT_STEPS } from "./motion.js";
+import { ACTIONS } from "./poses.js";
 import { BREADTH, DEPTH, HEIGHT } from "./skeleton.js";
 
 export const ROW = 1024; // slots in a row of the textures of records
@@ -94,7 +95,8 @@ Person decode() {
     p.lies = code > 30.5;
     p.clothes = texelFetch(kinds, ivec2(int(body.y), 0), 0).r;
     p.action = texelFetch(kinds, ivec2(int(info.y), 0), 0).g;
-    if (p.action == 0u && code > 8.5 && !p.lies) p.action = 1u; // pushed: arms before the chest
+    // Pushed: arms before the chest. Who carries a body or holds somebody has them ahead.
+    if (p.action == 0u && code > 8.5 && !p.lies) p.action = code < 24.5 ? ${ACTIONS.indexOf("brace")}u : ${ACTIONS.indexOf("carry")}u;
     return p;
 }
 `;
