@@ -149,11 +149,16 @@ enum { JOX_LIVE_HEAD = 48, JOX_LIVE_SLOT = 8, JOX_LIVE_BODY = 20, JOX_LIVE_NOBOD
 enum { JOX_LIVE_OTHER_STATE = 254 };
 /* The flags byte of a slot. Bit 0 flips when the position jumps (a new person in the slot, a
    periodic edge), so that the page does not draw a movement. The upper 5 bits say how the person
-   leans under pushes: 0 not at all, else 1 + direction (eighths of a turn from the east) + 8 *
-   level, where level k begins at jox_live_leans[k] N. */
+   leans under pushes, or what it does: 0 neither, else 1 + direction (eighths of a turn from the
+   east) + 8 * level, where level k begins at jox_live_leans[k] N. */
 enum { JOX_LIVE_PARITY = 1, JOX_LIVE_FAILED = 2, JOX_LIVE_PLAYER = 4 };
 enum { JOX_LIVE_LEAN_SHIFT = 3, JOX_LIVE_LEANS = 3 };
-enum { JOX_LIVE_LIES = 31 << JOX_LIVE_LEAN_SHIFT }; /* lies on the floor; replaces the lean */
+/* Replace the lean: carries a body; holds on to somebody; lies on the floor. */
+enum {
+    JOX_LIVE_CARRIES = 25 << JOX_LIVE_LEAN_SHIFT,
+    JOX_LIVE_HOLDS = 26 << JOX_LIVE_LEAN_SHIFT,
+    JOX_LIVE_LIES = 31 << JOX_LIVE_LEAN_SHIFT
+};
 extern const float jox_live_leans[JOX_LIVE_LEANS];
 
 /* The rectangle that packed positions are fractions of; it only grows. */

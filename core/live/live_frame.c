@@ -186,9 +186,24 @@ static void fill_states(JoxLive *live, const JoScene *scene) {
         JOX_ASSERT(a->slot_index[slot] == i);
         live->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
         live->flags[i] = (uint8_t)(((a->slot_generation[slot] ^ seen->flips) & JOX_LIVE_PARITY) |
-                                   (lies ? JOX_LIVE_LIES : encode_lean(seen->pushed)) |
+                                   (lies            ? JOX_LIVE_LIES
+                                    : a->grasped[i] ? JOX_LIVE_HOLDS
+                                                    : encode_lean(seen->pushed)) |
                                    (a->failed[i] ? JOX_LIVE_FAILED : 0u) |
                                    (a->id[i] == player ? JOX_LIVE_PLAYER : 0u));
+    }
+}
+
+/* Marks the agents that carry bodies, unless they lie. */
+static void mark_carriers(JoxLive *live, const JoWorld *world) {
+    const JoxObjects *objects = &world->scratch.objects;
+    for (uint32_t o = 0; o < objects->count; o++) {
+        if (!objects->rows[o].live || !objects->rows[o].held)
+            continue;
+        const uint32_t i = jox_agents_find(&world->state.agents, objects->rows[o].holder);
+        const uint8_t below = (1u << JOX_LIVE_LEAN_SHIFT) - 1u;
+        if (i < world->state.agents.count && (live->flags[i] & ~below) != JOX_LIVE_LIES)
+            live->flags[i] = (uint8_t)((live->flags[i] & below) | JOX_LIVE_CARRIES);
     }
 }
 
@@ -234,6 +249,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxLiveScales *scales,
     jox_live_cover_crowd(&live->area, &crowd);
     note_people(live, world);
     fill_states(live, scene);
+    mark_carriers(live, world);
     add_torsos(scene, &crowd);
     crowd.state = live->state;
     crowd.flags = live->flags;

@@ -88,7 +88,9 @@ void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson
 void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json);
 /* live_scenery.c: "floor" and "scenery"; a plain floor and none for NULL. */
 void jox_live_add_scenery(const JoxSceneSpec *spec, JoxJson *json);
-/* Adds them to a hash, which tells whether a scene message has changed. */
+/* "clothes": those of each group by its name, but for casual ones; none for NULL. */
+void jox_live_add_clothes(const JoxSceneSpec *spec, JoxJson *json);
+/* Adds all of these to a hash, which tells whether a scene message has changed. */
 void jox_live_hash_scenery(const JoxSceneSpec *spec, JoxHash *hash);
 /* `given`: the scene names the colour. */
 void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, bool given, JoxJson *json);
@@ -97,6 +99,7 @@ typedef struct JoxLiveNamed {
     const char *name;
     JoxColour given;  /* 0: none */
     uint32_t machine; /* index of the state's machine; JOX_NO_INDEX: a group */
+    const char *pose; /* that people take in the state; NULL: none of their own */
 } JoxLiveNamed;
 /* Adds an array of {"name": ..., "colour": "#rrggbb"}; states have "machine" besides. Items without
    a given colour get one by picture/palette.h, as in pictures. */

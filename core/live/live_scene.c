@@ -147,6 +147,8 @@ void jox_live_add_named(const char *key, const JoxLiveNamed *items, uint32_t cou
             jox_json_whole(json, "machine", items[n].machine);
         jox_json_string(json, "name", items[n].name);
         jox_json_string(json, "colour", colour);
+        if (items[n].pose)
+            jox_json_string(json, "pose", items[n].pose);
         jox_json_end(json);
     }
     jox_json_end(json);
@@ -157,7 +159,7 @@ void jox_live_add_named(const char *key, const JoxLiveNamed *items, uint32_t cou
 static void add_scene_groups(JoxJson *json, const JoxSceneSpec *spec) {
     JoxLiveNamed *named = jox_alloc(spec->group_count + 1, sizeof *named);
     for (uint32_t g = 0; g < spec->group_count; g++)
-        named[g] = (JoxLiveNamed){spec->groups[g].name, spec->groups[g].colour, JOX_NO_INDEX};
+        named[g] = (JoxLiveNamed){spec->groups[g].name, spec->groups[g].colour, JOX_NO_INDEX, NULL};
     jox_live_add_named("groups", named, spec->group_count, json);
     jox_free(named);
 }
@@ -170,7 +172,7 @@ static void add_scene_states(JoxJson *json, const JoxMachineRun *machines) {
         for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
             const JoxState *state = &machines->set->items[m]->states[s];
             JOX_RESERVE(named, capacity, count + 1);
-            named[count++] = (JoxLiveNamed){state->name, state->colour, m};
+            named[count++] = (JoxLiveNamed){state->name, state->colour, m, jox_poses[state->pose]};
         }
     jox_live_add_named("states", named, count, json);
     jox_free(named);
@@ -357,6 +359,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     add_scene_tools(&json, scene);
     jox_live_add_camera(spec, &json);
     jox_live_add_scenery(spec, &json);
+    jox_live_add_clothes(spec, &json);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field,
                       spec->view.colour > 0, &json);

@@ -46,8 +46,23 @@ void jox_live_add_scenery(const JoxSceneSpec *spec, JoxJson *json) {
     jox_json_end(json);
 }
 
+void jox_live_add_clothes(const JoxSceneSpec *spec, JoxJson *json) {
+    static const char *const NAMES[] = {
+#define X(clothes, name) name,
+        JOX_CLOTHES(X)
+#undef X
+    };
+    jox_json_object(json, "clothes");
+    for (uint32_t g = 0; spec && g < spec->group_count; g++)
+        if (spec->groups[g].clothes)
+            jox_json_string(json, spec->groups[g].name, NAMES[spec->groups[g].clothes]);
+    jox_json_end(json);
+}
+
 void jox_live_hash_scenery(const JoxSceneSpec *spec, JoxHash *hash) {
     jox_hash_add(hash, &spec->floor, sizeof spec->floor);
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        jox_hash_add(hash, &spec->groups[g].clothes, sizeof spec->groups[g].clothes);
     for (uint32_t i = 0; i < spec->scenery_count; i++) {
         const JoxScenery *s = &spec->scenery[i];
         jox_hash_add(hash, &s->kind, sizeof s->kind);

@@ -41,7 +41,7 @@ static void add_recorded_names(JoxJson *json, const JoxReplay *r) {
     JoxLiveNamed *groups = jox_alloc(r->info.group_count + 1, sizeof *groups);
     for (uint32_t g = 0; g < r->info.group_count; g++) {
         const JoxColour given = r->info.group_colours ? r->info.group_colours[g] : 0;
-        groups[g] = (JoxLiveNamed){r->info.groups[g], given, JOX_NO_INDEX};
+        groups[g] = (JoxLiveNamed){r->info.groups[g], given, JOX_NO_INDEX, NULL};
     }
     jox_live_add_named("groups", groups, r->info.group_count, json);
     jox_free(groups);
@@ -123,6 +123,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     add_disabled_tools(&json);
     jox_live_add_camera(spec, &json);
     jox_live_add_scenery(spec, &json);
+    jox_live_add_clothes(spec, &json);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r),
                       spec && spec->view.colour > 0, &json);

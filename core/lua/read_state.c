@@ -127,6 +127,25 @@ static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state
     lua_pop(L, 1);
 }
 
+static void read_pose(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->script->vm.L;
+    char full[256], hint[JOX_HINT];
+    const int type = jox_read_field(L, index, "pose");
+    const char *text = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
+    jox_read_join(full, path, "pose");
+    uint32_t pose = 1;
+    while (pose < JOX_POSE_COUNT && strcmp(text, jox_poses[pose]) != 0)
+        pose++;
+    if (type != LUA_TNIL && pose == JOX_POSE_COUNT)
+        jox_build_error(b, jox_read_at(b, full), "bad-value",
+                        jox_did_you_mean(text, jox_poses + 1, JOX_POSE_COUNT - 1, hint),
+                        "pose must be \"brace\", \"raise\", \"carry\", \"throw\", \"point\", "
+                        "\"sit\" or \"kneel\"");
+    else if (type != LUA_TNIL)
+        state->pose = (uint8_t)pose;
+    lua_pop(L, 1);
+}
+
 static void read_colour(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
     char full[256];
@@ -397,6 +416,7 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     read_steer(b, index, path, state);
     read_lasts(b, index, path, state);
     read_flags(b, index, path, state);
+    read_pose(b, index, path, state);
     read_colour(b, index, path, state);
     jox_read_body_actions(b, index, path, state);
     jox_read_actions(b, index, path, &state->enters, &state->signal_every);

@@ -22,6 +22,24 @@ enum { JOX_MOST_DRIFT = 100 };
 /* Force with which an agent holds on to another, N: default, and greatest. */
 enum { JOX_GRIP = 300, JOX_MOST_GRIP = 5000 };
 
+/* Poses of a state on the live page: of the arms, then of the whole body. */
+#define JOX_POSES(X)                                                                               \
+    X(BRACE, "brace")                                                                              \
+    X(RAISE, "raise")                                                                              \
+    X(CARRY, "carry")                                                                              \
+    X(THROW, "throw")                                                                              \
+    X(POINT, "point")                                                                              \
+    X(SIT, "sit")                                                                                  \
+    X(KNEEL, "kneel")
+enum JoxStatePose {
+    JOX_POSE_NONE,
+#define X(pose, name) JOX_POSE_##pose,
+    JOX_POSES(X)
+#undef X
+        JOX_POSE_COUNT
+};
+extern const char *const jox_poses[JOX_POSE_COUNT]; /* names; NULL of none */
+
 typedef enum JoxValueKind {
     JOX_VALUE_UNSET,
     JOX_VALUE_CONST,
@@ -179,6 +197,7 @@ typedef struct JoxState {
     int32_t lasts_expression; /* expression for it, evaluated on entry; -1 none */
     bool removes;             /* agents that enter leave the world */
     bool lies;                /* agents are drawn lying down; no step reads it */
+    uint8_t pose;             /* JOX_POSE_*: how agents are drawn; no step reads it */
     int32_t push_when;        /* expression; -1 always */
     int16_t push_toward;      /* target; -1: along the preferred velocity */
     bool push_nearest;        /* push_weight "nearest" instead of "equal" */

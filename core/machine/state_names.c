@@ -1,10 +1,17 @@
-/* Names and paths of states, and of the outer states around them, which run machines of their own.
+/* Names of poses; names and paths of states, and of the outer states around them, which run
+ * machines of their own.
  */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/format/name.h"
 #include "machine/machine.h"
+
+const char *const jox_poses[JOX_POSE_COUNT] = {NULL,
+#define X(pose, name) name,
+                                               JOX_POSES(X)
+#undef X
+};
 
 int jox_machine_state(const JoxMachine *machine, const char *name) {
     for (uint32_t s = 0; s < machine->state_count; s++)

@@ -36,6 +36,7 @@
 #define CHOICE(enumerator, name) "|" name
 #define FILLS (&(JOX_FILLS(CHOICE))[1])
 #define TOOLS (&(JOX_TOOLS(CHOICE))[1])
+#define CLOTHES (&(JOX_CLOTHES(CHOICE))[1])
 #define FLOORS (&(JOX_FLOORS(CHOICE))[1])
 #define KIND(enumerator, name, form, x, y, z, meaning) "|" name
 #define KIND_ROW(enumerator, name, form, x, y, z, meaning)                                         \
@@ -285,6 +286,8 @@ static const JoxKey KEYS[] = {
     {"group", "tags", NAMES, "", 0, 0, "", READ_TO(jox_key_read_tags, JoxGroup, tags, tag_count), .meaning = "tags by which behaviours find them"},
     {"group", "colour", TEXT, "", 0, 0, "", READ_TO(jox_key_read_colour, JoxGroup, colour, colour),
      .meaning = "colour of its people if people are coloured by group, else one is chosen: " JOX_COLOUR_RULE},
+    {"group", "clothes", TEXT, "", 0, 0, "casual", TO(JoxGroup, clothes), .choices = CLOTHES, .example = "clothes: sport",
+     .meaning = "what its people wear on the live page; ihram: the white cloths of pilgrims, sport: shirt and shorts, work: overalls and a helmet. The top has the colour that they are shown in"},
     {"group", "set", VALUES, "", 0, 0, "", READ_TO(jox_key_read_values, JoxGroup, set, set_count), .content = "value*",
      .meaning = "values of names in the behaviour's `defaults`; `antipode`: the opposite point of the circle"},
     {"group", "memory", VALUES, "", 0, 0, "", READ_TO(jox_key_read_values, JoxGroup, memory, memory_count), .content = "draw*",

@@ -62,11 +62,19 @@ typedef struct JoxStart {
     uint32_t group;
 } JoxStart;
 
+/* Clothes that the live page draws, in the order of the choices of the key `clothes`. */
+#define JOX_CLOTHES(X)                                                                             \
+    X(CASUAL, "casual")                                                                            \
+    X(IHRAM, "ihram")                                                                              \
+    X(SPORT, "sport")                                                                              \
+    X(WORK, "work")
+
 /* Agents made alike. */
 typedef struct JoxGroup {
     char *name;
     JoxPosition position;
     JoxColour colour; /* in pictures */
+    uint32_t clothes; /* index in JOX_CLOTHES */
     JoxGroupMix *mix;
     uint32_t mix_count;
     JoxFillMode fill;

@@ -132,6 +132,40 @@ static void lying_state_sets_the_lying_flag(void **state) {
     jo_scene_free(scene);
 }
 
+/* The upper bits of the flags of the first agent, 1 s after it has got a scene's body or friend. */
+static uint8_t find_deed(const char *text, const char *state) {
+    char behaviour[300];
+    snprintf(behaviour, sizeof behaviour, MACHINE_START "\"A\", states = { A = { %s } } }\n",
+             state);
+    JoScene *scene = load_scene_text(text, behaviour);
+    JoxBytes frame = {0};
+    step_scene(scene, 20);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
+    const Seen seen = decode_frame(&frame, scene->world);
+    const uint32_t slot = scene->world->state.agents.slot[0];
+    const uint8_t flags = seen.slot[8 * (size_t)slot + 7];
+    jox_bytes_free(&frame);
+    jo_scene_free(scene);
+    return (uint8_t)(flags >> JOX_LIVE_LEAN_SHIFT << JOX_LIVE_LEAN_SHIFT);
+}
+
+/* The flags say who carries a body, and who holds on to somebody. */
+static void carriers_and_holders_set_their_flags(void **state) {
+    (void)state;
+    assert_int_equal(
+        find_deed("jostle: 1\nstep: 0.05\ngroups: {g: {behaviour: own.lua, at: [[0, 0], "
+                  "[0.6, 0]], tags: [friend]}}\n",
+                  "steer = hold, grasp = nearest \"friend\""),
+        JOX_LIVE_HOLDS);
+    if (jox_bodies_available())
+        assert_int_equal(
+            find_deed("jostle: 1\nstep: 0.05\ngroups: {g: {behaviour: own.lua, at: [[0, 0]]}}\n"
+                      "bodies: [{name: ball, tags: [ball], shape: {sphere: {radius: 0.1}}, mass: "
+                      "0.4, at: [0.5, 0, 0.1]}]\n",
+                      "steer = hold, take = nearest \"ball\""),
+            JOX_LIVE_CARRIES);
+}
+
 /* The lean has the direction and the level of the push, averaged over time: it outlasts the
    push. */
 static void averaged_pushes_set_the_lean(void **state) {
@@ -433,6 +467,7 @@ int main(void) {
         cmocka_unit_test(parity_flips_at_periodic_edges),
         cmocka_unit_test(area_grows_with_the_crowd),
         cmocka_unit_test(lying_state_sets_the_lying_flag),
+        cmocka_unit_test(carriers_and_holders_set_their_flags),
         cmocka_unit_test(averaged_pushes_set_the_lean),
         cmocka_unit_test(colour_values_match_the_columns),
         cmocka_unit_test(people_message_reports_changes),

@@ -217,6 +217,30 @@ static void scenery_is_sent_and_does_not_enter_the_hash(void **state) {
     jo_scene_free(bare);
 }
 
+/* Clothes of groups and poses of states are sent to the page, and move nobody. */
+static void clothes_and_poses_are_sent_and_do_not_enter_the_hash(void **state) {
+    (void)state;
+    JoxText text = {0};
+    JoScene *plain =
+        load_scene_text("jostle: 1\ngroups: {g: {behaviour: own.lua, at: [[1, 1]]}, h: {behaviour: "
+                        "own.lua, at: [[3, 3]]}}\n",
+                        MACHINE_START "\"A\", states = { A = { steer = drift(1, 0) } } }\n");
+    JoScene *dressed = load_scene_text(
+        "jostle: 1\ngroups: {g: {behaviour: own.lua, at: [[1, 1]], clothes: ihram}, h: {behaviour: "
+        "own.lua, at: [[3, 3]]}}\n",
+        MACHINE_START "\"A\", states = { A = { steer = drift(1, 0), pose = \"raise\" } } }\n");
+    assert_true(jox_live_version(dressed) != jox_live_version(plain));
+    step_scene(plain, 40);
+    step_scene(dressed, 40);
+    assert_true(jo_world_hash(dressed->world) == jo_world_hash(plain->world));
+    jox_live_scene(dressed, &text);
+    check_part(&text, "\"clothes\": {\"g\": \"ihram\"}");
+    check_part(&text, "\"pose\": \"raise\"");
+    jox_text_free(&text);
+    jo_scene_free(dressed);
+    jo_scene_free(plain);
+}
+
 static void scene_message_has_states_that_run_machines(void **state) {
     (void)state;
     JoScene *scene = load_scene_file("tests/data/nested.yaml", NULL, 0);
@@ -305,6 +329,7 @@ int main(void) {
         cmocka_unit_test(scene_message_escapes_names),
         cmocka_unit_test(version_changes_with_bodies_but_not_with_gates),
         cmocka_unit_test(scenery_is_sent_and_does_not_enter_the_hash),
+        cmocka_unit_test(clothes_and_poses_are_sent_and_do_not_enter_the_hash),
         cmocka_unit_test(scene_message_has_states_that_run_machines),
         cmocka_unit_test(ranges_follow_the_values_without_flicker),
         cmocka_unit_test(frames_fill_the_range_of_their_scene),

@@ -141,6 +141,8 @@ static const Mistake MISTAKES[] = {
     {"return machine { name = \"m\", start = \"A\", renamed = { B = \"A\" },\n"
      "states = { A = { { to = \"B\", when = after(1) } } } }",
      ERROR, 2, 25, 28, "renamed", "'B' is called 'A' now"},
+    {HEAD "A = { steer = hold, pose = 'rase' } } }", ERROR, 2, 21, 25, "bad-value",
+     "Did you mean 'raise'?"},
     {HEAD "A = { steer = hold, lies = 1 } } }", ERROR, 2, 21, 25, "bad-value",
      "lies must be true or false"},
     {HEAD "A = { steer = hold speed = 2 } } }", ERROR, 2, 20, 25, "lua-error",

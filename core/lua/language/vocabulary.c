@@ -335,6 +335,8 @@ const JoxTableKey jox_table_keys[] = {
     {"state", "lasts", "number, distribution", "s", "duration of the state, drawn on entering it; see `lasted`", "lasts = uniform(1, 3)", 0, 1e6},
     {"state", "removes", "true or false", "", "the agent leaves the world on entering", "removes = false", 0, 0},
     {"state", "lies", "true or false", "", "the live page of a running scene shows the agent as lying down; nothing else changes", "lies = true", 0, 0},
+    {"state", "pose", "name of a pose", "", "how the live page of a running scene draws the agent: \"brace\", \"raise\", \"carry\", \"throw\" or \"point\" with its arms, \"sit\" or \"kneel\" with its whole body; nothing else changes",
+     "pose = \"raise\"", 0, 0},
     {"state", "become", "name of a behaviour", "", "on entering, the agent changes to another machine, at its start; it keeps its body, the values that the scene gave it, and memory of the same name",
      "become = \"stander\"", 0, 0},
     {"state", "push_when", "condition", "", "the agent pushes only while this holds", "push_when = stuck(2)", 0, 0},
