@@ -9,7 +9,7 @@
 #include "picture/plot.h"
 #include "report/danger_output_parts.h"
 
-enum { WIDE = 1300, STRIP = 270 /* px: width of a plot, height of a strip */ };
+enum { WIDE = 1300, STRIP = 215 /* px: width of a plot, height of a strip */ };
 static const int LEFT = 10, RIGHT = 29; /* margins in characters, equal in all strips */
 
 /* Returns whether a measure has a strip: compression only in older recordings, which have it
@@ -37,6 +37,14 @@ static void begin_danger_script(FILE *script, const char *name, bool svg, int wi
     fputc('\n', script);
 }
 
+/* Writes the title of a limit without its kernel, which the strip's title names, for the margin. */
+static const char *short_limit_title(int limit, char out[64]) {
+    const char *title = jox_danger_limits[limit].title;
+    const char *kernel = strstr(title, " (");
+    snprintf(out, 64, "%.*s", kernel ? (int)(kernel - title) : 63, title);
+    return out;
+}
+
 /* Writes the strip of a measure: its greatest value over time, and its limits as labelled lines. */
 static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     static const char *const TITLES[JOX_DANGER_MAPPED] = {
@@ -45,6 +53,7 @@ static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FI
     static const char *const UNITS[JOX_DANGER_MAPPED] = {"people per m\xc2\xb2", "per s\xc2\xb2",
                                                          "N/m", "N"};
     double top = 0.0;
+    char name[64];
     for (uint32_t r = 0; r < d->row_count; r++)
         top = fmax(top, (double)d->rows[r].most[measure]);
     fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\nset title '%s'\n", UNITS[measure],
@@ -59,7 +68,7 @@ static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FI
                 "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead lc '#c00000' dt "
                 "2\nset label 'limit: %s' at graph 1.01, first %.6g left tc '#c00000' "
                 "noenhanced\n",
-                limit, limit, jox_danger_limits[l].title, limit);
+                limit, limit, short_limit_title(l, name), limit);
         top = fmax(top, limit);
     }
     fprintf(script,
@@ -73,8 +82,10 @@ static void write_count_strip(const JoxDanger *d, FILE *script) {
     static const char *const COLOURS[] = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9",
                                           "#cc79a7", "#000000", "#999933", "#882255"};
     bool any = false;
+    char name[64];
     fputs("unset arrow\nunset label\nset yrange [0:*]\nset ylabel 'people'\nset key at graph "
-          "1.01,1 left top Left reverse\nset title 'People over a limit'\n",
+          "1.01,1 left top Left reverse\nset title 'People over a limit of density (Gaussian R = 1 "
+          "m, or Voronoi), pressure or load'\n",
           script);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         if (d->counts[l].people > 0) {
@@ -82,7 +93,7 @@ static void write_count_strip(const JoxDanger *d, FILE *script) {
                 script,
                 "%s'danger.csv' skip 1 using 1:%d with lines lw 2 lc '%s' title '%s' noenhanced",
                 any ? ", " : "plot ", 3 + JOX_DANGER_MEASURES + l, COLOURS[l],
-                jox_danger_limits[l].title);
+                short_limit_title(l, name));
             any = true;
         }
     if (!any)
@@ -126,7 +137,8 @@ static void write_flow_strip(const JoxDanger *d, FILE *script) {
         "unset arrow\nunset label\nset yrange [0:%g]\nset ylabel 'per m and s'\nset key at "
         "graph 1.01,1 left top Left reverse\nset title 'Flow over lines in ten seconds; "
         "crosses: stop-and-go'\nset arrow from graph 0, first %g to graph 1, first %g nohead lc "
-        "'#c00000' dt 2\nset label 'limit: stop-and-go, if dense' at graph 1.01, first %g left "
+        "'#c00000' dt 2\nset label 'limit: stop-and-go, if dense' at graph 0.005, first %g left "
+        "offset 0,0.6 "
         "tc '#c00000'\nplot NaN notitle",
         1.2 * top, JOX_STOP_FLOW, JOX_STOP_FLOW, JOX_STOP_FLOW);
     for (uint32_t l = 0; l < d->lines.count; l++)
