@@ -432,6 +432,7 @@ class Page {
     /** Keeps a game's camera behind the player. */
     keepUpWithPlayer(share, now) {
         const slot = this.overlay.players[0], at = slot === undefined ? null : this.crowd.position(slot, share);
+        if (at) this.player.send(); // keys that are held mean the picture as it is turned now
         if (at) this.playCamera.keepUp(at, () => [...Array(this.crowd.next.slots).keys()].filter((s) => s !== slot).map((s) => this.crowd.position(s, 1)).filter(Boolean), now);
     }
 
