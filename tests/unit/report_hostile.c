@@ -330,9 +330,9 @@ static void hanging_gnuplot_is_killed(void **state) {
 static void live_page_has_the_same_class_colours(void **state) {
     (void)state;
     size_t length;
-    char *script = read_whole_file(JOX_PAGEDIR "/draw/palette.js", &length),
+    char *script = read_whole_file(JOX_DATADIR "/core/view/page/draw/palette.js", &length),
          list[256] = "const CLASSES = [";
-    for (uint32_t n = 0; n < 7; n++) {
+    for (uint32_t n = 0; n < 8; n++) {
         JoxInk ink = jox_palette_class(n);
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s\"#%02x%02x%02x\"",
                  n ? ", " : "", ink.r, ink.g, ink.b);
@@ -340,7 +340,7 @@ static void live_page_has_the_same_class_colours(void **state) {
     strcat(list, "];");
     assert_non_null(strstr(script, list));
     assert_non_null(strstr(script, "c + 0.45 * (towards - c)"));
-    JoxInk light = jox_palette_class(7); /* the first class, mixed with 45 % of white */
+    JoxInk light = jox_palette_class(8); /* the first class, mixed with 45 % of white */
     assert_int_equal(light.r, lround(0x00 + 0.45 * (255 - 0x00)));
     assert_int_equal(light.g, lround(0x72 + 0.45 * (255 - 0x72)));
     jox_free(script);

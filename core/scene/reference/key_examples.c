@@ -228,7 +228,7 @@ const JoxExample jox_scene_examples[] = {
      "             party: 4, tags: [guest], set: {goal: exit, speed: 'normal(1.3, 0.2, 0.5, 2)'}, basis: ticket sales of 2025}\n"
      "  staff: {behaviour: stander.lua, count: 12, fill: grid, in: stage, spacing: 60 cm, facing: 90 deg, team: house, colour: purple}\n"
      "  guards: {behaviour: stander.lua, at: [[23, 5], [24, 5]]}\n"
-     "  press: {behaviour: stander.lua, count: 10, fill: line, in: rope}\n"
+     "  press: {behaviour: stander.lua, count: 10, fill: line, in: rope, clothes: work}\n"
      "  guests: {behaviour: walker.lua, starts: [[0, 4, 2], [1.5, 0.5, 3, 1.3, 0]], set: {goal: exit}}\n"},
     {"group", OPENING
      "include: tawaf.yaml\n"
