@@ -4,7 +4,7 @@ import { el } from "../dom.js";
 /** Saves the picture; `title` becomes the file's name and its caption. */
 export function savePicture(view, overlay, title) {
     view.sharpen(true);
-    view.draw(performance.now());
+    view.render(performance.now(), performance.now(), view.crowd.share(performance.now()));
     const canvas = el("canvas", { width: view.canvas.width, height: view.canvas.height });
     const pen = canvas.getContext("2d");
     pen.drawImage(view.canvas, 0, 0);

@@ -11,6 +11,7 @@ THREE.ColorManagement.enabled = false; // colours are sRGB all along, as in pict
 const FIELD_OF_VIEW = 34; // degrees
 const LONGEST = 4000; // ms between pictures: longer is a pause
 const FAST = 40, SLOW = 240, COARSE = 0.5; // ms between pictures of a processor below which it draws all pixels, and above which half along a side
+const STILL = 400; // ms without a change, after which all pixels are drawn
 
 export class View {
     constructor(canvas, crowd) {
@@ -36,6 +37,7 @@ export class View {
         this.colourBy("state");
         this.dirty = true;
         this.slow = 0; // ms between pictures, averaged
+        this.changed = 0; // ms: when the picture last changed
         this.coarse = 1; // share of the screen's pixels along a side that are drawn
         this.called = 0; // ms that the calls of the last picture took; with software rendering they block
         this.useControls();
@@ -225,6 +227,7 @@ export class View {
     /** Sets the pixels of the picture; `whole`: as many as the screen has, however slow. */
     sharpen(whole = false) {
         this.screenRatio = Math.min(2, window.devicePixelRatio || 1);
+        this.whole = whole;
         this.ratio = whole ? this.screenRatio : this.screenRatio * this.coarse;
         this.renderer.setPixelRatio(this.ratio);
         this.renderer.setSize(this.wide, this.high, false);
@@ -260,7 +263,20 @@ export class View {
     draw(now, drawn) {
         const share = this.crowd.share(now);
         const moving = this.people.uniforms.share.value !== share;
-        if (!this.dirty && !moving) return false;
+        if (!this.dirty && !moving) return this.drawStill(now);
+        if (this.whole) this.sharpen();
+        this.changed = now;
+        return this.render(now, drawn, share);
+    }
+
+    /** Draws all of the screen's pixels once nothing has moved for a while, where fewer were drawn; true if it did. */
+    drawStill(now) {
+        if (this.coarse === 1 || this.whole || now - this.changed < STILL) return false;
+        this.sharpen(true);
+        return this.render(now, now, this.people.uniforms.share.value);
+    }
+
+    render(now, drawn, share) {
         this.dirty = false;
         this.people.uniforms.share.value = this.bodies.uniforms.share.value = share;
         const camera = this.camera;
