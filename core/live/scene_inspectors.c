@@ -108,10 +108,12 @@ void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
     show_slot(s, request->client, slot, find != NULL);
 }
 
-void jox_scene_page_show_agent(JoxScenePage *s, uint32_t id) {
+void jox_scene_page_show_agent(JoxScenePage *s, uint32_t client, uint32_t id) {
     const JoxAgents *a = &s->scene->world->state.agents;
     const uint32_t i = jox_agents_find(a, id);
-    for (uint32_t n = 0; i != JOX_NO_INDEX && n < JOX_VIEW_CLIENTS; n++)
+    if (i != JOX_NO_INDEX && client != JOX_VIEW_ALL)
+        show_slot(s, client, a->slot[i], true);
+    for (uint32_t n = 0; i != JOX_NO_INDEX && client == JOX_VIEW_ALL && n < JOX_VIEW_CLIENTS; n++)
         if (s->page.watchers[n].client)
             show_slot(s, s->page.watchers[n].client, a->slot[i], true);
 }

@@ -39,7 +39,7 @@ static void pause_at_breakpoint(JoxScenePage *s) {
     if (!jox_run_broke(s->scene, &agent))
         return;
     jox_run_say(s->scene, "%s", jo_scene_broke(s->scene));
-    jox_scene_page_show_agent(s, agent);
+    jox_scene_page_show_agent(s, JOX_VIEW_ALL, agent);
     s->page.session.broke = jo_scene_broke(s->scene);
     s->page.session.paused = true;
     s->steps = 0;
@@ -146,6 +146,15 @@ static void report_scene(void *self) {
     jox_scene_page_send_inspected(s);
 }
 
+/* Sends errors of files, and the agent at whose breakpoint the run is paused. */
+static void greet_browser(void *self, uint32_t client) {
+    JoxScenePage *s = self;
+    uint32_t agent;
+    jox_scene_page_send_errors(s, client);
+    if (s->page.session.broke && jox_run_broke(s->scene, &agent))
+        jox_scene_page_show_agent(s, client, agent);
+}
+
 const JoxLiveSource jox_scene_page_source = {
     .colour = choose_scene_colour,
     .field = choose_scene_field,
@@ -155,7 +164,7 @@ const JoxLiveSource jox_scene_page_source = {
     .pack_frame = pack_scene_frame,
     .pack_people = pack_scene_people,
     .pack_field = pack_scene_field,
-    .greet = jox_scene_page_send_errors,
+    .greet = greet_browser,
     .report = report_scene,
     .left = jox_scene_page_end_inspection,
     .advance = step_when_due,

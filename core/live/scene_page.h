@@ -86,8 +86,8 @@ void jox_scene_page_play(void *scene, const JoxLiveRequest *request);
 /* A run begins anew by the command `restart`: the present round again, or the end of the match. */
 void jox_scene_page_replay_round(JoxScenePage *scene);
 /* scene_inspectors.c: each browser can inspect one agent, and gets a message with each status. */
-/* Makes all browsers inspect the agent with this id. */
-void jox_scene_page_show_agent(JoxScenePage *s, uint32_t id);
+/* Makes a browser, or all (JOX_VIEW_ALL), inspect the agent with this id. */
+void jox_scene_page_show_agent(JoxScenePage *s, uint32_t client, uint32_t id);
 void jox_scene_page_inspect(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_send_inspected(void *scene);
 void jox_scene_page_end_inspection(void *scene, uint32_t client);

@@ -13,7 +13,7 @@ import nested
 import reach
 import sight
 import steady
-from harness import JOSTLE, Session, expect, read, run_all, served, temporary_copy, write
+from harness import JOSTLE, Session, expect, read, run_all, served, temporary_copy, wait_for, write
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -199,17 +199,23 @@ def pulls(browser):
     browser.picture("push")
 
 
-@served("run", "scenes/office.yaml", "--view", "--break", "agent 9 enters Wait", "--break", "anybody enters Press",
-        "--view-wait", "120")  # that the page is there when it breaks
 def breaks(browser):
-    """a breakpoint pauses the page and shows the person, with the reason"""
-    browser.wait("return page.bar.paused && page.person", "the page does not pause at a breakpoint", patience=60)
-    browser.wait("return /breakpoint/.test(document.body.textContent)", "the page does not say which one")
-    expect(browser.run("return page.messages.standing.has('break')"), "which one it was does not stay")
-    at = browser.run("return [page.person.id, page.person.state, document.getElementById('page-agent').checkVisibility()]")
-    expect(at[1] in ("Wait", "Press") and at[2], f"agent {at[0]} in {at[1]} is shown, in a panel that is {'' if at[2] else 'not '}open")
-    browser.run("page.bar.toggle()")
-    browser.wait("return !page.bar.paused", "the run does not go on after a breakpoint")
+    """a breakpoint pauses the page and shows the person, with the reason, also to a page that opens later"""
+    session = Session("run", "scenes/office.yaml", "--view", "--break", "agent 9 enters Wait", "--break", "anybody enters Press")
+    try:
+        wait_for(lambda: any("breakpoint" in line for line in session.said), "no breakpoint is met")
+        browser.open(session)
+        for _ in range(2): # first of those that were met before the page opened, then with the page
+            browser.wait("return page.bar.paused && page.person", "the page does not pause at a breakpoint", patience=60)
+            browser.wait("return /breakpoint/.test(document.body.textContent)", "the page does not say which one")
+            expect(browser.run("return page.messages.standing.has('break')"), "which one it was does not stay")
+            at = browser.run("return [page.person.id, page.person.state, document.getElementById('page-agent').checkVisibility()]")
+            expect(at[1] in ("Wait", "Press") and at[2], f"agent {at[0]} in {at[1]} is shown, in a panel that is {'' if at[2] else 'not '}open")
+            browser.run("page.inspect(null); page.bar.toggle()")
+            browser.wait("return !page.person", "the person is not let go")
+        expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+    finally:
+        session.stop()
 
 
 def check_dressed(browser):
