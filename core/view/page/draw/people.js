@@ -31,6 +31,9 @@ export class People {
         this.uniforms = this.makeUniforms();
         this.capacity = 0;
         this.newest = 1; // index of the newer of the two records
+        this.taken = null; // the frame of the last picture
+        this.fresh = 0; // new frames since then
+        this.stale = this.jumped = false; // whether any frame came since; whether time jumped
         this.personVersion = -1;
         this.group = new THREE.Group();
         this.makeLayers();
@@ -105,24 +108,37 @@ export class People {
         this.kinds.needsUpdate = true;
     }
 
-    /** Uploads a frame: into the older record if it is a new tick, else over the newest. */
+    /** Notes a frame, which the next picture takes over: of a new tick, or the newest once more. */
     upload(crowd, kind) {
-        const frame = crowd.next, { previous } = crowd;
-        if (frame.slots > this.capacity) {
-            this.grow(frame.slots);
-            this.write(this.newest, previous);
+        const { next, previous } = crowd;
+        this.stale = true;
+        if (kind !== "new") return;
+        this.fresh++;
+        this.jumped ||= crowd.snap || next.time - previous.time > JUMP || next.time <= previous.time;
+    }
+
+    /** Takes over what came since the last picture, which may be several frames where pictures are slow. */
+    takeFrames(crowd) {
+        const { next, previous } = crowd, u = this.uniforms;
+        if (!this.stale) return;
+        if (next.slots > this.capacity) {
+            this.grow(next.slots);
+            this.fresh = 2; // both records are empty
         }
-        if (kind === "new") {
+        if (this.fresh > 0) {
             this.newest = 1 - this.newest;
-            this.motion.take(previous, frame, crowd.snap || frame.time - previous.time > JUMP || frame.time <= previous.time);
+            this.motion.take(this.taken ?? previous, next, this.jumped);
             this.moves.needsUpdate = true;
         }
-        this.write(this.newest, frame);
-        const u = this.uniforms;
+        if (this.fresh > 1) this.write(1 - this.newest, previous);
+        this.write(this.newest, next);
         u.newer.value = this.records[this.newest];
         u.older.value = this.records[1 - this.newest];
-        for (const [map, of] of [[u.newerMap, frame], [u.olderMap, previous]]) map.value.set(of.x0, of.y0, of.sx, of.sy);
+        for (const [map, of] of [[u.newerMap, next], [u.olderMap, previous]]) map.value.set(of.x0, of.y0, of.sx, of.sy);
         this.uploadPersons(crowd);
+        this.taken = next;
+        this.fresh = 0;
+        this.stale = this.jumped = false;
     }
 
     /** Updates radii and groups that changed. */
@@ -145,6 +161,7 @@ export class People {
     choose(crowd, { camera, top, metre, target }) {
         const u = this.uniforms, look = camera.matrixWorldInverse.elements, from = top ? target : camera.position;
         const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+        this.takeFrames(crowd);
         u.eye.value.copy(camera.position);
         u.from.value.copy(from);
         u.upright.value = top ? 0 : 1;

@@ -39,48 +39,52 @@ export class Motion {
         const bytes = new Uint8Array(STRIDE * slots);
         bytes.set(this.bytes.subarray(0, Math.min(bytes.length, this.bytes.length)));
         this.bytes = bytes;
+        this.packed = new Uint32Array(bytes.buffer);
         this.slots = slots;
     }
 
     /** Takes the step from frame `a` to frame `b`; `jumped`: what lies between them was not seen. */
     take(a, b, jumped) {
-        const passed = b.time - a.time, seen = passed > 1e-6 && !jumped, { vx, vy, phase, bytes } = this;
-        const kept = seen ? Math.exp(-passed / SETTLE) : 1, known = Math.min(a.slots, b.slots);
-        const breath = seen ? passed / BREATH : 0;
-        for (let slot = 0, w = 0; slot < b.slots; slot++, w += 4) {
-            const at = 2 * w, to = STRIDE * slot;
-            if (b.bytes[at + 5] === NOBODY) continue;
-            const same = slot < known && a.bytes[at + 5] !== NOBODY && ((a.bytes[at + 7] ^ b.bytes[at + 7]) & 1) === 0;
-            const chest = b.chests ? b.chests[slot] : b.bytes[at + 4];
-            let moved = 0, walked = 0;
+        const passed = b.time - a.time, seen = passed > 1e-6 && !jumped, { vx, vy, phase, packed } = this;
+        const kept = seen ? Math.exp(-passed / SETTLE) : 1, gain = seen ? (1 - kept) / passed : 0, known = Math.min(a.slots, b.slots);
+        const breath = seen ? passed / BREATH : 0, furthest = (FASTEST * passed) ** 2;
+        const { words, slots, chests } = b, now = new Uint32Array(b.words.buffer, b.words.byteOffset, 2 * slots);
+        const { words: words0 } = a, before = new Uint32Array(a.words.buffer, a.words.byteOffset, 2 * a.slots);
+        const { sx, sy } = b, sx0 = a.sx, sy0 = a.sy, ox = b.x0 - a.x0, oy = b.y0 - a.y0;
+        for (let slot = 0, k = 0; slot < slots; slot++, k += 2) {
+            const info = now[k + 1]; // heading, state, value, flags
+            if (((info >> 8) & 255) === NOBODY) continue;
+            const was = slot < known ? before[k + 1] : NOBODY << 8;
+            const same = ((was >> 8) & 255) !== NOBODY && ((was ^ info) & (1 << 24)) === 0;
+            const chest = chests ? chests[slot] : info & 255;
+            let x = vx[slot], y = vy[slot], moved = 0;
             if (same && seen) {
-                const dx = b.x0 + b.sx * b.words[w] - a.x0 - a.sx * a.words[w], dy = b.y0 + b.sy * b.words[w + 1] - a.y0 - a.sy * a.words[w + 1];
-                moved = Math.sqrt(dx * dx + dy * dy);
-                if (moved > FASTEST * passed) moved = 0;
-                else {
-                    vx[slot] = kept * vx[slot] + ((1 - kept) * dx) / passed;
-                    vy[slot] = kept * vy[slot] + ((1 - kept) * dy) / passed;
+                const dx = ox + sx * words[2 * k] - sx0 * words0[2 * k], dy = oy + sy * words[2 * k + 1] - sy0 * words0[2 * k + 1], d = dx * dx + dy * dy;
+                if (d < furthest) {
+                    moved = Math.sqrt(d);
+                    vx[slot] = x = kept * x + gain * dx;
+                    vy[slot] = y = kept * y + gain * dy;
                 }
-            } else if (!same && !jumped) vx[slot] = vy[slot] = 0;
-            const speed = Math.sqrt(vx[slot] * vx[slot] + vy[slot] * vy[slot]), k = Math.min(SPEEDS - 1, (32 * speed) | 0);
-            let way = speed > 0.08 ? turnsOf(vx[slot], vy[slot]) - chest : 0;
-            if (way > 128) way -= 256;
-            else if (way < -128) way += 256;
-            walked = moved * cycles[k];
-            if (way > 72 || way < -72) { // backwards: the steps run back
-                way += way > 0 ? -128 : 128;
-                walked = -walked;
+            } else if (!same && !jumped) vx[slot] = vy[slot] = x = y = 0;
+            const speed = Math.sqrt(x * x + y * y), step = Math.min(SPEEDS - 1, (32 * speed) | 0), gait = gaits[step];
+            let way = 0;
+            if (speed > 0.08) {
+                way = turnsOf(x, y) - chest;
+                if (way < -128) way += 256;
+                if (way > 72 || way < -72) { // backwards: the steps run back
+                    way += way > 0 ? -128 : 128;
+                    moved = -moved;
+                }
+                way = Math.max(-44, Math.min(44, way));
             }
-            const before = phase[slot], next = before + walked + breath * Math.max(0, 1 - 4 * speed);
-            phase[slot] = next - Math.floor(next);
-            bytes[to] = 256 * before;
-            bytes[to + 1] = 256 * phase[slot];
-            bytes[to + 2] = same ? bytes[to + 3] : gaits[k];
-            bytes[to + 3] = gaits[k];
-            bytes[to + 4] = same ? bytes[to + 5] : way;
-            bytes[to + 5] = Math.max(-44, Math.min(44, way));
-            bytes[to + 6] = same ? bytes[to + 7] : chest;
-            bytes[to + 7] = chest;
+            const from = phase[slot];
+            let to = from + moved * cycles[step];
+            if (speed < 0.25) to += breath * (1 - 4 * speed);
+            to -= Math.floor(to);
+            phase[slot] = to;
+            const steps = packed[k], turns = packed[k + 1];
+            packed[k] = ((256 * from) & 255) | (((256 * to) & 255) << 8) | (same ? (steps >>> 24) << 16 : gait << 16) | (gait << 24);
+            packed[k + 1] = (same ? (turns >>> 8) & 255 : way & 255) | ((way & 255) << 8) | (same ? (turns >>> 24) << 16 : chest << 16) | (chest << 24);
         }
     }
 }
