@@ -229,9 +229,16 @@ export class View {
         this.screenRatio = Math.min(2, window.devicePixelRatio || 1);
         this.whole = whole;
         this.ratio = whole ? this.screenRatio : this.screenRatio * this.coarse;
+        this.dirty = true;
+    }
+
+    /** Gives the canvas its size just before it is drawn on, as a canvas of another size is empty. */
+    sizeCanvas() {
+        const size = [this.wide, this.high, this.ratio].join();
+        if (size === this.sized) return;
+        this.sized = size;
         this.renderer.setPixelRatio(this.ratio);
         this.renderer.setSize(this.wide, this.high, false);
-        this.dirty = true;
     }
 
     /** The window of the view from above, m. */
@@ -287,6 +294,7 @@ export class View {
             this.people.uniforms.clock.value = (next.time - (1 - share) * (next.time - previous.time)) % 1000;
             this.people.choose(this.crowd, { camera, top: this.top, metre: this.pixelsOfMetre(), target: this.controls.target });
         }
+        this.sizeCanvas();
         const begun = performance.now();
         this.renderer.render(this.scene, camera);
         this.called = performance.now() - begun;
