@@ -54,15 +54,15 @@ Outfit dress(uint look, uint clothes, vec3 colour, bool plays, float classes) {
         o.veil = o.robe = woman;
         if (!woman) {
             o.robe = true;
-            o.top = mix(white, colour, values ? 0.8 : 0.5);
-            o.hips = o.leg = mix(white, colour, 0.08);
+            o.top = mix(white, colour, values ? 0.95 : 0.5);
+            o.hips = o.leg = mix(white, colour, values ? 0.6 : 0.08);
             o.sleeve = o.skin;
             if (head < 0.35) o.hair = o.skin * 0.8; // shaven
         } else {
-            o.top = mix(cover, colour, values ? 0.8 : 0.6);
-            o.hips = o.leg = mix(cover, colour, 0.12);
+            o.top = mix(cover, colour, values ? 0.95 : 0.6);
+            o.hips = o.leg = mix(cover, colour, values ? 0.6 : 0.12);
             o.sleeve = o.top;
-            o.hair = cover;
+            o.hair = mix(cover, colour, values ? 0.6 : 0.0);
         }
         o.shoe = o.skin * 0.8;
     } else if (clothes == 2u) { // shirt and shorts
