@@ -76,6 +76,7 @@ static int continue_run(const Resume *resume, JoScene *scene, const char *note) 
     char *every = find_note_value(note, "every"), *folder = find_note_value(note, "folder");
     char *report = find_note_value(note, "report"), *data = find_note_value(note, "data");
     char *no_half = find_note_value(note, "no-half");
+    char *all_steps = find_note_value(note, "all-steps"); /* a game goes on after its round */
     const double dt = jo_scene_stats(scene).dt;
     const uint64_t until = resume->has_seconds ? (uint64_t)(resume->seconds / dt + 0.5)
                            : steps             ? strtoull(steps, NULL, 10)
@@ -94,7 +95,7 @@ static int continue_run(const Resume *resume, JoScene *scene, const char *note) 
         jo_scene_show_progress(scene, (double)until * dt);
     }
     while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal &&
-           !jo_scene_over(scene))
+           (resume->has_seconds || all_steps || !jo_scene_over(scene)))
         ok = jo_scene_step(scene, &error);
     int status = cli_finish_run(&cli_resume, scene, ok, &error, &files);
     if (status == JO_OK && report) {
@@ -121,7 +122,7 @@ static int continue_run(const Resume *resume, JoScene *scene, const char *note) 
         status = JO_FAILED;
     if (begun && !resume->quiet)
         cli_print_closing(scene, &files);
-    char *const taken[] = {record, log, steps, every, folder, report, data, no_half};
+    char *const taken[] = {record, log, steps, every, folder, report, data, no_half, all_steps};
     for (size_t t = 0; t < sizeof taken / sizeof *taken; t++)
         jox_free(taken[t]);
     return status;

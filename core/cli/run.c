@@ -148,8 +148,9 @@ static bool start_checkpoints(const Run *run, JoScene *scene, uint64_t steps, Jo
                  {"data", run->data}};
     char note[6 * LONGEST_NOTED];
     const double every = run->every > 0.0 ? run->every : NEVER;
-    int used = snprintf(note, sizeof note, "steps %llu\nevery %.17g\n%s", (unsigned long long)steps,
-                        every, run->no_half ? "no-half \n" : "");
+    int used = snprintf(note, sizeof note, "steps %llu\nevery %.17g\n%s%s",
+                        (unsigned long long)steps, every, run->no_half ? "no-half \n" : "",
+                        run->has_seconds || run->has_steps ? "all-steps \n" : "");
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
         if (texts[t].value)
             used += snprintf(note + used, sizeof note - (size_t)used, "%s %s\n", texts[t].key,
