@@ -91,8 +91,8 @@ return out;
 
 def laid_out(browser, usable, where):
     """Fails if controls still overlap or are cut some seconds after a change: layouts wait for their turn on a busy machine."""
-    until = time.monotonic() + 8
-    while wrong := browser.run(OVERLAPS, browser.run(usable)):
+    overlaps, until = OVERLAPS.replace("arguments[0]", "(() => {" + usable + "})()"), time.monotonic() + 8
+    while wrong := browser.run(overlaps):
         expect(time.monotonic() < until, f"{where}: {wrong[:2]}")
         time.sleep(0.2)
 
