@@ -225,7 +225,7 @@ static void put_value_table(FILE *out, const JoScene *scene, const JoxSubject *s
         "quantity|group|as given|>people|>mean as drawn|>standard deviation|>least|>greatest|unit");
     uint8_t *told = jox_alloc(drawn->count + 1, 1);
     JoxText defaults = {0};
-    for (uint32_t k = 0; k < drawn->count; k++) { /* those that have a default, or are always 0 */
+    for (uint32_t k = 0; k < drawn->count; k++) { /* values with a default, or always 0 */
         const JoxDrawnValue *value = &drawn->items[k];
         bool plain = value->group >= scene->spec->group_count; /* of an edited scene */
         bool all = !jox_drawn_is_shown(value->name);

@@ -18,7 +18,7 @@ typedef struct JoxReport {
     JoxProbe **probes;      /* probes of the scene, or default ones */
     uint32_t count;         /* number of probes */
     JoxDanger *danger;
-    JoxCriteria *criteria;            /* of the scene; NULL: none */
+    JoxCriteria *criteria;            /* the scene's; NULL: none */
     JoxExits exits;                   /* people who are in no later frame; exits have no names */
     JoxTrajectoryReader *body_reader; /* for the bodies of a recording; NULL if it has none */
     JoxStory story;

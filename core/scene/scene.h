@@ -114,7 +114,7 @@ typedef struct JoxGame {
     double rounds;        /* of a match */
     double speed;         /* m/s, that the page asks of the player's agent */
     char *how;            /* text on how to play; NULL: none */
-    char *button;         /* what the button does, a word; NULL: it is not used */
+    char *button;         /* action of the button, a word; NULL: no button */
     char *ball;           /* tag of bodies that the page marks; NULL: none */
     JoxGameLevel *levels;
     uint32_t level_count;

@@ -10,7 +10,7 @@
 
 const char *const jox_verdict_names[] = {"not decided", "met", "not met"};
 
-/* What the samples of density have shown of one criterion. */
+/* Result of the density samples for one criterion. */
 typedef struct CriterionSamples {
     double seconds;            /* s: above the limit */
     double greatest, at, last; /* 1/m2; s: its time, time of the last sample; NAN: none */

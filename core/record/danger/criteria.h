@@ -18,7 +18,7 @@ void jox_criteria_sample(JoxCriteria *criteria, const JoxDanger *danger);
 void jox_criteria_sections(JoxCriteria *criteria, JoxSections *sections);
 void jox_criteria_free(JoxCriteria *criteria);
 
-/* What verdicts need, besides the samples. */
+/* Inputs of verdicts other than the samples. */
 typedef struct JoxCriterionEvidence {
     const JoxDanger *danger;
     const JoxExits *exits;
