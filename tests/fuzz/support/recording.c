@@ -64,16 +64,17 @@ static void read_plan(const char *path) {
 /* Makes all that is sent of a frame to a live page. */
 static void show_frame(JoxReplay *replay, uint32_t frame) {
     const JoxLiveSession session = {.speed = 1};
+    JoxLiveScales scales = {0};
     JoxText text = {0};
     JoxBytes bytes = {0};
     FUZZ_CHECK(jox_replay_show(replay, frame, &text) || text.length > 0);
     jox_replay_scene(replay, &text);
     jox_replay_status(replay, &session, 1, &text);
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++)
-        jox_replay_frame(replay, (JoxLiveColour)c, &bytes);
+        jox_replay_frame(replay, (JoxLiveColour)c, &scales, &bytes);
     jox_replay_people(replay, &bytes);
     for (int f = 0; f < JOX_LIVE_FIELDS; f++)
-        jox_replay_field(replay, (JoxLiveField)f, &bytes);
+        jox_replay_field(replay, (JoxLiveField)f, &scales, &bytes);
     jox_text_free(&text);
     jox_bytes_free(&bytes);
 }
