@@ -138,6 +138,18 @@ void cli_print_address(void *context, const char *address);
 typedef struct CliRunFiles {
     const char *report, *data, *record, *log, *checkpoints, *summary;
 } CliRunFiles;
+/* Files that a run on the live page and its restarts wrote, for the last lines. */
+typedef struct CliPageFiles {
+    struct CliPageFile {
+        const char *what;
+        char *path;
+    } * items;
+    size_t count, capacity;
+} CliPageFiles;
+/* Adds a file, unless `path` is NULL, and returns the copy of its path. */
+const char *cli_add_page_file(CliPageFiles *files, const char *what, const char *path);
+/* Prints the files that are there, unless `quiet`, to stderr, and frees the list. */
+void cli_print_page_files(CliPageFiles *files, bool quiet);
 /* Finishes the files of a run whose steps went well (`ok`) or ended with `error`, and prints the
    error. Removes from `files` what could not be finished; returns the exit status. */
 int cli_finish_run(const CliCommand *command, JoScene *scene, bool ok, JoError *error,

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "base/format/plurals.h"
+#include "base/mem.h"
 #include "cli/cli.h"
 
 /* Prints hints on parts of behaviours that had no effect, one a line. */
@@ -44,6 +45,33 @@ void cli_print_closing(const JoScene *scene, const CliRunFiles *files) {
     jox_text_free(&text);
     jox_text_free(&lines);
     jo_free(closing);
+}
+
+const char *cli_add_page_file(CliPageFiles *files, const char *what, const char *path) {
+    if (!path)
+        return NULL;
+    JOX_RESERVE(files->items, files->capacity, files->count + 1);
+    files->items[files->count] = (struct CliPageFile){what, jox_strdup(path)};
+    return files->items[files->count++].path;
+}
+
+void cli_print_page_files(CliPageFiles *files, bool quiet) {
+    JoxText text = {0}, lines = {0};
+    for (size_t f = 0; f < files->count; f++) {
+        const struct CliPageFile *file = &files->items[f];
+        if (access(file->path, F_OK) == 0)
+            jox_text_printf(&text, "%s %s %s", text.length ? "," : "Files:", file->what,
+                            file->path);
+        jox_free(file->path);
+    }
+    jox_free(files->items);
+    if (text.length && !quiet) {
+        jox_text_add(&text, ".");
+        cli_wrap_text(&lines, text.data, text.length, 0, 0);
+        fputs(lines.data, stderr);
+    }
+    jox_text_free(&text);
+    jox_text_free(&lines);
 }
 
 static void print_lua_cost(const JoLuaCost *cost, double stepping) {

@@ -20,6 +20,7 @@ typedef struct Run {
     JoxOverlay files;  /* files that were vetted */
     CliKeeper *keeper; /* vets edited files; or NULL */
     bool troubled;     /* the run reached its end, but not as it was written */
+    CliPageFiles page_files;
 } Run;
 
 static bool read_run_isa(void *options, const char *text, char why[160]) {
@@ -101,7 +102,8 @@ static const CliOption OPTIONS[] = {
      "show the run on a live page, in real time, and print the page's address: port 8730, or the "
      "next that is free. On the page people can act on the run, pause, restart and inspect it. "
      "Files are watched; --for, --record, --log-input, --input, --checkpoint and --summary can be "
-     "given, too. Requests without the address's token are refused",
+     "given, too. After a restart the files of --record and --log-input are NAME-2.EXT, and so on: "
+     "those of the runs before stay. Requests without the address's token are refused",
      CLI_TO(Run, live.port), .only_equals = true, CLI_GIVEN(Run, view), CLI_RANGE(1, 65535)},
     {"fast", NULL, "with --view: run as fast as possible", CLI_TO(Run, live.fast)},
     {"view-wait", "S",
@@ -292,7 +294,14 @@ static int run_once(Run *run) {
     return status;
 }
 
-/* Called when a run on the live page begins, and at each restart. */
+/* Called when a run on the live page begins, and at each restart, with the files of that run, for
+   its checkpoints and for the last lines. */
+static void note_page_files(void *context, const char *record, const char *log) {
+    Run *run = context;
+    run->record = cli_add_page_file(&run->page_files, "recording", record);
+    run->log = cli_add_page_file(&run->page_files, "input log", log);
+}
+
 static bool begin_page_run(void *context, JoScene *scene, JoError *error) {
     const Run *run = context;
     return !run->folder || start_checkpoints(run, scene, count_run_steps(run, scene), error);
@@ -310,6 +319,7 @@ static int run_on_page(Run *run, char **summary) {
     live->log_input = run->log;
     live->stop = &cli_signal;
     live->opened = cli_print_address;
+    live->writes = note_page_files;
     live->begun = begin_page_run;
     live->begun_context = run;
     live->breaks = run->breaks.items;
@@ -319,6 +329,7 @@ static int run_on_page(Run *run, char **summary) {
     const JoxOverlay *before = jox_overlay_use(&run->files);
     const bool shown = jo_view(live, &error);
     jox_overlay_use(before);
+    cli_print_page_files(&run->page_files, run->quiet);
     if (shown)
         return JO_OK;
     return print_run_error(&error, error.code == JO_INPUT);

@@ -26,10 +26,12 @@ typedef struct JoViewDef {
     /* reads edited files first, and all files at a restart; NULL: no vetting (JoVetter of
      * jostle_tools.h) */
     const struct JoVetter *vetter;
-    double seconds;     /* simulated time, s, after which the run pauses; 0: the scene's duration */
-    const char *record; /* file for trajectories, or NULL; a restart overwrites it */
-    double record_every;       /* s between recorded frames, as for jo_scene_record */
-    const char *log_input;     /* file for the input log, or NULL; a restart overwrites it */
+    double seconds; /* simulated time, s, after which the run pauses; 0: the scene's duration */
+    /* files for trajectories and for the input log, or NULL; after a restart the run writes to
+       NAME-2.EXT, the next restart to NAME-3.EXT; numbers that a file has already are left out */
+    const char *record;
+    double record_every; /* s between recorded frames, as for jo_scene_record */
+    const char *log_input;
     const char *const *breaks; /* breakpoints, as of jo_scene_break, at which the page pauses */
     size_t break_count;
     const volatile int *stop; /* the call returns once this int is not 0; NULL: only on errors */
@@ -39,6 +41,8 @@ typedef struct JoViewDef {
        outputs such as jo_scene_checkpoint; may be NULL. False with `error`: the run does
        not begin; jo_view fails with this error, or after a restart the page shows it. */
     bool (*begun)(void *context, JoScene *scene, JoError *error);
+    /* Called before `begun` with the files that the run writes, or NULL; may be NULL. */
+    void (*writes)(void *context, const char *record, const char *log_input);
     void *begun_context;
     char **summary; /* receives jo_scene_summary at the end of the run, to be freed with jo_free;
                        may be NULL */

@@ -7,6 +7,7 @@
 #include "live/inspect.h"
 #include "live/scene_page.h"
 #include "run/input_actions.h"
+#include "run/messages.h"
 #include "world/verbs/verb_table.h"
 
 enum { MOST_STEPS = 100000 };
@@ -67,7 +68,12 @@ void jox_scene_page_restart(void *self, const JoxLiveRequest *request) {
         s->page.session.match = match;
         s->scene_def = before;
         jox_live_refuse(request, error.text);
+        return;
     }
+    JoxText text = {0};
+    if (jox_scene_page_add_files(s, &text))
+        jox_run_say(s->scene, "Restarted%s\n", text.data);
+    jox_text_free(&text);
 }
 
 /* Returns the tool (JOX_TOOL_...) that allows the verb of an input line, or -1 if pages have no

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/mem.h"
 #include "base/overlay.h"
@@ -43,17 +44,49 @@ char *jox_scene_page_path(const JoxScenePage *s, const char *path) {
     const char *dot = strrchr(name, '.');
     const size_t stem = dot && dot > name ? (size_t)(dot - path) : strlen(path);
     jox_text_append(&out, path, stem);
-    if (s->starts > 1 && s->scene->spec->game.given)
-        jox_text_printf(&out, "-%u", s->starts);
+    if (s->files > 1)
+        jox_text_printf(&out, "-%u", s->files);
     jox_text_add(&out, path + stem);
     return out.data;
+}
+
+/* Returns whether a file of the present number is there already. */
+static bool is_file_taken(const JoxScenePage *s, const char *path) {
+    char *numbered = jox_scene_page_path(s, path);
+    const bool taken = numbered && access(numbered, F_OK) == 0;
+    jox_free(numbered);
+    return taken;
+}
+
+/* Numbers the files of the run that begins: the first run has the names that the caller gave, each
+   later one the next number of which no file is there. */
+static void number_files(JoxScenePage *s) {
+    s->files++;
+    while (s->files > 1 &&
+           (is_file_taken(s, s->def->record) || is_file_taken(s, s->def->log_input)))
+        s->files++;
+}
+
+bool jox_scene_page_add_files(const JoxScenePage *s, JoxText *out) {
+    char *record = jox_scene_page_path(s, s->def->record);
+    char *log = jox_scene_page_path(s, s->def->log_input);
+    const bool any = record || log;
+    if (any)
+        jox_text_printf(out, "; written to %.200s%s%.200s", record ? record : "",
+                        record && log ? " and " : "", log ? log : "");
+    jox_free(record);
+    jox_free(log);
+    return any;
 }
 
 /* Starts what `def` asks for: recording, input log, watch of files; then calls `begun`. */
 static bool begin_outputs(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
+    number_files(s);
     char *record = jox_scene_page_path(s, def->record),
          *log = jox_scene_page_path(s, def->log_input);
+    if (def->writes)
+        def->writes(def->begun_context, record, log);
     const bool good = (!record || jo_scene_record(s->scene, record, def->record_every, error)) &&
                       (!log || jo_scene_log_input(s->scene, log, error)) &&
                       (!def->watch || jo_scene_watch(s->scene, error)) &&
@@ -109,7 +142,6 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
         jox_live_say(&s->page, "error", ending.text);
     s->scene = next;
     jo_scene_vet(next, s->def->vetter);
-    s->starts++;
     s->failed = s->page.session.paused = false;
     s->page.session.end = JOX_LIVE_GOES_ON;
     s->page.session.broke = NULL;

@@ -123,14 +123,8 @@ void jox_scene_page_play(void *self, const JoxLiveRequest *request) {
                     (unsigned long long)s->scene_def.seed);
     if (s->scene->spec->game.level)
         jox_text_printf(&text, ", --set game.level=%.60s", s->scene->spec->game.level);
-    char *record = jox_scene_page_path(s, s->def->record);
-    char *log = jox_scene_page_path(s, s->def->log_input);
-    if (record || log)
-        jox_text_printf(&text, "; written to %.200s%s%.200s", record ? record : "",
-                        record && log ? " and " : "", log ? log : "");
-    say_match(s, &text, !record && !log);
-    jox_free(record);
-    jox_free(log);
+    const bool writes = jox_scene_page_add_files(s, &text);
+    say_match(s, &text, !writes);
 }
 
 void jox_scene_page_replay_round(JoxScenePage *s) {

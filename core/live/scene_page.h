@@ -38,7 +38,7 @@ typedef struct JoxScenePage {
     double began;           /* wall time at which the last step was due, s */
     double opened;          /* wall time of the first call of `advance`, s */
     bool has_started;       /* the run no longer waits for its first browser */
-    uint32_t starts;        /* how often the scene was started */
+    uint32_t files;         /* number of the present run's files; 1: as `def` names them */
     const char **overrides; /* settings of the present match's level; NULL: those of `def` */
     char *level;            /* the setting that chooses the level */
     bool embedded;          /* the scene belongs to the program (embedded_page.c) */
@@ -63,9 +63,12 @@ void jox_scene_page_fail(JoxScenePage *scene, const JoError *error);
 /* Forwards a message of the scene to the caller's function, and to browsers unless they have it as
    data; `page` is the JoxScenePage. */
 void jox_scene_page_forward(void *page, const char *text);
-/* Returns the path of a file for the present start of the scene: of a game NAME-2.EXT for the
-   second and so on, so that each round keeps its files; else `path`. Free it by jox_free. */
+/* Returns the path of a file of the present run: `path` of the first, NAME-2.EXT of the second and
+   so on, so that each run keeps its files. NULL for NULL. Free it by jox_free. */
 char *jox_scene_page_path(const JoxScenePage *scene, const char *path);
+/* Appends "; written to FILE and FILE", the recording and the input log of the present run. Returns
+   false, and appends nothing, if it writes neither. */
+bool jox_scene_page_add_files(const JoxScenePage *scene, JoxText *out);
 /* Finishes recording and log, and frees the scene. False with `error` if a file is not whole. */
 bool jox_scene_page_end(JoxScenePage *scene, JoError *error);
 /* scene_errors.c: keeps the errors of loaded files and sends them; a JoxDiagnosed whose context is

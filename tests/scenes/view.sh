@@ -38,6 +38,7 @@ wait $pid
 [ $? = 130 ]; verdict "Ctrl-C ends it with the status of a run" $?
 [ -n "$(figure hash <"$work/summary")" ]
 verdict "with a summary" $?
+grep -qF "Files: input log $work/log." <(tr '\n' ' ' <"$work/errors"); verdict "the last lines list the files of the run" $?
 hash=$(figure hash <"$work/summary")
 same_hash "a run without a page has the same hash" "$hash" \
     "$(hash_of "$JOSTLE" scenes/circle.yaml --steps "$(figure steps <"$work/summary")" --input "$work/log")"

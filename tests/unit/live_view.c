@@ -133,6 +133,37 @@ static void finished_scene_pauses_and_restarts(void **state) {
     jo_free(session.summary);
 }
 
+/* Reads the first bytes of a file of the folder. */
+static const char *read_test_file(const char *name, char text[4096]) {
+    FILE *file = fopen(test_path(name), "r");
+    assert_non_null(file);
+    text[fread(text, 1, 4095, file)] = '\0';
+    fclose(file);
+    return text;
+}
+
+/* A restart writes to files of its own: the first run's, and files of others, stay as they are. */
+static void restart_keeps_files_of_earlier_runs(void **state) {
+    (void)state;
+    write_test_file("log-2.txt", "mine");
+    begin_session(0);
+    join_session();
+    send_command("{\"do\": \"input\", \"line\": \"open gate\"}");
+    wait_for_json("\"status\"", "\"gate\": true");
+    send_command("{\"do\": \"restart\", \"seed\": 77}");
+    wait_for_json("\"say\"", "Restarted; written to ");
+    assert_non_null(strstr(last, "/log-3.txt\""));
+    end_session();
+    jo_free(session.summary);
+    char text[4096];
+    assert_string_equal(read_test_file("log-2.txt", text), "mine");
+    assert_non_null(strstr(read_test_file("log.txt", text), "open gate"));
+    assert_non_null(strstr(read_test_file("log-3.txt", text), "77"));
+    assert_null(strstr(text, "open gate"));
+    unlink(test_path("log-2.txt"));
+    unlink(test_path("log-3.txt"));
+}
+
 static void run_ends_once_all_have_left(void **state) {
     (void)state;
     write_test_file("scene.yaml", "jostle: 1\nduration: 1000\n"
@@ -187,7 +218,7 @@ static void reload_is_told_as_data(void **state) {
 
 /* Sums the pushes on an agent at a tick in the input log, N. */
 static void sum_logged_pushes(double tick, uint32_t agent, double sum[2]) {
-    FILE *file = fopen(test_path("log.txt"), "r");
+    FILE *file = fopen(test_path("log-2.txt"), "r"); /* of the run after the restart */
     assert_non_null(file);
     char line[2048];
     sum[0] = sum[1] = 0.0;
@@ -236,6 +267,7 @@ static void repeated_push_counts_once_per_step(void **state) {
     assert_true(sum[0] == 0.0 && sum[1] == 300.0);
     sum_logged_pushes(tick + 1, 1, sum);
     assert_true(sum[0] == 50.0 && sum[1] == 0.0);
+    unlink(test_path("log-2.txt"));
     write_test_file("scene.yaml", SCENE);
 }
 
@@ -420,6 +452,7 @@ int main(void) {
         cmocka_unit_test(pause_step_and_speed_commands),
         cmocka_unit_test(colour_and_field_commands),
         cmocka_unit_test(finished_scene_pauses_and_restarts),
+        cmocka_unit_test(restart_keeps_files_of_earlier_runs),
         cmocka_unit_test(run_ends_once_all_have_left),
         cmocka_unit_test(reload_is_told_as_data),
         cmocka_unit_test(repeated_push_counts_once_per_step),
