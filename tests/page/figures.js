@@ -3,6 +3,7 @@
 import { makeBody, PIECE } from "../../core/view/page/draw/figure/body.js";
 import { Levels } from "../../core/view/page/draw/figure/levels.js";
 import { Motion, STRIDE } from "../../core/view/page/draw/figure/motion.js";
+import { Piles, STEP } from "../../core/view/page/draw/figure/piles.js";
 import { ACTIONS, ankleAt, bakePoses, cyclesPerMetre, FRAMES, GAIT_COUNT, gaitOf, GAITS, mirrorPose, poseOf, ROWS } from "../../core/view/page/draw/figure/poses.js";
 import { BONE, BONES, BREADTH, DEPTH, turn } from "../../core/view/page/draw/figure/skeleton.js";
 import { skinMesh } from "../../core/view/page/draw/figure/skin.js";
@@ -131,6 +132,19 @@ function phasesFollowTheWay() {
     }
 }
 
+function whoFallsOverOthersLiesOnThem() {
+    const piles = new Piles(), heights = (slots, places) => [...piles.stack(slots, places.flat())].map((height) => height * STEP);
+    const here = [0, 0, 0], across = [0.2, 0.3, 64], apart = [5, 0, 0];
+    const same = (got, wanted, text) => expect(got.every((height, i) => Math.abs(height - wanted[i]) < 0.011), `${text}: heights are ${got} m`);
+    same(heights([7], [here]), [0], "one lies on the floor");
+    same(heights([3, 7], [across, here]), [0.18, 0], "who fell later lies above");
+    same(heights([3, 5, 7], [across, apart, here]), [0.18, 0, 0], "who lies apart is on the floor");
+    same(heights([3, 5, 7, 9], [across, apart, here, [0, 0.1, 200]]), [0.18, 0, 0, 0.36], "a third one is above both");
+    same(heights([3, 5, 9], [across, apart, [0, 0.1, 200]]), [0, 0, 0.18], "when the lowest rises, the others sink");
+    const many = Array.from({ length: 40 }, (_, i) => i);
+    expect(Math.max(...heights(many, many.map(() => here))) < 0.7, "a pile is higher than 0.7 m");
+}
+
 function everybodyIsDrawn() {
     const slots = 3000, bytes = new Uint8Array(8 * slots), words = new Uint16Array(bytes.buffer);
     for (let s = 0; s < slots; s++) {
@@ -148,4 +162,4 @@ function everybodyIsDrawn() {
 }
 
 expect(ACTIONS.length - 1 + GAIT_COUNT === ROWS, "rows of poses are missing");
-for (const test of [limbsKeepTheirLengths, stepsAreSymmetrical, feetStay, texturesAgree, meshesFit, phasesFollowTheWay, everybodyIsDrawn]) test();
+for (const test of [limbsKeepTheirLengths, stepsAreSymmetrical, feetStay, texturesAgree, meshesFit, phasesFollowTheWay, whoFallsOverOthersLiesOnThem, everybodyIsDrawn]) test();

@@ -1,6 +1,7 @@
 // GLSL that reads a person's record: the bytes of two frames as they came, and what motion.js adds. People slide
 // from the previous frame to the next one. Lengths in m, angles in rad.
 import { GAIT_STEPS } from "./motion.js";
+import { STEP } from "./piles.js";
 import { ACTIONS } from "./poses.js";
 import { BREADTH, DEPTH, HEIGHT } from "./skeleton.js";
 
@@ -14,7 +15,7 @@ precision highp sampler2D;
 precision highp usampler2D;
 in uint slot;
 uniform usampler2D older, newer;   // place x and y of 16 bits; heading, state, value, flags
-uniform usampler2D motion;         // phase, gait, way and chest, each of the previous frame and the next
+uniform usampler2D motion;         // phase, gait or height, way and chest, each of the previous frame and the next
 uniform usampler2D person;         // radius, group, breadth and depth of the torso in cm (0: a disc)
 uniform usampler2D kinds;          // 256 texels: clothes of a group, action of a state
 uniform sampler2D colours;
@@ -28,6 +29,7 @@ struct Person {
     float half_axis, surface;      // half of the length of the torso's axis, 0 of a disc; the surface's distance from it
     vec3 size;                     // depth, breadth and height, of those of the model
     float phase, gait, way;        // of the steps; where they lead beside the chest, rad
+    float height;                  // that one who lies is above the floor
     vec3 colour;
     uint action, clothes, look;    // look: random bits of this person
     bool here, lies, plays;
@@ -93,6 +95,7 @@ Person decode() {
     p.plays = mod(floor(info.w / 4.0), 2.0) > 0.5;
     float code = floor(info.w / 8.0);
     p.lies = code > 30.5;
+    p.height = p.lies ? mix(phases.z, phases.w, t) * ${STEP} : 0.0;
     p.clothes = texelFetch(kinds, ivec2(int(body.y), 0), 0).r;
     p.action = texelFetch(kinds, ivec2(int(info.y), 0), 0).g;
     // Pushed: arms before the chest. Who carries a body or holds somebody has them ahead.

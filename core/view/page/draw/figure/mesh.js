@@ -133,7 +133,7 @@ void axesOf(Person p, out vec3 front, out vec3 left, out vec3 up) {
     }
 }
 vec3 originOf(Person p, vec3 up) {
-    return p.lies ? vec3(p.at, 0.14) - 0.875 * p.size.z * up : vec3(p.at, 0.0);
+    return p.lies ? vec3(p.at, 0.14 + p.height) - 0.875 * p.size.z * up : vec3(p.at, 0.0);
 }
 `;
 

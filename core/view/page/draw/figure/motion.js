@@ -1,11 +1,14 @@
 // How people move between frames, a slot each: phase and gait of their steps, and where they walk to beside where
-// their chest points. Phases grow by the way that was walked, so that feet stay where they meet the floor.
+// their chest points. Phases grow by the way that was walked, so that feet stay where they meet the floor. Who lies has
+// a height in the place of the gait.
 import { NOBODY } from "../../net/crowd.js";
+import { Piles } from "./piles.js";
 import { cyclesPerMetre, GAIT_COUNT, gaitOf } from "./poses.js";
 
-export const STRIDE = 8; // bytes of a slot: phase, gait, way and chest, each of the previous frame and of the next
+export const STRIDE = 8; // bytes of a slot: phase, gait or height, way and chest, each of the previous frame and of the next
 const SETTLE = 0.25; // s, time constant of the averaged velocity
 const BREATH = 6; // s of the cycle of one who stands
+const LIES = 31; // flags of a record by 8, of one who has fallen
 const FASTEST = 12; // m/s: faster is a jump
 export const GAIT_STEPS = Math.floor(255 / (GAIT_COUNT - 1)); // of a byte between two gaits
 
@@ -27,6 +30,7 @@ export class Motion {
     constructor() {
         this.slots = 0;
         this.bytes = new Uint8Array(0);
+        this.piles = new Piles();
     }
 
     grow(slots) {
@@ -36,6 +40,9 @@ export class Motion {
             if (kept[name]) this[name].set(kept[name].subarray(0, slots));
             else if (name === "phase") for (let s = 0; s < slots; s++) this.phase[s] = (Math.imul(s + 1, 0x9e3779b1) >>> 16) / 65536;
         }
+        const heights = new Uint8Array(slots);
+        heights.set((this.heights ?? heights).subarray(0, slots));
+        this.heights = heights;
         const bytes = new Uint8Array(STRIDE * slots);
         bytes.set(this.bytes.subarray(0, Math.min(bytes.length, this.bytes.length)));
         this.bytes = bytes;
@@ -51,9 +58,11 @@ export class Motion {
         const { words, slots, chests } = b, now = new Uint32Array(b.words.buffer, b.words.byteOffset, 2 * slots);
         const { words: words0 } = a, before = new Uint32Array(a.words.buffer, a.words.byteOffset, 2 * a.slots);
         const { sx, sy } = b, sx0 = a.sx, sy0 = a.sy, ox = b.x0 - a.x0, oy = b.y0 - a.y0;
+        const lying = [];
         for (let slot = 0, k = 0; slot < slots; slot++, k += 2) {
             const info = now[k + 1]; // heading, state, value, flags
             if (((info >> 8) & 255) === NOBODY) continue;
+            if (info >>> 27 === LIES) lying.push(slot);
             const was = slot < known ? before[k + 1] : NOBODY << 8;
             const same = ((was >> 8) & 255) !== NOBODY && ((was ^ info) & (1 << 24)) === 0;
             const chest = chests ? chests[slot] : info & 255;
@@ -86,5 +95,17 @@ export class Motion {
             packed[k] = ((256 * from) & 255) | (((256 * to) & 255) << 8) | (same ? (steps >>> 24) << 16 : gait << 16) | (gait << 24);
             packed[k + 1] = (same ? (turns >>> 8) & 255 : way & 255) | ((way & 255) << 8) | (same ? (turns >>> 24) << 16 : chest << 16) | (chest << 24);
         }
+        if (lying.length > 0 || this.piles.turns.size > 0) this.stack(lying, b, known, before);
+    }
+
+    /** Writes how high they lie, in frame `b`; `before`: the words of frame `a`, of `known` slots. */
+    stack(lying, b, known, before) {
+        const { words, bytes, x0, y0, sx, sy } = b, at = new Float64Array(3 * lying.length);
+        lying.forEach((slot, i) => at.set([x0 + sx * words[4 * slot], y0 + sy * words[4 * slot + 1], bytes[8 * slot + 4]], 3 * i));
+        this.piles.stack(lying, at).forEach((height, i) => {
+            const slot = lying[i], lay = slot < known && before[2 * slot + 1] >>> 27 === LIES;
+            this.bytes[STRIDE * slot + 2] = lay ? this.heights[slot] : height;
+            this.bytes[STRIDE * slot + 3] = this.heights[slot] = height;
+        });
     }
 }
