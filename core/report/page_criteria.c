@@ -30,7 +30,7 @@ void jox_page_put_criteria(FILE *out, const JoxSubject *s, const JoxVerdict *ver
         jox_table_text(&table, jox_verdict_names[v->kind]);
         jox_table_number(&table, v->figure);
         jox_table_text(&table, limit);
-        jox_table_text(&table, jox_html_unit(v->unit));
+        jox_table_unit(&table, v->unit);
         jox_table_text(&table, v->how);
     }
     jox_table_put(out, &table);

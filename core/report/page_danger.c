@@ -166,7 +166,7 @@ static void put_greatest_table(FILE *out, const JoxSubject *s) {
         const JoxDangerMost most = jox_danger_most(danger, (JoxDangerMeasure)m);
         jox_table_text(&table, jox_danger_titles[m]);
         jox_table_number(&table, most.value);
-        jox_table_text(&table, jox_html_unit(jox_danger_units[m]));
+        jox_table_unit(&table, jox_danger_units[m]);
         jox_table_number(&table, most.time);
         add_place(&table, s, most.time, most.at);
     }

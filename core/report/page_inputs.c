@@ -182,7 +182,7 @@ static void add_value_row(JoxPageTable *table, const JoScene *scene, const JoxDr
     jox_table_number(table, jox_drawn_deviation(value));
     jox_table_number(table, value->least);
     jox_table_number(table, value->greatest);
-    jox_table_text(table, parameter >= 0 ? jox_html_unit(jox_parameters[parameter].unit)
+    jox_table_unit(table, parameter >= 0                          ? jox_parameters[parameter].unit
                           : strncmp(value->name, "torso", 5) == 0 ? "m"
                                                                   : "");
     jox_text_free(&given);

@@ -47,6 +47,12 @@ void jox_table_text(JoxPageTable *t, const char *text) {
     add_table_cell(t)->text = jox_strdup(text ? text : "");
 }
 
+void jox_table_unit(JoxPageTable *t, const char *unit) {
+    JoxTableCell *cell = add_table_cell(t);
+    cell->text = jox_strdup(unit);
+    cell->is_unit = true;
+}
+
 void jox_table_number(JoxPageTable *t, double value) {
     add_table_cell(t)->value = value;
 }

@@ -15,6 +15,7 @@ enum { JOX_TABLE_COLUMNS = 16 }; /* most columns */
 typedef struct JoxTableCell {
     char *text; /* owned; NULL: a number */
     double value;
+    bool is_unit; /* the text is a unit: spelled out on the page, as "1/m2" in the file */
 } JoxTableCell;
 
 typedef struct JoxPageTable {
@@ -31,8 +32,10 @@ typedef struct JoxPageTable {
     uint32_t columns, count, capacity; /* columns of the heads; cells */
 } JoxPageTable;
 
-/* Add cells, from left to right and row by row: a text, a number (NAN: not known). */
+/* Add cells, from left to right and row by row: a text, a unit of html.h, a number (NAN: not
+   known). */
 void jox_table_text(JoxPageTable *table, const char *text);
+void jox_table_unit(JoxPageTable *table, const char *unit);
 void jox_table_number(JoxPageTable *table, double value);
 /* Writes the page's table, the sentences on what it leaves out, the link to the file, and the file;
    frees the cells. A table without rows writes nothing. */

@@ -168,8 +168,10 @@ static JoxDanger *create_report_danger(const JoxReport *r) {
         return jox_danger_create(spec->heatmap_low, spec->heatmap_high);
     if (spec && spec->bounded)
         return jox_danger_create(spec->low, spec->high);
-    return jox_danger_create(jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE}),
-                             jox_add(r->crowd->high, (JoxV2){EDGE, EDGE}));
+    JoxV2 low = r->crowd->low, high = r->crowd->high;
+    if (spec)
+        jox_criteria_extend_area(spec->criteria, spec->criterion_count, spec->places, &low, &high);
+    return jox_danger_create(jox_sub(low, (JoxV2){EDGE, EDGE}), jox_add(high, (JoxV2){EDGE, EDGE}));
 }
 
 /* Returns, per frame and once more for the end, how many people were in an earlier frame and are
@@ -198,6 +200,23 @@ static void set_leavers(JoxReport *r, uint32_t left, double time) {
     r->exits.left = left;
 }
 
+/* Passes the moment at which nobody is there any more, if the recording goes on without people
+   after frame `f` of those with people, and its last moment. `left` people have left by then. */
+static void measure_empty_frame(JoxReport *r, uint32_t f, uint32_t left, const JoxWalls *walls) {
+    const JoxTrajectories *t = r->crowd;
+    const int64_t next = t->number[t->first[f]] + 1;
+    const bool is_last = f + 1 == t->frame_count;
+    if (is_last ? next > t->last : next == t->number[t->first[f + 1]])
+        return;
+    JoxFrame frame = {.time = (double)next / t->fps, .keys = t->keys, .walls = walls};
+    set_leavers(r, left, frame.time);
+    jox_danger_frame(r->danger, &frame, &r->exits);
+    if (!is_last || next == t->last)
+        return;
+    frame.time = (double)t->last / t->fps;
+    jox_danger_frame(r->danger, &frame, &r->exits);
+}
+
 /* Passes all frames of the recording to the probes, the danger measures and the story. */
 static void measure_recording(JoxReport *r) {
     const JoxTrajectories *t = r->crowd;
@@ -208,8 +227,8 @@ static void measure_recording(JoxReport *r) {
         jox_danger_add_plan(r->danger, r->spec->places, r->spec->place_count, r->spec->probes,
                             r->spec->probe_count);
     if (r->spec && r->spec->criterion_count)
-        r->criteria =
-            jox_criteria_create(r->spec->criteria, r->spec->criterion_count, r->spec->places);
+        r->criteria = jox_criteria_create(r->spec->criteria, r->spec->criterion_count,
+                                          r->spec->places, r->spec->place_count);
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
         if (!t->history)
             frame.walls = jox_report_walls(r);
@@ -227,12 +246,7 @@ static void measure_recording(JoxReport *r) {
                                                                  : jox_report_walls(r),
                                              .left = r->exits.left,
                                              .body_reader = r->body_reader});
-    }
-    int64_t end = t->number[t->count - 1];
-    if (t->last > end) { /* the recording continues without people */
-        set_leavers(r, left[t->frame_count], (double)(end + 1) / t->fps);
-        frame = (JoxFrame){.time = (double)t->last / t->fps, .keys = t->keys};
-        jox_danger_frame(r->danger, &frame, &r->exits);
+        measure_empty_frame(r, f, left[f + 1], frame.walls);
     }
     jox_free(left);
 }

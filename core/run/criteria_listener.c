@@ -14,7 +14,7 @@
 static bool begin_criteria(void *self, JoScene *scene, const void *options, JoError *error) {
     (void)options, (void)error;
     *(JoxCriteria **)self = jox_criteria_create(scene->spec->criteria, scene->spec->criterion_count,
-                                                scene->spec->places);
+                                                scene->spec->places, scene->spec->place_count);
     return true;
 }
 
@@ -54,15 +54,30 @@ uint32_t jox_run_count_criteria(const JoScene *scene) {
     return jox_criteria_count(find_criteria(scene));
 }
 
+/* Returns whether a source or a start time would still have let people in after this time. */
+static bool are_people_to_come(const JoScene *scene) {
+    const JoWorld *world = scene->world;
+    for (uint32_t s = 0; s < world->model.source_count; s++)
+        if (jox_source_can_bring(world, s))
+            return true;
+    for (uint32_t g = 0; g < world->model.group_count; g++)
+        if (jox_world_starts_waiting(world, g))
+            return true;
+    return false;
+}
+
 /* Returns the evidence of a run; the caller frees its list of probes. */
 static JoxCriterionEvidence collect_evidence(const JoScene *scene) {
-    const uint32_t count = scene->spec->probe_count;
+    uint32_t count = 0;
+    while (jox_run_probe(scene, count))
+        count++;
     const JoxProbe **probes = jox_alloc(count + 1, sizeof *probes);
     for (uint32_t p = 0; p < count; p++)
         probes[p] = jox_run_probe(scene, p);
     return (JoxCriterionEvidence){.danger = jox_run_danger(scene),
                                   .exits = &scene->world->state.exits,
                                   .inside = scene->world->state.agents.count,
+                                  .to_come = are_people_to_come(scene),
                                   .until = jo_world_time(scene->world),
                                   .probes = probes,
                                   .probe_count = count};

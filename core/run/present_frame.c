@@ -4,6 +4,7 @@
 
 #include "agents/torso.h"
 #include "base/mem.h"
+#include "record/danger/criteria.h"
 #include "run/present_frame.h"
 #include "run/run.h"
 
@@ -174,6 +175,7 @@ void jox_run_find_shown_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
         *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
         *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
     }
+    jox_criteria_extend_area(spec->criteria, spec->criterion_count, spec->places, low, high);
     if (low->x > high->x)
         *low = *high = (JoxV2){0.0f, 0.0f};
     *low = jox_sub(*low, (JoxV2){MARGIN, MARGIN});

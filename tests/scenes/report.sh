@@ -63,7 +63,7 @@ expect "a probe that needs a run is refused for a recording" 3 "Measure it durin
 expect "a scene without probes" 0 '"all": {"intervals": ' "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene scenes/circle.yaml --summary -
 
 # Danger in recordings: by Jostle as in the run, by others without forces; who left; the page.
-"$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --record "$work/evac.sqlite" --data "$work/evac" --summary "$work/evac.json" 2>/dev/null
+"$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --record "$work/evac.sqlite" --record-every 0.05 --data "$work/evac" --report "$work/evac-run" --summary "$work/evac.json" 2>/dev/null
 "$JOSTLE" report "$work/evac.sqlite" --scene scenes/evacuation.yaml --out "$work/evac-page" --summary "$work/evac-again.json" >/dev/null 2>&1
 verdict "a report on an evacuation" $?
 number() { sed -n "/\"danger\": /,\$s/.*\"$1\": \([-0-9.e]*\|null\)[,} ].*/\1/p" "$2" | head -1; } # KEY FILE
@@ -79,6 +79,8 @@ for key in load_max dose_max; do # from means between frames, held for a second,
     awk -v a="$a" -v b="$b" 'BEGIN {exit !(a != "" && b != "" && a - b <= 0.04 * a && b - a <= 0.04 * a)}'
     verdict "danger: $key is that of the run ($a, $b)" $?
 done
+# Its last row is that of the run to the step, though the recording goes on without people.
+[ "$(sed -n 2p "$work/evac-page/table-leaving.csv")" = "$(awk -F, '$1 == "all"' "$work/evac-run/table-leaving.csv")" ]; verdict "the recording has the run's times of leaving" $?
 for file in index.html danger.csv danger.png levels.png plan.svg snapshot-2.png; do [ -s "$work/evac-page/$file" ]; verdict "the report has $file" $?; done
 tail -1 "$work/evac-page/danger.csv" | awk -F, '{exit !($2 == 0 && $NF == 140)}'; verdict "danger.csv ends with nobody there and 140 who left" $?
 missing=0
@@ -141,12 +143,21 @@ criteria:
   door: {flow: 10, of: door}
   through: {waiting: 30, of: passage}
   hurt: {load: 6000}
+  spot: {density: 0.01, at: spot}
+  post: {density: 0.01, at: post}
+  field: {density: 9, at: field}
 SCENE
 cat >"$work/made-run.yaml" <<'SCENE'
 jostle: 1
 title: A hall with a door
 duration: 30
-places: {hall: {polygon: [[0, 0], [8, 0], [8, 6], [0, 6]]}, exit: {point: [14, 3], radius: 1}}
+bounds: [[-1, -1], [16, 7]]
+places:
+  hall: {polygon: [[0, 0], [8, 0], [8, 6], [0, 6]]}
+  exit: {point: [14, 3], radius: 1}
+  spot: {polygon: [[4.02, 3.02], [4.05, 3.02], [4.05, 3.05], [4.02, 3.05]]} # smaller than a cell
+  post: {point: [4.02, 3.02], radius: 0.02}
+  field: {polygon: [[30, 0], [34, 0], [34, 4], [30, 4]]} # not measured
 walls: [{line: [[8, 2.4], [8, 0], [0, 0], [0, 6], [8, 6], [8, 3.6]]}]
 groups:
   people: {behaviour: walker.lua, count: 12, in: hall, set: {goal: exit, speed: 'normal(1.3, 0.2, 0.8, 1.8)'}, basis: a count}
@@ -163,16 +174,20 @@ room 1
 packed 0
 door 1
 through 1
-hurt 1'
+hurt 1
+spot 0
+post 0
+field null'
 [ "$(verdicts "$work/held.json")" = "$wanted" ]; verdict "the summary has a verdict on each" $?
 last=$(number clearance_s "$work/held.json")
 between "the time required is the clearance time, times the margin" "$(sed -n 's/.*"out in time": {"figure": \([^,]*\).*/\1/p' "$work/held.json")" "$(awk -v t="$last" 'BEGIN {print 1.5 * t - 0.001}')" "$(awk -v t="$last" 'BEGIN {print 1.5 * t + 0.001}')"
-grep -q '^out at once,not met,.*,5,s,"time required: ' "$work/held/table-criteria.csv" && grep -q "5 of 7 met in this run; out at once: not met, packed: not met" "$work/held/index.html"; verdict "the page has the same verdicts" $?
+grep -q '^out at once,not met,.*,5,s,"time required: ' "$work/held/table-criteria.csv" && grep -q "5 of 10 met in this run; out at once: not met, packed: not met, spot: not met, post: not met, field: not decided" "$work/held/index.html"; verdict "the page has the same verdicts" $?
 grep -q '^speed,people,"normal(1.3, 0.2, 0.8, 1.8) (scene)",12,1.[0-9]*,0.[0-9]*,' "$work/held/table-values.csv" && grep -q '^people,12,12,in hall,"\{0,1\}walker.lua; goal: exit"\{0,1\},,a count$' "$work/held/table-groups.csv"; verdict "inputs: values as given and as drawn, with their basis" $?
 "$JOSTLE" report "$work/held.sqlite" --scene "$work/held.yaml" --out "$work/held-again" --summary "$work/held-again.json" >/dev/null 2>&1
 [ "$(verdicts "$work/held-again.json")" = "$wanted" ]; verdict "its recording has the same verdicts" $?
 "$JOSTLE" run "$work/held.yaml" --seeds 3 --quiet --report "$work/held-seeds" --summary "$work/held-seeds.json" >/dev/null 2>&1
 grep -q '"criteria.out at once.met": {"mean": 0,' "$work/held-seeds.json" && grep -q '<td>out in time<td class=n>3 of 3' "$work/held-seeds/index.html"; verdict "with seeds, the share that meets each" $?
+grep -q '^field,not decided,,9,1/m2,not measured: no part of field lies in the measured area$' "$work/held/table-criteria.csv"; verdict "a place that is not measured decides nothing" $?
 wrong() { # TEXT CRITERION: check must refuse the criterion
     printf 'include: made-run.yaml\njostle: 1\ncriteria:\n  it: {%s}\n' "$2" >"$work/wrong.yaml"
     expect "a criterion {$2}" 3 "$1" "$JOSTLE" check "$work/wrong.yaml"

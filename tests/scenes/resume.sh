@@ -122,8 +122,12 @@ tree=$work/probed
 mkdir -p "$tree"
 cp -r scenes behaviours "$tree/"
 sed -i 's/^probes:/probes:\n  swirl: {oscillation: {area: [[-2, -2], [4, 2]], span: 2}, every: 0.1}/' "$tree/scenes/running-through.yaml"
+cat >>"$tree/scenes/station.yaml" <<'SCENE'
+report: {author: A. Engineer, date: 2026-05-04}
+criteria: {dense: {density: 2, at: car, lasting: 9}, pressed: {load: 6000}}
+SCENE
 same_files "a report of bodies, with a log of what was done to them, goes on" --report scenes/dodgeball.yaml 7 11
-same_files "a report with maps, areas and flows goes on" --report scenes/station.yaml 5 9
+same_files "a report with maps, areas and criteria goes on" --report scenes/station.yaml 5 9
 same_files "data of displacements, failures, transits and oscillations go on" --data scenes/running-through.yaml 3 8
 same_files "data of bodies go on" --data scenes/office.yaml 7 12 --set groups.people.count=100
 same_files "data of winding ways go on" --data scenes/tawaf-few.yaml 4 9

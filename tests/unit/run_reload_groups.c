@@ -1,5 +1,6 @@
 /* Tests of edits of a scene's groups while it runs: their behaviours, and the types of the values
  * that they set. */
+#include "run/criteria_listener.h"
 #include "run/reload.h"
 #include "unit/scene_loader.h"
 
@@ -141,9 +142,33 @@ static void value_of_a_behaviour_that_waits_is_not_given(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- criteria ---- */
+
+/* A reload frees the specification that named the criteria and their places. */
+static void criteria_hold_after_a_reload(void **state) {
+    (void)state;
+    static const char CRITERIA[] =
+        "criteria: {crowded: {density: 0.01, at: door}, pressed: {load: 6000}}\n";
+    char before[1000], after[1000];
+    snprintf(before, sizeof before, "%s%s", GROUPS("behaviour: second.lua, count: 0"), CRITERIA);
+    snprintf(after, sizeof after, "%s%s",
+             GROUPS("behaviour: second.lua, count: 0, set: {speed: 1}"), CRITERIA);
+    JoScene *scene = load_groups(before);
+    edit_scene(scene, after);
+    step_scene(scene, 60);
+    assert_int_equal(jox_run_count_criteria(scene), 2);
+    const JoxVerdict crowded = jox_run_judge(scene, 0), pressed = jox_run_judge(scene, 1);
+    assert_string_equal(crowded.criterion->name, "crowded");
+    assert_int_equal(crowded.kind, JOX_VERDICT_FAILED);
+    assert_non_null(strstr(crowded.how, "anywhere in door"));
+    assert_int_equal(pressed.kind, JOX_VERDICT_MET);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edited_behaviours_of_groups_wait_for_the_next_start),
+        cmocka_unit_test(criteria_hold_after_a_reload),
         cmocka_unit_test(edited_weights_of_a_mix_are_live),
         cmocka_unit_test(value_of_another_type_is_refused),
         cmocka_unit_test(value_changes_its_type_in_two_edits),

@@ -16,57 +16,129 @@ typedef struct CriterionSamples {
     double greatest, at, last; /* 1/m2; s: its time, time of the last sample; NAN: none */
 } CriterionSamples;
 
+/* Where the density of one criterion is read. Found at the first sample, from the plan alone. */
+typedef struct CriterionFloor {
+    bool found;
+    uint8_t *within; /* by cell: 1 if its middle lies in the place; NULL: everywhere */
+    uint32_t within_count;
+    /* m: points of the place in cells whose middle lies outside it; their cell is looked up at each
+       sample, as it depends on the walls that stand */
+    JoxV2 *edge;
+    uint32_t edge_count;
+    size_t edge_capacity;
+    bool cut; /* a part of the place lies outside the measured area */
+} CriterionFloor;
+
+/* The definitions and places are copies, since a reload replaces those of the scene. */
 struct JoxCriteria {
-    const JoxCriterion *defs;
-    uint32_t count;
-    const JoxPlace *places;
+    JoxCriterion *defs;
+    uint32_t count, place_count;
+    JoxPlace *places;
     CriterionSamples *samples;
-    uint8_t **within; /* by criterion: which cells lie in its place; NULL: all, or not yet known */
+    CriterionFloor *floors;
 };
 
-JoxCriteria *jox_criteria_create(const JoxCriterion *defs, uint32_t count, const JoxPlace *places) {
+JoxCriteria *jox_criteria_create(const JoxCriterion *defs, uint32_t count, const JoxPlace *places,
+                                 uint32_t place_count) {
     JoxCriteria *c = jox_alloc(1, sizeof *c);
-    *c = (JoxCriteria){.defs = defs, .count = count, .places = places};
+    *c = (JoxCriteria){.count = count, .place_count = place_count};
+    c->defs = jox_alloc(count + 1, sizeof *c->defs);
+    c->places = jox_alloc(place_count + 1, sizeof *c->places);
     c->samples = jox_alloc(count + 1, sizeof *c->samples);
-    c->within = jox_alloc(count + 1, sizeof *c->within);
-    for (uint32_t k = 0; k < count; k++)
+    c->floors = jox_alloc(count + 1, sizeof *c->floors);
+    for (uint32_t k = 0; k < count; k++) {
+        c->defs[k] = defs[k];
+        c->defs[k].name = jox_strdup(defs[k].name);
         c->samples[k] = (CriterionSamples){.greatest = NAN, .at = NAN, .last = NAN};
+    }
+    for (uint32_t p = 0; p < place_count; p++)
+        jox_place_copy(&c->places[p], &places[p]);
     return c;
 }
 
 void jox_criteria_free(JoxCriteria *c) {
     if (!c)
         return;
-    for (uint32_t k = 0; k < c->count; k++)
-        jox_free(c->within[k]);
-    jox_free(c->within);
+    for (uint32_t k = 0; k < c->count; k++) {
+        jox_free(c->defs[k].name);
+        jox_free(c->floors[k].within);
+        jox_free(c->floors[k].edge);
+    }
+    for (uint32_t p = 0; p < c->place_count; p++)
+        jox_place_free(&c->places[p]);
+    jox_free(c->defs);
+    jox_free(c->places);
     jox_free(c->samples);
+    jox_free(c->floors);
     jox_free(c);
 }
 
-/* Returns which cells of the grid have their middle in the criterion's place. */
-static const uint8_t *find_cells_within(JoxCriteria *c, uint32_t k, const JoxDensity *grid) {
-    const JoxPlace *place = &c->places[c->defs[k].place];
+/* ---- where density is read ---- */
+
+void jox_criteria_extend_area(const JoxCriterion *defs, uint32_t count, const JoxPlace *places,
+                              JoxV2 *low, JoxV2 *high) {
+    for (uint32_t k = 0; k < count; k++) {
+        if (defs[k].kind != JOX_CRITERION_DENSITY || defs[k].place < 0)
+            continue;
+        const JoxPlace *place = &places[defs[k].place];
+        *low = jox_v2(jox_minf(low->x, place->low.x), jox_minf(low->y, place->low.y));
+        *high = jox_v2(jox_maxf(high->x, place->high.x), jox_maxf(high->y, place->high.y));
+    }
+}
+
+/* Finds the cells in a place: those with their middle in it, and a point in each other cell that
+   the place reaches, so that a place smaller than a cell is read, too. */
+static void find_criterion_floor(JoxCriteria *c, uint32_t k, const JoxDensity *grid) {
+    CriterionFloor *floor = &c->floors[k];
+    const uint32_t number = (uint32_t)c->defs[k].place;
+    const JoxPlace *place = &c->places[number];
+    const float cell_half = grid->cell / 2.0f;
+    const JoxV2 high = jox_add(
+        grid->low, jox_v2((float)grid->columns * grid->cell, (float)grid->rows * grid->cell));
     const size_t cells = (size_t)grid->columns * grid->rows;
-    if (c->within[k])
-        return c->within[k];
-    c->within[k] = jox_alloc(cells + 1, 1);
-    for (size_t cell = 0; cell < cells; cell++)
-        c->within[k][cell] =
-            jox_place_kinds[place->kind].contains(c->places, place, jox_density_middle(grid, cell));
-    return c->within[k];
+    floor->found = true;
+    floor->within = jox_alloc(cells + 1, 1);
+    floor->cut = place->low.x < grid->low.x - cell_half || place->low.y < grid->low.y - cell_half ||
+                 place->high.x > high.x + cell_half || place->high.y > high.y + cell_half;
+    for (size_t cell = 0; cell < cells; cell++) {
+        const JoxV2 middle = jox_density_middle(grid, cell);
+        floor->within[cell] = jox_place_contains(c->places, number, middle);
+        floor->within_count += floor->within[cell];
+        if (floor->within[cell] || middle.x < place->low.x - grid->cell ||
+            middle.y < place->low.y - grid->cell || middle.x > place->high.x + grid->cell ||
+            middle.y > place->high.y + grid->cell)
+            continue;
+        const JoxV2 point = jox_place_nearest(c->places, number, middle);
+        if (fabsf(point.x - middle.x) > cell_half || fabsf(point.y - middle.y) > cell_half)
+            continue;
+        JOX_RESERVE(floor->edge, floor->edge_capacity, (size_t)floor->edge_count + 1);
+        floor->edge[floor->edge_count++] = point;
+    }
+}
+
+/* Returns the greatest density of a sample in the criterion's place, 1/m2; NAN if no part of the
+   place is measured. */
+static double find_greatest_density(const CriterionFloor *floor, const JoxDensity *grid) {
+    double most = !floor->within || floor->within_count || floor->edge_count ? 0.0 : NAN;
+    size_t cell;
+    for (cell = 0; cell < (size_t)grid->columns * grid->rows; cell++)
+        if ((!floor->within || floor->within[cell]) && (double)grid->now[cell] > most)
+            most = (double)grid->now[cell];
+    for (uint32_t e = 0; e < floor->edge_count; e++)
+        if (jox_density_cell_of(grid, floor->edge[e].x, floor->edge[e].y, &cell) &&
+            (double)grid->now[cell] > most)
+            most = (double)grid->now[cell];
+    return most;
 }
 
 static void sample_density(JoxCriteria *c, uint32_t k, const JoxDensity *grid, double time) {
     CriterionSamples *s = &c->samples[k];
-    const uint8_t *within = c->defs[k].place >= 0 ? find_cells_within(c, k, grid) : NULL;
-    double most = 0.0;
-    for (size_t cell = 0; cell < (size_t)grid->columns * grid->rows; cell++)
-        if ((!within || within[cell]) && (double)grid->now[cell] > most)
-            most = (double)grid->now[cell];
+    if (c->defs[k].place >= 0 && !c->floors[k].found)
+        find_criterion_floor(c, k, grid);
+    const double most = find_greatest_density(&c->floors[k], grid);
     if (most > c->defs[k].limits[JOX_CRITERION_DENSITY] && isfinite(s->last))
         s->seconds += time - s->last;
-    if (!(most <= s->greatest)) {
+    if (most > s->greatest || (isfinite(most) && isnan(s->greatest))) {
         s->greatest = most;
         s->at = time;
     }
@@ -108,6 +180,13 @@ static void judge_cleared(const JoxCriterionEvidence *e, JoxVerdict *v) {
                  e->until);
     if (e->inside && margin * e->until >= v->limit)
         v->kind = JOX_VERDICT_FAILED;
+    if (v->kind == JOX_VERDICT_MET && e->to_come) {
+        v->kind = JOX_VERDICT_OPEN;
+        snprintf(v->how, sizeof v->how,
+                 "nobody was inside from %.2f s on, but more people were to come in at %.2f s, the "
+                 "end of the run",
+                 last, e->until);
+    }
 }
 
 static void judge_density(const JoxCriteria *c, uint32_t k, JoxVerdict *v) {
@@ -120,27 +199,44 @@ static void judge_density(const JoxCriteria *c, uint32_t k, JoxVerdict *v) {
     v->limit = anyhow ? limit : def->lasting;
     v->unit = anyhow ? "1/m2" : "s";
     v->kind = compare_with_limit(v->figure, v->limit);
+    if (!known) {
+        snprintf(v->how, sizeof v->how, "not measured: no part of %.60s lies in the measured area",
+                 def->place >= 0 ? c->places[def->place].name : "the floor");
+        return;
+    }
     snprintf(v->how, sizeof v->how,
              "density (Gaussian, R = 1 m, sampled each 0.5 s) anywhere %s%.60s: greatest %.3g at "
              "%.1f s; above %.3g per m\xc2\xb2 for %.1f s in all",
              def->place >= 0 ? "in " : "on the floor",
              def->place >= 0 ? c->places[def->place].name : "", s->greatest, s->at, limit,
              s->seconds);
+    if (c->floors[k].cut) {
+        const size_t length = strlen(v->how);
+        snprintf(v->how + length, sizeof v->how - length,
+                 "; a part of %.60s lies outside the measured area", c->places[def->place].name);
+        if (v->kind == JOX_VERDICT_MET)
+            v->kind = JOX_VERDICT_OPEN;
+    }
+}
+
+static bool is_same_line(const JoxV2 a[2], const JoxV2 b[2]) {
+    return a[0].x == b[0].x && a[0].y == b[0].y && a[1].x == b[1].x && a[1].y == b[1].y;
 }
 
 static void judge_flow(const JoxCriterionEvidence *e, JoxVerdict *v) {
     const int32_t probe = v->criterion->probe;
-    const char *name =
-        probe >= 0 && (uint32_t)probe < e->probe_count ? jox_probe_def(e->probes[probe])->name : "";
     const JoxDangerLines *lines = &e->danger->lines;
     v->unit = "1/(m s)";
+    if (probe < 0 || (uint32_t)probe >= e->probe_count)
+        return;
+    const JoxProbeDef *def = jox_probe_def(e->probes[probe]);
     for (uint32_t l = 0; l < lines->count; l++)
-        if (strcmp(lines->items[l].name, name) == 0) {
+        if (is_same_line(lines->items[l].given, def->points)) {
             v->figure = lines->items[l].flow_most;
             snprintf(v->how, sizeof v->how,
                      "greatest flow over %.60s in ten seconds, both directions, per metre of its "
                      "clear width of %.2f m",
-                     name, lines->items[l].width);
+                     def->name, lines->items[l].width);
         }
     v->kind = compare_with_limit(v->figure, v->limit);
 }

@@ -11,8 +11,12 @@
 
 typedef struct JoxCriteria JoxCriteria;
 
-/* The definitions and places are borrowed as long as the criteria exist. */
-JoxCriteria *jox_criteria_create(const JoxCriterion *defs, uint32_t count, const JoxPlace *places);
+/* Copies the definitions and places. */
+JoxCriteria *jox_criteria_create(const JoxCriterion *defs, uint32_t count, const JoxPlace *places,
+                                 uint32_t place_count);
+/* Extends an area, m, so that the places of criteria of density are measured. */
+void jox_criteria_extend_area(const JoxCriterion *defs, uint32_t count, const JoxPlace *places,
+                              JoxV2 *low, JoxV2 *high);
 /* Takes the sample of density that danger has taken since the last call, if there is one. */
 void jox_criteria_sample(JoxCriteria *criteria, const JoxDanger *danger);
 void jox_criteria_sections(JoxCriteria *criteria, JoxSections *sections);
@@ -23,6 +27,7 @@ typedef struct JoxCriterionEvidence {
     const JoxDanger *danger;
     const JoxExits *exits;
     uint32_t inside; /* people still inside at the end */
+    bool to_come;    /* more people would have come in after the end */
     double until;    /* s: the end */
     const JoxProbe *const *probes;
     uint32_t probe_count;
