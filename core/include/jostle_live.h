@@ -92,7 +92,7 @@ JO_API void jo_live_close(JoLive *live);
 /* Definition of a live page that shows a recording, in any format that jo_report reads. */
 typedef struct JoViewRecordingDef {
     const char *recording;
-    /* scene whose walls, places and bodies are drawn; NULL: the recording's walls */
+    /* scene whose places are drawn, and what else the recording lacks; NULL: the recording alone */
     const char *scene;
     double fps;          /* frames a second; 0: as the recording says */
     double unit;         /* m: unit of the recording's lengths; 0: as it says */

@@ -81,16 +81,14 @@ typedef struct JoxLiveSceneHead {
     JoxLiveArea area;
 } JoxLiveSceneHead;
 /* Each adds members of a scene message to an open object. */
+/* "name", null for NULL and "". */
+void jox_live_add_optional_name(JoxJson *json, const char *name);
 void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json);
 void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxJson *json);
 void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson *json);
-/* `spec` may be NULL: the camera is null then. */
-void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json);
-/* live_scenery.c: "floor" and "scenery"; a plain floor and none for NULL. */
-void jox_live_add_scenery(const JoxSceneSpec *spec, JoxJson *json);
-/* "clothes": those of each group by its name, but for casual ones; none for NULL. */
-void jox_live_add_clothes(const JoxSceneSpec *spec, JoxJson *json);
-/* Adds all of these to a hash, which tells whether a scene message has changed. */
+/* live_scenery.c: adds a member of "clothes": those of a group by its name, but for casual ones. */
+void jox_live_add_clothes(const char *group, uint32_t clothes, JoxJson *json);
+/* Adds floor, scenery and clothes to a hash, which tells whether a scene message has changed. */
 void jox_live_hash_scenery(const JoxSceneSpec *spec, JoxHash *hash);
 /* `given`: the scene names the colour. */
 void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, bool given, JoxJson *json);

@@ -8,6 +8,7 @@
 #include "live/inspect.h"
 #include "live/live_parts.h"
 #include "picture/palette.h"
+#include "scene/scene_look.h"
 
 enum { DIGITS = 7 }; /* significant digits of positions and sizes, which are floats */
 
@@ -22,8 +23,7 @@ static void add_points(JoxJson *json, const char *key, const JoxV2 *points, uint
     jox_json_end(json);
 }
 
-/* Adds the member "name", null for NULL and "". */
-static void add_optional_name(JoxJson *json, const char *name) {
+void jox_live_add_optional_name(JoxJson *json, const char *name) {
     jox_json_string(json, "name", name && *name ? name : NULL);
 }
 
@@ -51,7 +51,7 @@ void jox_live_add_walls(const JoxWalls *walls, JoxJson *json) {
         bool closed, twin;
         const uint32_t n = jox_walls_given(walls, r, &closed, &twin);
         jox_json_object(json, NULL);
-        add_optional_name(json, ring->name);
+        jox_live_add_optional_name(json, ring->name);
         jox_json_bool(json, "solid", ring->solid);
         jox_json_bool(json, "open", ring->open);
         jox_json_digits(json, "height",
@@ -114,7 +114,7 @@ void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json) {
     JoxBodyLook look;
     bool live = jox_bodies_pose(bodies, row, &pose);
     jox_json_object(json, NULL);
-    add_optional_name(json, live ? jox_bodies_name(bodies, row) : NULL);
+    jox_live_add_optional_name(json, live ? jox_bodies_name(bodies, row) : NULL);
     jox_json_digits(json, "mass", live ? (double)pose.mass : 0.0, DIGITS);
     jox_json_array(json, "parts");
     for (uint32_t part = 0; live && jox_bodies_describe_part(bodies, row, part, &look); part++)
@@ -162,6 +162,13 @@ static void add_scene_groups(JoxJson *json, const JoxSceneSpec *spec) {
         named[g] = (JoxLiveNamed){spec->groups[g].name, spec->groups[g].colour, JOX_NO_INDEX, NULL};
     jox_live_add_named("groups", named, spec->group_count, json);
     jox_free(named);
+}
+
+static void add_scene_clothes(JoxJson *json, const JoxSceneSpec *spec) {
+    jox_json_object(json, "clothes");
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        jox_live_add_clothes(spec->groups[g].name, spec->groups[g].clothes, json);
+    jox_json_end(json);
 }
 
 static void add_scene_states(JoxJson *json, const JoxMachineRun *machines) {
@@ -258,17 +265,6 @@ void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json) {
     add_points(json, "area", (JoxV2[]){head->area.low, head->area.high}, 2);
 }
 
-void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json) {
-    if (!spec || !spec->camera.given) {
-        jox_json_null(json, "camera");
-        return;
-    }
-    jox_json_object(json, "camera");
-    jox_json_numbers_of(json, "at", spec->camera.position, 3, DIGITS);
-    jox_json_numbers_of(json, "look", spec->camera.target, 3, DIGITS);
-    jox_json_end(json);
-}
-
 void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, bool given, JoxJson *json) {
     jox_json_object(json, "view");
     jox_json_bool(json, "given", given);
@@ -337,6 +333,7 @@ JoxLiveColour jox_live_first_colour(const JoScene *scene) {
 void jox_live_scene(JoScene *scene, JoxText *out) {
     const JoxLive *live = jox_live_attach(scene);
     const JoxSceneSpec *spec = scene->spec;
+    const JoxSceneLook look = jox_scene_look(spec);
     const JoWorld *world = scene->world;
     const JoxLiveSceneHead head = {.session = "live",
                                    .title = spec->title && *spec->title ? spec->title : spec->path,
@@ -357,9 +354,9 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_live_add_machines(scene, &json, "machines");
     add_scene_bodies(&json, world->state.bodies);
     add_scene_tools(&json, scene);
-    jox_live_add_camera(spec, &json);
-    jox_live_add_scenery(spec, &json);
-    jox_live_add_clothes(spec, &json);
+    jox_scene_add_camera(&look, &json);
+    jox_scene_add_scenery(&look, &json);
+    add_scene_clothes(&json, spec);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_live_first_colour(scene), (JoxLiveField)spec->view.field,
                       spec->view.colour > 0, &json);

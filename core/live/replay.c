@@ -30,6 +30,7 @@ static uint32_t number_machine_name(JoxReplayNames *n, const char *machine) {
 static void number_names(JoxReplayNames *n, const JoxTrajectoryReaderInfo *info) {
     n->machines = jox_alloc(info->state_count + 1, sizeof *n->machines);
     n->states = jox_alloc(info->state_count + 1, sizeof *n->states);
+    n->lies = jox_alloc(info->state_count + 1, sizeof *n->lies);
     n->state_of = jox_alloc(info->state_count + 1, sizeof *n->state_of);
     for (uint32_t row = 0; row < info->state_count; row++) {
         const uint32_t machine = number_machine_name(n, info->states[row].machine);
@@ -42,6 +43,8 @@ static void number_names(JoxReplayNames *n, const JoxTrajectoryReaderInfo *info)
             n->state_count++;
         }
         n->states[s].given = info->states[row].colour; /* the last reload's counts */
+        n->lies[s] = info->states[row].lies;
+        n->states[s].pose = jox_poses[info->states[row].pose];
         n->state_of[row] = s;
     }
 }
@@ -89,6 +92,16 @@ static void cover_recording(JoxReplay *r) {
     jox_live_cover(&r->area, jox_sub(all.low, edge), jox_add(all.high, edge));
 }
 
+/* Takes what is shown besides people from the scene, else from the recording. */
+static void choose_look(JoxReplay *r, JoxDiagnostics *diagnostics) {
+    const JoxPosition at = {r->path, 0, 0, 0};
+    if (r->spec)
+        r->look = jox_scene_look(r->spec);
+    else if (r->info.look && !jox_scene_read_look(r->info.look, &r->look))
+        jox_diag_warn(diagnostics, at, "bad-recording", "Give the scene by --scene",
+                      "what it has of its scene's looks is damaged, and is not shown");
+}
+
 JoxReplay *jox_replay_open(const JoxReplayDef *def, JoxDiagnostics *diagnostics) {
     JoxReplay *r = jox_alloc(1, sizeof *r);
     JoxTrajectoryOptions options = def->options;
@@ -107,6 +120,7 @@ JoxReplay *jox_replay_open(const JoxReplayDef *def, JoxDiagnostics *diagnostics)
         return NULL;
     }
     r->info = jox_trajectory_reader_info(r->reader);
+    choose_look(r, diagnostics);
     number_names(&r->names, &r->info);
     r->people = jox_alloc(r->names.state_count + 1, sizeof *r->people);
     if (r->spec && r->spec->body_count)
@@ -260,8 +274,9 @@ void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxLiveScales *scales,
     for (uint32_t i = 0; i < r->count; i++) {
         const uint32_t state = jox_replay_state(r, i);
         r->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
-        r->flags[i] = (uint8_t)(r->parity[r->slot[i]] |
-                                (r->frame.fallen && r->frame.fallen[i] > 0.0f ? JOX_LIVE_LIES : 0));
+        const bool lies = (r->frame.fallen && r->frame.fallen[i] > 0.0f) ||
+                          (state < r->names.state_count && r->names.lies[state]);
+        r->flags[i] = (uint8_t)(r->parity[r->slot[i]] | (lies ? JOX_LIVE_LIES : 0));
     }
     crowd.state = r->state;
     crowd.flags = r->flags;
@@ -337,6 +352,7 @@ void jox_replay_close(JoxReplay *r) {
     if (!r)
         return;
     jox_trajectory_reader_close(r->reader);
+    jox_scene_free_look(&r->look);
     jox_scene_free(r->spec);
     if (r->bodies)
         jox_bodies_free(r->bodies);
@@ -345,6 +361,7 @@ void jox_replay_close(JoxReplay *r) {
     void *owned[] = {r->path,
                      r->names.machines,
                      r->names.states,
+                     r->names.lies,
                      r->names.state_of,
                      r->id,
                      r->old_id,

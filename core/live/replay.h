@@ -9,7 +9,7 @@
 
 typedef struct JoxReplayDef {
     const char *recording;
-    const char *scene; /* scene file for what the recording lacks: walls, places, bodies; or NULL */
+    const char *scene; /* scene file for what the recording lacks, as places; or NULL */
     JoxTrajectoryOptions options;
 } JoxReplayDef;
 typedef struct JoxReplay JoxReplay;

@@ -59,7 +59,8 @@ static void add_recorded_body(JoxJson *json, const JoxReplay *r, uint32_t id, bo
                         .size = {BODY_SIZE, BODY_SIZE, BODY_SIZE},
                         .turn = {0.0f, 0.0f, 0.0f, 1.0f}};
     jox_json_object(json, NULL);
-    jox_json_null(json, "name");
+    jox_live_add_optional_name(
+        json, known ? jox_trajectory_reader_body_name(r->reader, r->shown, id) : NULL);
     jox_json_whole(json, "mass", 0);
     jox_json_array(json, "parts");
     for (uint32_t part = 0;
@@ -88,6 +89,16 @@ static void add_recorded_bodies(JoxJson *json, const JoxReplay *r) {
     jox_json_end(json);
 }
 
+/* Adds the clothes of the scene's groups, else of the recording's. */
+static void add_recorded_clothes(JoxJson *json, const JoxReplay *r) {
+    jox_json_object(json, "clothes");
+    for (uint32_t g = 0; r->spec && g < r->spec->group_count; g++)
+        jox_live_add_clothes(r->spec->groups[g].name, r->spec->groups[g].clothes, json);
+    for (uint32_t g = 0; !r->spec && r->info.group_clothes && g < r->info.group_count; g++)
+        jox_live_add_clothes(r->info.groups[g], r->info.group_clothes[g], json);
+    jox_json_end(json);
+}
+
 /* Adds tools that are all off: a recording cannot be acted on. */
 static void add_disabled_tools(JoxJson *json) {
     static const char *const EMPTY[] = {"players", "walls", "signal_names"};
@@ -103,14 +114,15 @@ static void add_disabled_tools(JoxJson *json) {
 
 void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     const JoxSceneSpec *spec = r->spec;
-    const JoxLiveSceneHead head = {
-        .session = "replay",
-        .title = spec && spec->title && *spec->title ? spec->title : jox_path_name(r->path),
-        .about = spec ? spec->about : NULL,
-        .file = r->path,
-        .dt = 1.0 / r->info.fps,
-        .duration = jox_replay_time(r, r->info.frames - 1),
-        .area = r->area};
+    const JoxSceneLook *look = &r->look;
+    const JoxLiveSceneHead head = {.session = "replay",
+                                   .title = look->title && *look->title ? look->title
+                                                                        : jox_path_name(r->path),
+                                   .about = look->about,
+                                   .file = r->path,
+                                   .dt = 1.0 / r->info.fps,
+                                   .duration = jox_replay_time(r, r->info.frames - 1),
+                                   .area = r->area};
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
@@ -121,9 +133,9 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     add_recorded_names(&json, r);
     add_recorded_bodies(&json, r);
     add_disabled_tools(&json);
-    jox_live_add_camera(spec, &json);
-    jox_live_add_scenery(spec, &json);
-    jox_live_add_clothes(spec, &json);
+    jox_scene_add_camera(look, &json);
+    jox_scene_add_scenery(look, &json);
+    add_recorded_clothes(&json, r);
     jox_live_add_colours(&json);
     jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r),
                       spec && spec->view.colour > 0, &json);

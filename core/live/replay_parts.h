@@ -7,6 +7,7 @@
 #include "live/replay.h"
 #include "record/local_samples.h"
 #include "record/trajectory_reader.h"
+#include "scene/scene_look.h"
 
 /* No frame, no slot, no row of a body. */
 #define JOX_REPLAY_NOBODY UINT32_MAX
@@ -16,6 +17,7 @@
 typedef struct JoxReplayNames {
     const char **machines;
     JoxLiveNamed *states;
+    bool *lies;         /* by index in `states` */
     uint32_t *state_of; /* index in `states`, by the recording's number of a state */
     uint32_t machine_count, state_count;
 } JoxReplayNames;
@@ -25,6 +27,7 @@ struct JoxReplay {
     JoxTrajectoryReader *reader;
     JoxTrajectoryReaderInfo info;
     JoxSceneSpec *spec; /* the scene file that was given, or NULL */
+    JoxSceneLook look;  /* what that scene shows, else what the recording has of its scene */
     JoxBodies *bodies;  /* bodies of that scene, or NULL */
     JoxReplayNames names;
     JoxV2 period; /* m, size of a periodic world; 0 along an axis without periodic edges */

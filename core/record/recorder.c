@@ -11,36 +11,12 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "record/recorder_parts.h"
 #include "record/recorder_schema.h"
 #include "task/thread.h"
 
-enum { FRAMES = 4, COLUMNS = 16, BATCH = 50 }; /* BATCH: rows that one statement writes */
-static const double COMMITTED = 1.0;           /* s: frames are committed at least this often */
-
-typedef struct Frame {
-    uint32_t number;
-    JoxRecordRow *rows;
-    JoxRecordBody *bodies;
-    uint32_t row_count, body_count;
-    size_t row_capacity, body_capacity;
-} Frame;
-
-struct JoxRecorder {
-    FILE *claimed; /* the same file, kept open and locked so that no other run writes to it */
-    JoxDatabase *db;
-    sqlite3_stmt *row, *batch, *body, *frame; /* inserts */
-    pthread_t thread;
-    pthread_mutex_t lock;
-    pthread_cond_t filled, emptied;
-    Frame frames[FRAMES]; /* ring buffer: `first` is the oldest frame, `count` are filled */
-    uint32_t first, count;
-    bool ending, failed;
-    bool borrowed;                       /* the stepping thread uses the database at present */
-    char why[256];                       /* why it failed */
-    double low_x, high_x, low_y, high_y; /* m: bounds of all positions */
-    double committed;                    /* s: time of the last commit */
-    uint64_t geometry;
-};
+enum { COLUMNS = 16, BATCH = 50 };   /* BATCH: rows that one statement writes */
+static const double COMMITTED = 1.0; /* s: frames are committed at least this often */
 
 static bool execute_sql(JoxRecorder *r, const char *sql) {
     char *why = NULL;
@@ -51,7 +27,7 @@ static bool execute_sql(JoxRecorder *r, const char *sql) {
     return false;
 }
 
-static bool prepare_sql(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
+bool jox_recorder_prepare(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
     *statement = jox_database_prepare(r->db, sql);
     if (*statement)
         return true;
@@ -59,8 +35,7 @@ static bool prepare_sql(JoxRecorder *r, sqlite3_stmt **statement, const char *sq
     return false;
 }
 
-/* Steps a statement that returns no rows and resets it for the next use. */
-static bool execute_statement(JoxRecorder *r, sqlite3_stmt *statement) {
+bool jox_recorder_execute(JoxRecorder *r, sqlite3_stmt *statement) {
     bool good = sqlite3_step(statement) == SQLITE_DONE;
     if (!good)
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db->sqlite));
@@ -68,13 +43,14 @@ static bool execute_statement(JoxRecorder *r, sqlite3_stmt *statement) {
     return good;
 }
 
-static bool set_metadata(JoxRecorder *r, const char *key, const char *value) {
+bool jox_recorder_set_metadata(JoxRecorder *r, const char *key, const char *value) {
     sqlite3_stmt *statement;
-    if (!prepare_sql(r, &statement, "INSERT OR REPLACE INTO metadata(key, value) VALUES(?, ?)"))
+    if (!jox_recorder_prepare(r, &statement,
+                              "INSERT OR REPLACE INTO metadata(key, value) VALUES(?, ?)"))
         return false;
     sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
     sqlite3_bind_text(statement, 2, value, -1, SQLITE_STATIC);
-    bool good = execute_statement(r, statement);
+    bool good = jox_recorder_execute(r, statement);
     jox_database_finalize(r->db, statement);
     return good;
 }
@@ -82,7 +58,7 @@ static bool set_metadata(JoxRecorder *r, const char *key, const char *value) {
 static bool set_number(JoxRecorder *r, const char *key, double value) {
     char text[32];
     snprintf(text, sizeof text, "%.9g", isfinite(value) ? value : 0.0);
-    return set_metadata(r, key, text);
+    return jox_recorder_set_metadata(r, key, text);
 }
 
 static bool write_bounds(JoxRecorder *r) {
@@ -120,7 +96,7 @@ static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecor
     sqlite3_bind_int64(to, first + 10, row->group);
 }
 
-static bool write_rows(JoxRecorder *r, const Frame *f) {
+static bool write_rows(JoxRecorder *r, const JoxRecorderFrame *f) {
     for (uint32_t i = 0; i < f->row_count;) {
         const uint32_t count = f->row_count - i >= BATCH ? BATCH : 1;
         sqlite3_stmt *const to = count == BATCH ? r->batch : r->row;
@@ -131,7 +107,7 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
             r->low_x = fmin(r->low_x, x), r->high_x = fmax(r->high_x, x);
             r->low_y = fmin(r->low_y, y), r->high_y = fmax(r->high_y, y);
         }
-        if (!execute_statement(r, to))
+        if (!jox_recorder_execute(r, to))
             return false;
     }
     return true;
@@ -151,12 +127,12 @@ static bool commit_frames(JoxRecorder *r) {
     return write_bounds(r) && execute_sql(r, "COMMIT") && check_file_name(r);
 }
 
-static bool write_frame(JoxRecorder *r, const Frame *f) {
+static bool write_frame(JoxRecorder *r, const JoxRecorderFrame *f) {
     if (sqlite3_get_autocommit(r->db->sqlite) && !execute_sql(r, "BEGIN"))
         return false;
     sqlite3_bind_int64(r->frame, 1, f->number);
     sqlite3_bind_int64(r->frame, 2, (sqlite3_int64)r->geometry);
-    if (!execute_statement(r, r->frame) || !write_rows(r, f))
+    if (!jox_recorder_execute(r, r->frame) || !write_rows(r, f))
         return false;
     for (uint32_t i = 0; i < f->body_count; i++) {
         const JoxRecordBody *b = &f->bodies[i];
@@ -165,7 +141,7 @@ static bool write_frame(JoxRecorder *r, const Frame *f) {
         sqlite3_bind_int64(r->body, 2, b->id);
         for (int k = 0; k < 7; k++)
             sqlite3_bind_double(r->body, 3 + k, numbers[k]);
-        if (!execute_statement(r, r->body))
+        if (!jox_recorder_execute(r, r->body))
             return false;
     }
     return jox_clock_wall() - r->committed < COMMITTED || commit_frames(r);
@@ -195,13 +171,13 @@ static void *write_until_end(void *argument) {
         wait_for_frames(r);
         if (r->count == 0)
             break;
-        const Frame *frame = &r->frames[r->first];
+        const JoxRecorderFrame *frame = &r->frames[r->first];
         bool skip = r->failed;
         pthread_mutex_unlock(&r->lock);
         bool good = skip || write_frame(r, frame);
         pthread_mutex_lock(&r->lock);
         r->failed |= !good;
-        r->first = (r->first + 1) % FRAMES;
+        r->first = (r->first + 1) % JOX_RECORDER_FRAMES;
         r->count--;
         pthread_cond_signal(&r->emptied);
     }
@@ -211,13 +187,14 @@ static void *write_until_end(void *argument) {
 
 static bool start_recording(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_stmt *geometry = NULL;
-    bool good = execute_sql(r, jox_recording_schema) && set_metadata(r, "version", "2") &&
-                set_number(r, "fps", fps) && write_bounds(r) &&
-                prepare_sql(r, &geometry, "INSERT INTO geometry(hash, wkt) VALUES(?, ?)");
+    bool good = execute_sql(r, jox_recording_schema) &&
+                jox_recorder_set_metadata(r, "version", "2") && set_number(r, "fps", fps) &&
+                write_bounds(r) &&
+                jox_recorder_prepare(r, &geometry, "INSERT INTO geometry(hash, wkt) VALUES(?, ?)");
     if (good) {
         sqlite3_bind_int64(geometry, 1, (sqlite3_int64)r->geometry);
         sqlite3_bind_text(geometry, 2, wkt, -1, SQLITE_STATIC);
-        good = execute_statement(r, geometry);
+        good = jox_recorder_execute(r, geometry);
     }
     jox_database_finalize(r->db, geometry);
     return good && execute_sql(r, "COMMIT");
@@ -238,7 +215,7 @@ static bool resume_recording(JoxRecorder *r, uint32_t last) {
     for (int k = 0; good && k < 4; k++) {
         sqlite3_stmt *bound = NULL;
         snprintf(sql, sizeof sql, "SELECT %s FROM (" JOX_RECORDED_ROWS ")", BOUNDS[k]);
-        good = prepare_sql(r, &bound, sql);
+        good = jox_recorder_prepare(r, &bound, sql);
         if (good && sqlite3_step(bound) == SQLITE_ROW &&
             sqlite3_column_type(bound, 0) != SQLITE_NULL)
             *to[k] = sqlite3_column_double(bound, 0);
@@ -256,9 +233,10 @@ static bool prepare_inserts(JoxRecorder *r) {
         end = stpcpy(end, ROW);
     end[-1] = '\0'; /* drop the last comma */
     snprintf(one, sizeof one, "%s%.*s", INSERT, (int)sizeof ROW - 2, ROW);
-    return prepare_sql(r, &r->batch, batch) && prepare_sql(r, &r->row, one) &&
-           prepare_sql(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
-           prepare_sql(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
+    return jox_recorder_prepare(r, &r->batch, batch) && jox_recorder_prepare(r, &r->row, one) &&
+           jox_recorder_prepare(r, &r->body,
+                                "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
+           jox_recorder_prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
 }
 
 static void free_recorder(JoxRecorder *r) {
@@ -266,7 +244,7 @@ static void free_recorder(JoxRecorder *r) {
     /* The file last: closing it earlier would release the locks of the database. */
     if (r->claimed)
         jox_file_close(r->claimed);
-    for (int i = 0; i < FRAMES; i++) {
+    for (int i = 0; i < JOX_RECORDER_FRAMES; i++) {
         jox_free(r->frames[i].rows);
         jox_free(r->frames[i].bodies);
     }
@@ -341,9 +319,7 @@ JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, JoxText *err
     return NULL;
 }
 
-/* Waits until the writer has written all frames, then reserves the database for the calling thread.
-   The writer sleeps until the next frame; it wakes to commit, but not while `borrowed` is set. */
-static void borrow_database(JoxRecorder *r) {
+void jox_recorder_borrow(JoxRecorder *r) {
     pthread_mutex_lock(&r->lock);
     while (r->count > 0)
         pthread_cond_wait(&r->emptied, &r->lock);
@@ -351,107 +327,18 @@ static void borrow_database(JoxRecorder *r) {
     pthread_mutex_unlock(&r->lock);
 }
 
-static void return_database(JoxRecorder *r) {
+void jox_recorder_return(JoxRecorder *r) {
     pthread_mutex_lock(&r->lock);
     r->borrowed = false;
     pthread_mutex_unlock(&r->lock);
 }
 
-/* Writes a number with one or two names (?2, ?4) and its colour (?3; NULL where it has none). */
-static void write_names(JoxRecorder *r, const char *sql, uint32_t number, const char *first,
-                        const char *second, JoxColour colour) {
-    sqlite3_stmt *statement;
-    char text[8];
-    jox_colour_write(colour, text);
-    borrow_database(r);
-    if (!prepare_sql(r, &statement, sql)) {
-        return_database(r);
-        return;
-    }
-    sqlite3_bind_int64(statement, 1, number);
-    sqlite3_bind_text(statement, 2, first, -1, SQLITE_STATIC);
-    if (colour)
-        sqlite3_bind_text(statement, 3, text, -1, SQLITE_STATIC);
-    if (second)
-        sqlite3_bind_text(statement, 4, second, -1, SQLITE_STATIC);
-    execute_statement(r, statement);
-    jox_database_finalize(r->db, statement);
-    return_database(r);
-}
-
-void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state,
-                        JoxColour colour) {
-    write_names(r, "INSERT OR REPLACE INTO jostle_state VALUES(?1, ?2, ?4, ?3)", number, machine,
-                state, colour);
-}
-
-void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name, JoxColour colour) {
-    write_names(r, "INSERT OR REPLACE INTO jostle_group VALUES(?1, ?2, ?3)", number, name, NULL,
-                colour);
-}
-
-void jox_recorder_wall(JoxRecorder *r, uint32_t frame, uint32_t number, const JoxWalls *walls,
-                       uint32_t at, bool points) {
-    sqlite3_stmt *statement;
-    JoxText text = {0};
-    jox_text_add(&text, "");
-    borrow_database(r);
-    if (prepare_sql(r, &statement, "INSERT OR REPLACE INTO jostle_wall VALUES(?,?,?,?,?,?,?,?)")) {
-        const struct JoxWallRing *ring = walls ? &walls->rings[at] : &(struct JoxWallRing){0};
-        bool closed = false, twin;
-        const uint32_t count = walls ? jox_walls_given(walls, at, &closed, &twin) : 0;
-        for (uint32_t i = 0; i < count; i++) {
-            const JoxV2 point = walls->vertices[ring->first + i].point;
-            jox_text_printf(&text, "%s%.9g %.9g", i ? ", " : "", (double)point.x, (double)point.y);
-        }
-        sqlite3_bind_int64(statement, 1, frame);
-        sqlite3_bind_int64(statement, 2, number);
-        sqlite3_bind_text(statement, 3, ring->name, -1, SQLITE_STATIC);
-        sqlite3_bind_int(statement, 4, ring->solid);
-        sqlite3_bind_int(statement, 5, closed);
-        sqlite3_bind_int(statement, 6, ring->open);
-        sqlite3_bind_double(statement, 7, isfinite(ring->height) ? (double)ring->height : 0.0);
-        if (points)
-            sqlite3_bind_text(statement, 8, text.data, -1, SQLITE_STATIC);
-        execute_statement(r, statement);
-        jox_database_finalize(r->db, statement);
-    }
-    return_database(r);
-    jox_text_free(&text);
-}
-
-void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t part,
-                       const JoxBodyLook *look) {
-    const float numbers[] = {look->size[0], look->size[1], look->size[2], look->at.x,
-                             look->at.y,    look->at.z,    look->turn[0], look->turn[1],
-                             look->turn[2], look->turn[3]};
-    JoxText corners = {0};
-    for (uint32_t c = 0; c < look->corner_count; c++)
-        jox_text_printf(&corners, "%s%.6g %.6g %.6g", c ? ", " : "", (double)look->corners[c].x,
-                        (double)look->corners[c].y, (double)look->corners[c].z);
-    sqlite3_stmt *statement;
-    borrow_database(r);
-    if (prepare_sql(r, &statement,
-                    "INSERT OR REPLACE INTO jostle_part VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")) {
-        const uint32_t whole[] = {frame, body, part, (uint32_t)look->kind};
-        for (int k = 0; k < 4; k++)
-            sqlite3_bind_int64(statement, 1 + k, whole[k]);
-        for (int k = 0; k < 10; k++)
-            sqlite3_bind_double(statement, 5 + k, (double)numbers[k]);
-        sqlite3_bind_text(statement, 15, corners.data, -1, SQLITE_STATIC);
-        execute_statement(r, statement);
-        jox_database_finalize(r->db, statement);
-    }
-    return_database(r);
-    jox_text_free(&corners);
-}
-
 JoxRecordRow *jox_recorder_begin_frame(JoxRecorder *r, uint32_t rows, uint32_t bodies,
                                        JoxRecordBody **body_rows) {
     pthread_mutex_lock(&r->lock);
-    while (r->count == FRAMES)
+    while (r->count == JOX_RECORDER_FRAMES)
         pthread_cond_wait(&r->emptied, &r->lock);
-    Frame *f = &r->frames[(r->first + r->count) % FRAMES];
+    JoxRecorderFrame *f = &r->frames[(r->first + r->count) % JOX_RECORDER_FRAMES];
     pthread_mutex_unlock(&r->lock);
     JOX_RESERVE(f->rows, f->row_capacity, rows + 1);
     JOX_RESERVE(f->bodies, f->body_capacity, bodies + 1);
@@ -463,7 +350,7 @@ JoxRecordRow *jox_recorder_begin_frame(JoxRecorder *r, uint32_t rows, uint32_t b
 
 bool jox_recorder_submit_frame(JoxRecorder *r, uint32_t frame, JoxText *error) {
     pthread_mutex_lock(&r->lock);
-    r->frames[(r->first + r->count) % FRAMES].number = frame;
+    r->frames[(r->first + r->count) % JOX_RECORDER_FRAMES].number = frame;
     r->count++;
     bool good = !r->failed;
     pthread_cond_signal(&r->filled);
@@ -474,9 +361,9 @@ bool jox_recorder_submit_frame(JoxRecorder *r, uint32_t frame, JoxText *error) {
 }
 
 bool jox_recorder_commit(JoxRecorder *r, JoxText *error) {
-    borrow_database(r);
+    jox_recorder_borrow(r);
     const bool good = !r->failed && (sqlite3_get_autocommit(r->db->sqlite) || commit_frames(r));
-    return_database(r);
+    jox_recorder_return(r);
     if (!good)
         jox_text_printf(error, "recording failed: %s", r->why);
     return good;

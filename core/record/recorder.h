@@ -48,21 +48,25 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
 JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, JoxText *error);
 /* Commits all frames given so far. Returns false with a sentence in `error` on failure. */
 bool jox_recorder_commit(JoxRecorder *recorder, JoxText *error);
-/* Names a state number: once for each number, before the first frame that uses it. `colour` is 0
-   where the scene gives none. */
+/* Names a state number before the first frame that uses it, or again with another colour or pose.
+   `colour` is 0 and `pose` NULL where there is none. */
 void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *machine,
-                        const char *state, JoxColour colour);
-/* Names a group number, before the first frame. */
-void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name, JoxColour colour);
-/* Records wall `number` as it is from a frame on: its name and height, which the walkable area
+                        const char *state, JoxColour colour, const char *pose);
+/* Names a group number, likewise. */
+void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name, JoxColour colour,
+                        const char *clothes);
+/* Records what the scene shows besides people, walls and bodies, a text of JSON, in place of that
+   of the last call. */
+void jox_recorder_look(JoxRecorder *recorder, const char *look);
+/* Records wall `number` as it is from a frame on: its name and heights, which the walkable area
    lacks, and ring `ring` of `walls`; `walls` is NULL where the wall was removed. Without `points`
    its points stay those of the last call (wall_history.h). */
 void jox_recorder_wall(JoxRecorder *recorder, uint32_t frame, uint32_t number,
                        const JoxWalls *walls, uint32_t ring, bool points);
 /* Records one part of a body as it is from a frame on. Whenever one part changes, give all parts of
-   the body. */
+   the body, with its name, which may be NULL. */
 void jox_recorder_part(JoxRecorder *recorder, uint32_t frame, uint32_t body, uint32_t part,
-                       const JoxBodyLook *look);
+                       const char *name, const JoxBodyLook *look);
 /* Returns rows for a frame, and rows for its bodies in `body_rows`, for the caller to fill and
    submit by jox_recorder_submit_frame. Waits while the writer is four frames behind: no frame is
    dropped. */

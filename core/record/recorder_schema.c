@@ -119,13 +119,14 @@ const char jox_recording_schema[] =
     "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
     "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
     "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
-    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT, colour TEXT);"
-    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT, colour TEXT);"
+    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT, colour TEXT, clothes TEXT);"
+    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT, colour TEXT,"
+    " pose TEXT);"
     "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
     " qz REAL, qw REAL);"
     "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL,"
     " size_y REAL, size_z REAL, x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,"
-    " corners TEXT, PRIMARY KEY(id, frame, part));"
+    " corners TEXT, name TEXT, PRIMARY KEY(id, frame, part));"
     "CREATE TABLE jostle_wall(frame INTEGER, number INTEGER, name TEXT, solid INTEGER, closed "
     "INTEGER,"
-    " open INTEGER, height REAL, points TEXT, PRIMARY KEY(frame, number));";
+    " open INTEGER, height REAL, points TEXT, drawn REAL, PRIMARY KEY(frame, number));";

@@ -28,6 +28,11 @@ bool jox_recording_merge_log(JoxDatabase *db, JoxText *message);
 /* Names of all tables of recordings, including older versions; ends with NULL. */
 extern const char *const jox_recording_tables[];
 
+/* Pose of a state that is drawn as lying down. */
+#define JOX_RECORDED_LIES "lies"
+/* Key of the table metadata: what the scene shows besides, as JSON. */
+#define JOX_RECORDED_LOOK "jostle_look"
+
 /* Query for the rows of one of our recordings in the units of the JuPedSim format: jostle_row
    stores scaled integers. Older recordings have no falls, still older ones no torsos, then no
    radii. */

@@ -34,6 +34,7 @@ typedef struct JoxTrajectories {
     uint16_t *group;          /* NULL unless recorded */
     char **groups;            /* names */
     JoxColour *group_colours; /* 0 where a group has none */
+    uint32_t *group_clothes;  /* indices of jox_clothes_names */
     uint32_t group_count;
     uint32_t *state;          /* index in `states`; NULL unless recorded */
     char **states;            /* names; the first, "", is the state of people without a machine */
@@ -83,6 +84,9 @@ void jox_trajectories_read_walls(JoxTrajectories *t, struct JoxDatabase *db);
 /* Returns the colour in a column of a row; 0 for none. */
 struct sqlite3_stmt;
 JoxColour jox_trajectory_colour(struct sqlite3_stmt *row, int column);
+/* Returns the index of the name in a column of a row; 0 if it is none of the `count` names. */
+uint32_t jox_trajectory_choice(struct sqlite3_stmt *row, int column, const char *const *names,
+                               uint32_t count);
 /* Returns whether a file begins with the signature of SQLite. */
 bool jox_is_sqlite(const char *path);
 /* Adds a row and returns its index; the caller fills its columns. */

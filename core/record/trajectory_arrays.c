@@ -81,6 +81,7 @@ void jox_trajectories_free(JoxTrajectories *t) {
                        t->face_x,
                        t->face_y,
                        t->group_colours,
+                       t->group_clothes,
                        t->state_colours,
                        t->axis_x,
                        t->axis_y,

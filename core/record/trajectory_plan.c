@@ -8,6 +8,7 @@
 #include "base/format/colour.h"
 #include "base/mem.h"
 #include "record/trajectories.h"
+#include "world/population.h"
 
 enum { MOST_RING = 5000 };
 
@@ -48,18 +49,34 @@ JoxColour jox_trajectory_colour(sqlite3_stmt *row, int column) {
     return text && jox_colour_read(text, &colour) ? colour : 0;
 }
 
-/* Reads names and colours of groups from our own recordings. */
+uint32_t jox_trajectory_choice(sqlite3_stmt *row, int column, const char *const *names,
+                               uint32_t count) {
+    const char *text = (const char *)sqlite3_column_text(row, column);
+    uint32_t found = 0;
+    for (uint32_t n = 0; text && n < count && !found; n++)
+        found = names[n] && strcmp(text, names[n]) == 0 ? n : 0;
+    return found;
+}
+
+/* Reads names, colours and clothes of groups from our own recordings. */
 static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
-    sqlite3_stmt *statement =
-        jox_database_prepare(db, "SELECT name, colour FROM jostle_group ORDER BY number");
-    size_t capacity = 0, colour_capacity = 0;
-    if (!statement) /* an older recording, without colours */
-        statement = jox_database_prepare(db, "SELECT name, NULL FROM jostle_group ORDER BY number");
+    /* Older recordings have no clothes, still older ones no colours. */
+    static const char *const QUERIES[] = {
+        "SELECT name, colour, clothes FROM jostle_group ORDER BY number",
+        "SELECT name, colour, NULL FROM jostle_group ORDER BY number",
+        "SELECT name, NULL, NULL FROM jostle_group ORDER BY number"};
+    sqlite3_stmt *statement = NULL;
+    size_t capacity = 0, colour_capacity = 0, clothes_capacity = 0;
+    for (int q = 0; q < 3 && !statement; q++)
+        statement = jox_database_prepare(db, QUERIES[q]);
     while (statement && t->group_count < UINT16_MAX && sqlite3_step(statement) == SQLITE_ROW) {
         const char *name = (const char *)sqlite3_column_text(statement, 0);
         JOX_RESERVE(t->groups, capacity, t->group_count + 1);
         JOX_RESERVE(t->group_colours, colour_capacity, t->group_count + 1);
+        JOX_RESERVE(t->group_clothes, clothes_capacity, t->group_count + 1);
         t->group_colours[t->group_count] = jox_trajectory_colour(statement, 1);
+        t->group_clothes[t->group_count] =
+            jox_trajectory_choice(statement, 2, jox_clothes_names, jox_clothes_count);
         t->groups[t->group_count++] = jox_strdup(name ? name : "");
     }
     jox_database_finalize(db, statement);

@@ -23,6 +23,8 @@ JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r)
                                      .groups = (const char *const *)t->groups,
                                      .group_count = t->group_count,
                                      .group_colours = t->group_colours,
+                                     .group_clothes = t->group_clothes,
+                                     .look = r->look,
                                      .states = r->states,
                                      .state_count = r->state_count,
                                      .whole = r->in_memory != NULL,
@@ -349,6 +351,13 @@ bool jox_trajectory_reader_part(JoxTrajectoryReader *r, uint32_t frame, uint32_t
     return true;
 }
 
+const char *jox_trajectory_reader_body_name(JoxTrajectoryReader *r, uint32_t frame, uint32_t body) {
+    JoxBodyLook look;
+    return jox_trajectory_reader_part(r, frame, body, 0, &look)
+               ? (const char *)sqlite3_column_text(r->part, 12)
+               : NULL;
+}
+
 void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     if (!r)
         return;
@@ -358,6 +367,8 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
         jox_free(r->outlines.groups[g]);
     jox_free(r->outlines.groups);
     jox_free(r->outlines.group_colours);
+    jox_free(r->outlines.group_clothes);
+    jox_free(r->look);
     jox_walls_free(&r->outlines.walls);
     jox_wall_history_free(r->outlines.history);
     for (uint32_t s = 0; s < r->state_count; s++) {

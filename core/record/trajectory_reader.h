@@ -41,10 +41,14 @@ typedef struct JoxTrajectoryReaderInfo {
     const char *const *groups;
     uint32_t group_count;
     const JoxColour *group_colours;
+    const uint32_t *group_clothes; /* indices of jox_clothes_names; NULL: none is recorded */
+    const char *look; /* JSON of scene/scene_look.h, which it may not be; NULL: none is recorded */
     const struct JoxTrajectoryReaderState {
         char *machine, *name;
         int64_t number; /* number in the file */
         JoxColour colour;
+        uint32_t pose; /* index of jox_poses; 0: none */
+        bool lies;     /* people in it are drawn lying down */
     } * states;
     uint32_t state_count;
     bool whole;                            /* the recording was read into memory */
@@ -75,6 +79,9 @@ uint32_t jox_trajectory_reader_wall_changes(const JoxTrajectoryReader *reader, u
 uint32_t jox_trajectory_reader_changes(const JoxTrajectoryReader *reader, uint32_t frame);
 bool jox_trajectory_reader_part(JoxTrajectoryReader *reader, uint32_t frame, uint32_t body,
                                 uint32_t part, JoxBodyLook *out);
+/* Returns the name of a body with recorded parts, valid until the next call; NULL: none. */
+const char *jox_trajectory_reader_body_name(JoxTrajectoryReader *reader, uint32_t frame,
+                                            uint32_t body);
 void jox_trajectory_reader_close(JoxTrajectoryReader *reader);
 
 #endif

@@ -6,10 +6,15 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "machine/machine.h"
 #include "record/recorder_schema.h"
 #include "record/trajectory_reader_parts.h"
 
-enum { MOST_FRAMES = 10000000, NEWEST = 2 /* newest version of the format that is read */ };
+enum {
+    MOST_FRAMES = 10000000,
+    NEWEST = 2 /* newest version of the format that is read */,
+    LONGEST_LOOK = 1 << 24 /* bytes */
+};
 
 static bool add_open_error(JoxDiagnostics *diagnostics, const char *path, const char *hint,
                            const char *message) {
@@ -104,19 +109,26 @@ static bool copy_rows_sorted(JoxTrajectoryReader *r) {
 /* ---- opening ---- */
 
 static void read_state_names(JoxTrajectoryReader *r) {
-    sqlite3_stmt *list = jox_database_prepare(
-        r->db, "SELECT number, machine, state, colour FROM jostle_state ORDER BY number");
+    /* Older recordings have no poses, still older ones no colours. */
+    static const char *const QUERIES[] = {
+        "SELECT number, machine, state, colour, pose FROM jostle_state ORDER BY number",
+        "SELECT number, machine, state, colour, NULL FROM jostle_state ORDER BY number",
+        "SELECT number, machine, state, NULL, NULL FROM jostle_state ORDER BY number"};
+    sqlite3_stmt *list = NULL;
     size_t capacity = 0;
-    if (!list) /* an older recording, without colours */
-        list = jox_database_prepare(r->db, "SELECT number, machine, state, NULL FROM jostle_state "
-                                           "ORDER BY number");
+    for (int q = 0; q < 3 && !list; q++)
+        list = jox_database_prepare(r->db, QUERIES[q]);
     while (list && r->state_count < UINT16_MAX && sqlite3_step(list) == SQLITE_ROW) {
         const char *machine = (const char *)sqlite3_column_text(list, 1);
         const char *name = (const char *)sqlite3_column_text(list, 2);
         JOX_RESERVE(r->states, capacity, r->state_count + 1);
         r->states[r->state_count++] = (struct JoxTrajectoryReaderState){
-            jox_strdup(machine ? machine : ""), jox_strdup(name ? name : ""),
-            sqlite3_column_int64(list, 0), jox_trajectory_colour(list, 3)};
+            jox_strdup(machine ? machine : ""),
+            jox_strdup(name ? name : ""),
+            sqlite3_column_int64(list, 0),
+            jox_trajectory_colour(list, 3),
+            jox_trajectory_choice(list, 4, jox_poses, JOX_POSE_COUNT),
+            jox_trajectory_choice(list, 4, (const char *const[]){NULL, JOX_RECORDED_LIES}, 2) > 0};
     }
     jox_database_finalize(r->db, list);
 }
@@ -165,10 +177,13 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
             r->db, "SELECT frame, id, x, y, z, qx, qy, qz, qw FROM jostle_body "
                    "WHERE rowid >= ? ORDER BY rowid");
     }
-    r->part = jox_database_prepare(
-        r->db, "SELECT kind, size_x, size_y, size_z, x, y, z, qx, qy, qz, qw, corners"
-               " FROM jostle_part WHERE id = ?1 AND part = ?3 AND frame = (SELECT "
-               "MAX(frame) FROM jostle_part WHERE id = ?1 AND frame <= ?2)");
+#define PART_WITH(name)                                                                            \
+    "SELECT kind, size_x, size_y, size_z, x, y, z, qx, qy, qz, qw, corners, " name                 \
+    " FROM jostle_part WHERE id = ?1 AND part = ?3 AND frame = (SELECT MAX(frame) FROM "           \
+    "jostle_part WHERE id = ?1 AND frame <= ?2)"
+    r->part = jox_database_prepare(r->db, PART_WITH("name"));
+    if (!r->part) /* an older recording, without names */
+        r->part = jox_database_prepare(r->db, PART_WITH("NULL"));
     sqlite3_stmt *list =
         jox_database_prepare(r->db, "SELECT DISTINCT frame FROM jostle_part ORDER BY frame");
     while (list && sqlite3_step(list) == SQLITE_ROW) {
@@ -195,6 +210,18 @@ static void read_bounds(JoxTrajectoryReader *r) {
         r->low = (JoxV2){(float)bounds[0], (float)bounds[1]};
         r->high = (JoxV2){(float)bounds[2], (float)bounds[3]};
     }
+}
+
+/* Reads the text that tells what the scene shows besides, unless it is longer than a scene's can
+   be. */
+static void read_look(JoxTrajectoryReader *r) {
+    sqlite3_stmt *row = jox_database_prepare(
+        r->db, "SELECT value FROM metadata WHERE key = '" JOX_RECORDED_LOOK "'");
+    const char *text =
+        row && sqlite3_step(row) == SQLITE_ROW ? (const char *)sqlite3_column_text(row, 0) : NULL;
+    if (text && sqlite3_column_bytes(row, 0) <= LONGEST_LOOK)
+        r->look = jox_strdup(text);
+    jox_database_finalize(r->db, row);
 }
 
 /* Returns whether the version of the file is missing or supported; false adds an error. */
@@ -312,6 +339,7 @@ static bool read_properties(JoxTrajectoryReader *r, const char *path,
     if (query_number(r->db, "SELECT MAX(frame) FROM frame_data", &found))
         r->last = (int64_t)found;
     read_bounds(r);
+    read_look(r);
     read_state_names(r);
     jox_trajectories_read_walls(&r->outlines, r->db);
     return true;

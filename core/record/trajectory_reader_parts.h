@@ -39,6 +39,7 @@ struct JoxTrajectoryReader {
     JoxTrajectories outlines; /* only walls and groups, of an SQLite file */
     struct JoxTrajectoryReaderState *states;
     uint32_t state_count;
+    char *look; /* JSON of what the scene shows; NULL: none is recorded */
     bool bounded;
     JoxV2 low, high;
     /* Columns of the frame that was read last. */

@@ -17,6 +17,7 @@ typedef struct RecordedWall {
     /* same_points: the points are those of the wall's previous row. */
     bool solid, closed, open, same_points;
     float height; /* m */
+    float drawn;  /* m: height up to which it is drawn; 0: its height */
     char *name;
     size_t first; /* index of its first point */
     uint32_t count;
@@ -71,6 +72,7 @@ static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
     if (number < 0 || number >= MOST_WALLS || h->count == UINT32_MAX - 1)
         return;
     const float given = (float)sqlite3_column_double(list, 6);
+    const float drawn = (float)sqlite3_column_double(list, 8);
     const char *name = (const char *)sqlite3_column_text(list, 2);
     const char *text = (const char *)sqlite3_column_text(list, 7);
     const RecordedWall *before = find_previous_row(h, (uint32_t)number);
@@ -81,6 +83,7 @@ static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
                         .open = sqlite3_column_int(list, 5),
                         .same_points = !text && before,
                         .height = given > 0.0f && given < 1e6f ? given : INFINITY,
+                        .drawn = drawn > 0.0f && drawn < 1e6f ? drawn : 0.0f,
                         .name = name ? jox_strdup(name) : NULL};
     if (row.same_points) {
         row.first = before->first;
@@ -100,12 +103,17 @@ static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
 }
 
 JoxWallHistory *jox_wall_history_read(JoxDatabase *db) {
-    sqlite3_stmt *list =
-        jox_database_prepare(db, "SELECT frame, number, name, solid, closed, open, height, points "
-                                 "FROM jostle_wall ORDER BY frame, number");
-    if (!list) /* an older recording, without frames */
-        list = jox_database_prepare(db, "SELECT 0, rowid - 1, name, solid, closed, open, height, "
-                                        "points FROM jostle_wall ORDER BY rowid");
+    /* Older recordings have no drawn heights, still older ones no frames. */
+    static const char *const QUERIES[] = {
+        "SELECT frame, number, name, solid, closed, open, height, points, drawn FROM jostle_wall "
+        "ORDER BY frame, number",
+        "SELECT frame, number, name, solid, closed, open, height, points, NULL FROM jostle_wall "
+        "ORDER BY frame, number",
+        "SELECT 0, rowid - 1, name, solid, closed, open, height, points, NULL FROM jostle_wall "
+        "ORDER BY rowid"};
+    sqlite3_stmt *list = NULL;
+    for (int q = 0; q < 3 && !list; q++)
+        list = jox_database_prepare(db, QUERIES[q]);
     if (!list)
         return NULL;
     JoxWallHistory *h = jox_alloc(1, sizeof *h);
@@ -129,6 +137,8 @@ static void build_recorded_wall(JoxWalls *walls, const RecordedWall *row, const 
         jox_walls_add_solid(walls, points, row->count, row->height);
     else
         jox_walls_add_polyline(walls, points, row->count, row->closed, row->height);
+    for (uint32_t ring = first; ring < walls->ring_count; ring++)
+        walls->rings[ring].drawn = row->drawn;
     if (row->name)
         jox_walls_name(walls, first, row->name, row->open);
 }

@@ -10,8 +10,10 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "record/recorder.h"
+#include "record/recorder_schema.h"
 #include "run/present_frame.h"
 #include "run/run.h"
+#include "scene/scene_look.h"
 
 static const double DEFAULT_INTERVAL = 0.1; /* s between recorded frames, unless given */
 
@@ -42,15 +44,48 @@ static uint32_t find_state_number(const Recording *r, const JoxAgents *a, uint32
     return a->machine[i] == JOX_NO_MACHINE ? UINT32_MAX : r->base[a->machine[i]] + a->state[i];
 }
 
+/* Names the states of a machine as its present version does. */
+static void name_machine_states(const Recording *r, const JoScene *scene, uint32_t index) {
+    const JoxMachine *machine = scene->world->model.machines.items[index];
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        const JoxState *state = &machine->states[s];
+        jox_recorder_state(r->recorder, r->base[index] + s, machine->name, state->name,
+                           state->colour, state->lies ? JOX_RECORDED_LIES : jox_poses[state->pose]);
+    }
+}
+
 /* Gives the states of a machine new numbers: a new version may have other states. */
 static void record_machine_states(void *self, JoScene *scene, uint32_t index) {
     Recording *r = self;
-    const JoxMachine *machine = scene->world->model.machines.items[index];
     r->base[index] = r->next;
     r->next += 1000;
-    for (uint32_t s = 0; s < machine->state_count; s++)
-        jox_recorder_state(r->recorder, r->base[index] + s, machine->name, machine->states[s].name,
-                           machine->states[s].colour);
+    name_machine_states(r, scene, index);
+}
+
+/* Records groups, and what the scene shows besides, as its present specification has them. */
+static void record_look(const Recording *r, const JoScene *scene) {
+    const JoxSceneSpec *spec = scene->spec;
+    const JoxSceneLook look = jox_scene_look(spec);
+    JoxText text = {0};
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        jox_recorder_group(r->recorder, g, spec->groups[g].name, spec->groups[g].colour,
+                           jox_clothes_names[spec->groups[g].clothes]);
+    jox_scene_write_look(&look, &text);
+    jox_recorder_look(r->recorder, text.data);
+    jox_text_free(&text);
+}
+
+/* Records what a reload may have changed without new states: colours, poses, clothes, scenery. */
+static void record_reload(void *self, JoScene *scene, const JoxReloadNews *news) {
+    const Recording *r = self;
+    const JoxMachineSet *machines = &scene->world->model.machines;
+    if (!news || !r->recorder)
+        return;
+    if (!news->next)
+        record_look(r, scene);
+    for (uint32_t m = 0; news->next && m < machines->count; m++)
+        if (machines->items[m] == news->next)
+            name_machine_states(r, scene, m);
 }
 
 /* Writes the walkable area as WKT: that of the plan from which the walls were read if all people
@@ -81,6 +116,7 @@ static uint64_t hash_wall_shape(const JoxWalls *walls, uint32_t r) {
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, what, sizeof what);
     jox_hash_add(&hash, &ring->height, sizeof ring->height);
+    jox_hash_add(&hash, &ring->drawn, sizeof ring->drawn);
     if (ring->name)
         jox_hash_add(&hash, ring->name, strlen(ring->name));
     for (uint32_t v = ring->first; v < ring->first + ring->count; v++)
@@ -141,9 +177,7 @@ static bool begin_recording(void *self, JoScene *scene, const void *options, JoE
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++)
         record_machine_states(r, scene, m);
-    for (uint32_t g = 0; g < scene->spec->group_count; g++)
-        jox_recorder_group(r->recorder, g, scene->spec->groups[g].name,
-                           scene->spec->groups[g].colour);
+    record_look(r, scene);
     return true;
 }
 
@@ -165,7 +199,7 @@ static void record_body_shapes(Recording *r, const JoScene *scene, uint32_t fram
             continue;
         r->shapes[id] = bonds.blocks + 1;
         for (uint32_t part = 0; jox_bodies_describe_part(bodies, row, part, &look); part++)
-            jox_recorder_part(r->recorder, frame, id, part, &look);
+            jox_recorder_part(r->recorder, frame, id, part, jox_bodies_name(bodies, row), &look);
     }
 }
 
@@ -293,6 +327,7 @@ static const JoxListenerKind RECORDING = {.name = "recording",
                                           .begin = begin_recording,
                                           .frame = record_frame,
                                           .replaced = record_machine_states,
+                                          .reloaded = record_reload,
                                           .sections = list_recording_sections,
                                           .settle = settle_recording,
                                           .end = end_recording,

@@ -19,6 +19,7 @@ const char *const jox_floor_names[] = {
     JOX_FLOORS(X)
 #undef X
 };
+const uint32_t jox_floor_count = sizeof jox_floor_names / sizeof *jox_floor_names;
 
 static const double TRUNK = 0.4; /* m, at most: side of the footprint of a tree or lamp */
 
@@ -128,6 +129,8 @@ void jox_resolve_scenery(const JoxReader *r, const JoxYaml *map, void *item) {
 
 double jox_scenery_turn(const JoxScenery *scenery, uint32_t copy) {
     JOX_ASSERT(copy < scenery->at_count);
+    if (scenery->turns)
+        return scenery->turns[copy];
     if (scenery->face_count == 0)
         return scenery->turn;
     const JoxV2 back = jox_sub(scenery->at[copy], scenery->faces[0]); /* direction of its y axis */

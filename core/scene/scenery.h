@@ -75,6 +75,7 @@ typedef struct JoxSceneryKindInfo {
 } JoxSceneryKindInfo;
 extern const JoxSceneryKindInfo jox_scenery_kinds[JOX_SCENERY_KIND_COUNT];
 extern const char *const jox_floor_names[];
+extern const uint32_t jox_floor_count;
 
 /* One item of `scenery`. */
 typedef struct JoxScenery {
@@ -82,8 +83,9 @@ typedef struct JoxScenery {
     JoxV2 *at;      /* m: centres of its copies */
     JoxV2 *through; /* m: points of a line, fence or area */
     uint32_t at_count, through_count;
-    double turn;  /* degrees, anti-clockwise */
-    JoxV2 *faces; /* m: point that the front of each copy looks at, before it is turned; or NULL */
+    double turn;   /* degrees, anti-clockwise */
+    double *turns; /* of a recording: turn of each copy, degrees, in place of `turn` and `faces` */
+    JoxV2 *faces;  /* m: point that the front of each copy looks at, before it is turned; or NULL */
     uint32_t face_count;
     double size[3]; /* m */
     double *doors;  /* m: where along a train its doors are, from its middle */

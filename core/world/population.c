@@ -12,6 +12,13 @@
 #include "nav/spots/spots.h"
 #include "world/world.h"
 
+const char *const jox_clothes_names[] = {
+#define X(clothes, name) name,
+    JOX_CLOTHES(X)
+#undef X
+};
+const uint32_t jox_clothes_count = sizeof jox_clothes_names / sizeof *jox_clothes_names;
+
 static const float FARTHEST_POINT = 1e6f; /* m: no plan is larger */
 
 /* ---- one agent ---- */

@@ -69,6 +69,9 @@ typedef struct JoxStart {
     X(SPORT, "sport")                                                                              \
     X(WORK, "work")
 
+extern const char *const jox_clothes_names[];
+extern const uint32_t jox_clothes_count;
+
 /* Agents made alike. */
 typedef struct JoxGroup {
     char *name;

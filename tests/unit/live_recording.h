@@ -1,9 +1,13 @@
-/* Records a scene whose people and bodies come and leave, and keeps the run's own frames to compare
-   the recording with. */
+/* Opens recordings, and records a scene whose people and bodies come and leave, and keeps the run's
+   own frames to compare the recording with. */
 #ifndef JOX_TESTS_UNIT_LIVE_RECORDING_H
 #define JOX_TESTS_UNIT_LIVE_RECORDING_H
 
+#include <sqlite3.h>
+
 #include "live_bytes.h"
+
+#include "live/replay.h"
 
 enum { MOST_PEOPLE = 300, MOST_FRAMES = 200 };
 
@@ -88,6 +92,25 @@ static inline void record_room(void) {
     }
     assert_true(jo_scene_finish(scene, &error));
     jo_scene_free(scene);
+}
+
+static inline JoxReplay *open_replay(const char *file, const char *scene, double fps) {
+    JoxDiagnostics diagnostics = {0};
+    const JoxReplayDef def = {.recording = file, .scene = scene, .options = {.fps = fps}};
+    JoxReplay *replay = jox_replay_open(&def, &diagnostics);
+    if (!replay)
+        fail_msg("%s", diagnostics.items[0].message);
+    jox_diag_free(&diagnostics);
+    return replay;
+}
+
+static inline void run_sql(const char *file, const char *sql) {
+    sqlite3 *db;
+    char *wrong = NULL;
+    assert_int_equal(sqlite3_open(file, &db), SQLITE_OK);
+    if (sqlite3_exec(db, sql, NULL, NULL, &wrong) != SQLITE_OK)
+        fail_msg("%s", wrong);
+    sqlite3_close(db);
 }
 
 #endif

@@ -2,20 +2,6 @@
    damaged files give errors. */
 #include "live_recording.h"
 
-#include <sqlite3.h>
-
-#include "live/replay.h"
-
-static JoxReplay *open_replay(const char *file, const char *scene, double fps) {
-    JoxDiagnostics diagnostics = {0};
-    const JoxReplayDef def = {.recording = file, .scene = scene, .options = {.fps = fps}};
-    JoxReplay *replay = jox_replay_open(&def, &diagnostics);
-    if (!replay)
-        fail_msg("%s", diagnostics.items[0].message);
-    jox_diag_free(&diagnostics);
-    return replay;
-}
-
 /* Shows a frame and compares it with the run's; writes the slot of each person, by id, to
    `slots`. */
 static void check_frame(JoxReplay *replay, uint32_t frame, uint32_t *slots) {
@@ -266,15 +252,6 @@ static void gates_and_radii_follow_the_shown_frame(void **state) {
     jox_replay_close(replay);
     jox_bytes_free(&people);
     jox_text_free(&text);
-}
-
-static void run_sql(const char *file, const char *sql) {
-    sqlite3 *db;
-    char *wrong = NULL;
-    assert_int_equal(sqlite3_open(file, &db), SQLITE_OK);
-    if (sqlite3_exec(db, sql, NULL, NULL, &wrong) != SQLITE_OK)
-        fail_msg("%s", wrong);
-    sqlite3_close(db);
 }
 
 static void copy_recording(const char *from, const char *to) {

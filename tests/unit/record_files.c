@@ -72,7 +72,7 @@ static void recording_reads_back(void **state) {
         JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
         assert_non_null(r);
         for (uint32_t k = 0; k < 3; k++)
-            jox_recorder_state(r, k, "machine", k ? "Go" : "Wait", 0);
+            jox_recorder_state(r, k, "machine", k ? "Go" : "Wait", 0, NULL);
         for (uint32_t f = 0; f < 100; f++)
             assert_true(submit_test_frame(r, f, &error));
         assert_true(jox_recorder_close(r, &error));

@@ -324,8 +324,8 @@ static void own_recordings_keep_forces_and_walls(void **state) {
     unlink(path);
     JoxRecorder *r = jox_recorder_open(path, 10, "POLYGON ((0 0, 1 0, 1 1, 0 0))", &error);
     assert_non_null(r);
-    jox_recorder_group(r, 0, "red", 0);
-    jox_recorder_group(r, 1, "blue", JOX_COLOUR_GIVEN | 0x123456);
+    jox_recorder_group(r, 0, "red", 0, NULL);
+    jox_recorder_group(r, 1, "blue", JOX_COLOUR_GIVEN | 0x123456, NULL);
     JoxWalls walls = {0};
     jox_walls_add_polyline(&walls, (const JoxV2[]){{0, 1}, {2, 1}, {2, 3}}, 3, false, 2.5f);
     jox_recorder_wall(r, 0, 0, &walls, 0, true);
