@@ -28,7 +28,7 @@ void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
 
 /* Returns `unit` of a panel; a wide one is shown smaller on the page, so its unit is greater. */
 static float panel_unit(float wide) {
-    return wide > 1500 ? 2.2f : 1.5f;
+    return wide > 1500 ? 2.6f : 2.0f;
 }
 
 bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {

@@ -161,10 +161,10 @@ static void write_service_levels(Legend *l, float most) {
             write_legend_text(l, l->x + from, JOX_ANCHOR_START, false, jox_levels[k].name);
     }
     jox_canvas_close(l->d->canvas);
-    const bool panel = l->d->picture->panel;
-    l->y += panel ? 0 : ROW * u;
-    write_legend_text(l, l->x + (panel ? (l->bar + 14) * u : 0), JOX_ANCHOR_START, false,
-                      "Fruin's levels for queues");
+    if (l->d->picture->panel) /* the page explains the letters */
+        return;
+    l->y += ROW * u;
+    write_legend_text(l, l->x, JOX_ANCHOR_START, false, "Fruin's levels for queues");
     l->y += ROW * u;
 }
 
@@ -298,12 +298,12 @@ static void write_people_count(Legend *l) {
 static void draw_legend_strip(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     const float u = d->unit, top = (float)d->canvas->height - (JOX_DRAW_STRIP - 6) * u;
-    Legend l = {.d = d, .bar = 2 * BAR, .x = 16 * u, .y = top};
+    Legend l = {.d = d, .bar = 1.6f * BAR, .x = 16 * u, .y = top};
     l.right = (float)d->canvas->width - 16 * u;
     jox_canvas_open(d->canvas, "legend", NULL, (JoxStyle){.fill = jox_ink_text});
     write_people_count(&l);
     draw_scale_bar(&l);
-    l.x = 200 * u;
+    l.x = 180 * u;
     l.y = top - 8 * u; /* write_legend_heading adds this much */
     if (p->grid)
         write_field_legend(&l);

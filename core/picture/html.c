@@ -28,19 +28,28 @@ static const char STYLE[] =
     "figcaption,small{color:#555}details{margin:.5rem 0}pre{overflow:auto;"
     "background:#f6f6f6;padding:.6rem;font-size:13px}.scroll{overflow-x:auto}code{font-size:.9em;"
     "overflow-wrap:anywhere}"
-    /* In print: no page break within a picture or row or after a heading, and nothing cut off at
-       the right. */
+    ".strip{overflow:hidden}.strips{max-width:64rem}.strips .strip img{max-width:100%;border:0;"
+    "display:block}"
+    /* In print: no page break within a picture, a strip of one, or a row, nor after a heading, and
+       nothing cut off at the right. What must not break is at most a quarter of a page high. */
     "@page{size:A4;margin:15mm}@media print{body{font-size:10pt;max-width:none;margin:0;"
     "padding:0}h1{font-size:16pt}h2{font-size:13pt;margin-top:1.2rem;padding-top:.6rem}"
     "h2,h3{break-after:avoid}p{orphans:3;widows:3}"
-    "figure,tr,.summary p,.sign{break-inside:avoid}.scroll{overflow:visible}"
-    "thead{break-inside:avoid;break-after:avoid}table{font-size:8.5pt;margin:.6rem 0;"
-    "width:100%}th,td{padding:.15rem .5rem .15rem 0}td.n{white-space:normal}"
-    "figure.wide img{max-height:118mm;width:auto}.plan figure.wide img{max-height:78mm}"
-    ".csv{break-before:avoid;font-size:7.5pt;margin:-.4rem 0 "
-    ".6rem}.panels{display:block;orphans:1;widows:1}.panels "
-    "figure{display:inline-block;width:49%;margin-bottom:.6rem}"
-    ".panels.whole figure{display:block;width:100%}.panels img{max-height:80mm;width:auto}"
+    "figure,tr,.strip,.summary p,.sign{break-inside:avoid}.scroll{overflow:visible}"
+    "thead{break-inside:avoid;break-after:avoid}table{font-size:8.5pt;margin:.5rem 0;"
+    "max-width:100%}th,td{padding:.12rem .7rem .12rem 0}td.n{white-space:normal}"
+    "tr.group{break-after:avoid}tr.near{break-before:avoid}.sign table{width:100%}"
+    "figure "
+    "img{max-height:70mm;width:auto}figcaption{font-size:8.5pt;line-height:1.3}figure.wide,.panels "
+    "figure{margin:0 0 .5rem}"
+    "figure.wide img{max-height:70mm;width:auto}.plan figure.wide img{max-height:76mm}"
+    "figure.strips{break-inside:auto}figure.strips .strip img{max-height:none;width:100%}"
+    "figure.strips figcaption{break-before:avoid}figure.strips.half{max-width:125mm}"
+    ".csv{break-before:avoid;font-size:7.5pt;margin:-.3rem 0 "
+    ".5rem}.panels{display:block;orphans:1;widows:1}.panels "
+    "figure{display:inline-block;width:48.5%;margin-right:1%}"
+    ".panels.whole figure{display:block;width:100%;margin-right:0}.panels img{max-height:62mm;"
+    "width:auto}.panels.whole img{max-height:54mm}"
     ".summary{font-size:9.5pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}"
     "a{color:inherit;text-decoration:none}}";
 
@@ -229,6 +238,30 @@ void jox_html_figure(FILE *out, const char *folder, const char *name, const char
     const bool image = is_readable_in(folder, png), drawing = is_readable_in(folder, svg);
     if (image || drawing)
         put_picture(out, image ? png : svg, drawing ? svg : NULL, caption, wide);
+}
+
+void jox_html_strips(FILE *out, const char *folder, const char *name, const char *caption,
+                     const JoxStrips *strips) {
+    char png[160], svg[160];
+    snprintf(png, sizeof png, "%.150s.png", name);
+    snprintf(svg, sizeof svg, "%.150s.svg", name);
+    if (!is_readable_in(folder, png))
+        return;
+    fprintf(out, "<figure class=\"wide strips%s\">\n", strips->half ? " half" : "");
+    for (int k = 0; k < strips->count; k++) {
+        const int above = k ? strips->head + k * strips->height : 0;
+        fprintf(out, "<div class=strip style=\"aspect-ratio:%d/%d\"><a href=\"", strips->width,
+                strips->height + (k ? 0 : strips->head));
+        put_link(out, svg);
+        fputs("\"><img src=\"", out);
+        put_link(out, png);
+        fprintf(out, "\" style=\"margin-top:-%.4f%%\" alt=\"", 100.0 * above / strips->width);
+        jox_html_text(out, k ? "" : caption);
+        fputs("\"></a></div>\n", out);
+    }
+    fputs("<figcaption>", out);
+    jox_html_text(out, caption);
+    fputs("</figcaption></figure>\n", out);
 }
 
 void jox_html_picture(FILE *out, const char *file, const char *link, const char *caption) {

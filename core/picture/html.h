@@ -52,6 +52,16 @@ void jox_html_panels_end(FILE *out);
    nothing if there is neither. `wide`: as wide as the page. */
 void jox_html_figure(FILE *out, const char *folder, const char *name, const char *caption,
                      bool wide);
+/* A picture of `count` strips of `width` by `height` px one below the other; the first one has
+   `head` px more, for a title. `half`: two thirds as wide as a printed page. */
+typedef struct JoxStrips {
+    int count, width, height, head;
+    bool half;
+} JoxStrips;
+/* Shows NAME.png so that a printed page may end between two of its strips; nothing if there is
+   none. */
+void jox_html_strips(FILE *out, const char *folder, const char *name, const char *caption,
+                     const JoxStrips *strips);
 /* Shows a picture file beside the page with a link to `link` (NULL: to itself). */
 void jox_html_picture(FILE *out, const char *file, const char *link, const char *caption);
 

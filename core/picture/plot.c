@@ -210,14 +210,23 @@ bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char 
     FILE *data = jox_plot_open(folder, "regions.csv", error);
     if (!data)
         return false;
-    fputs("region,mean_speed_m_per_s,people_frames\n", data);
+    uint64_t people = 0;
+    fputs("region,mean speed [m/s],people counted in all samples\n", data);
     for (uint32_t r = 0; r < regions->count; r++) {
-        jox_quote_put(data, jox_quote_csv, regions->items[r].name);
-        fprintf(data, ",%.4f,%llu\n", jox_region_speed(&regions->items[r]),
-                (unsigned long long)regions->items[r].people);
+        const JoxRegion *region = &regions->items[r];
+        people += region->people;
+        jox_quote_put(data, jox_quote_csv, region->name);
+        if (region->people)
+            fprintf(data, ",%.4f,%llu\n", jox_region_speed(region),
+                    (unsigned long long)region->people);
+        else
+            fputs(",,0\n", data);
     }
-    if (!jox_plot_close(data, "regions.csv", error) ||
-        !(data = jox_plot_open(folder, "regions.plt", error)))
+    if (!jox_plot_close(data, "regions.csv", error))
+        return false;
+    if (people == 0) /* gnuplot refuses a plot without a value */
+        return true;
+    if (!(data = jox_plot_open(folder, "regions.plt", error)))
         return false;
     jox_plot_begin(data, "regions", false, 1200, 600);
     jox_plot_title(data, title);

@@ -15,7 +15,8 @@
 
 /* Creates a folder and the folders above it. */
 bool jox_plot_folder(const char *folder, JoxText *error);
-/* Draws regions.png: the mean speed of each region as bars, m/s. */
+/* Writes regions.csv and draws regions.png: the mean speed of each region as bars, m/s. There is no
+   picture if nobody was seen in a region. */
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error);
 

@@ -14,4 +14,13 @@
 bool jox_danger_write(const JoxDanger *danger, const char *folder, const char *title,
                       JoxText *error);
 
+/* px: width of the plots, and height of each strip of those of danger and leaving */
+enum { JOX_DANGER_STRIPS_WIDE = 1300, JOX_DANGER_STRIP = 215 };
+/* Returns the number of strips of the plot of danger. */
+int jox_danger_count_strips(const JoxDanger *danger);
+/* Returns the number of strips of the plot of levels of service, and their height, px; 0: there is
+   no plot, as at most one level occurred. */
+int jox_danger_count_level_strips(const JoxDanger *danger);
+int jox_danger_level_strip_height(const JoxDanger *danger);
+
 #endif

@@ -9,8 +9,7 @@
 #include "picture/plot.h"
 #include "report/danger_output_parts.h"
 
-enum { WIDE = 1300, STRIP = 215 /* px: width of a plot, height of a strip */ };
-static const int LEFT = 10, RIGHT = 29; /* margins in characters, equal in all strips */
+static const int LEFT = 10, RIGHT = 34; /* margins in characters, equal in all strips */
 
 /* Returns whether a measure has a strip: compression only in older recordings, which have it
    instead of load; crowd pressure only if it was measured (the page says so in words). */
@@ -21,14 +20,39 @@ static bool has_measure_strip(const JoxDanger *d, int measure) {
                                              : jox_danger_has_measure(d, (JoxDangerMeasure)measure);
 }
 
-static int count_measure_strips(const JoxDanger *d) {
-    int count = 0;
+static bool is_anybody_over_a_limit(const JoxDanger *d) {
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+        if (d->counts[l].people > 0)
+            return true;
+    return false;
+}
+
+static bool has_flows(const JoxDanger *d) {
+    return d->lines.count > 0 && d->row_count > 0;
+}
+
+int jox_danger_count_strips(const JoxDanger *d) {
+    int count = is_anybody_over_a_limit(d) + has_flows(d);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
         count += has_measure_strip(d, m);
     return count;
 }
 
-/* Begins a script: size and output file for PNG or SVG, separator, and the variable `heading`. */
+int jox_danger_count_level_strips(const JoxDanger *d) {
+    int levels = 0;
+    for (int k = 0; k < JOX_LEVELS; k++)
+        levels += d->level_s[k] > 0.0;
+    return levels < 2 ? 0 : d->areas.count ? 2 : 1;
+}
+
+int jox_danger_level_strip_height(const JoxDanger *d) {
+    enum { ROOM = 90, ROW = 17, MOST = 500 }; /* px: for title and axis, for the name of an area */
+    const int height = ROOM + ROW * (int)d->areas.count;
+    return height < JOX_DANGER_STRIP ? JOX_DANGER_STRIP : height > MOST ? MOST : height;
+}
+
+/* Begins a script: size and output file for PNG or SVG, separator, and the variable `heading`, with
+   which the title of the first strip begins. */
 static void begin_danger_script(FILE *script, const char *name, bool svg, int width, int height,
                                 const char *title) {
     jox_plot_begin(script, name, svg, width, height);
@@ -45,6 +69,11 @@ static const char *short_limit_title(int limit, char out[64]) {
     return out;
 }
 
+/* Writes the title of a strip; that of the first one begins with the scene's. */
+static void set_strip_title(FILE *script, const char *title) {
+    fprintf(script, "set title heading.'%s' noenhanced\nheading = ''\n", title);
+}
+
 /* Writes the strip of a measure: its greatest value over time, and its limits as labelled lines. */
 static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     static const char *const TITLES[JOX_DANGER_MAPPED] = {
@@ -56,8 +85,8 @@ static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FI
     char name[64];
     for (uint32_t r = 0; r < d->row_count; r++)
         top = fmax(top, (double)d->rows[r].most[measure]);
-    fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\nset title '%s'\n", UNITS[measure],
-            TITLES[measure]);
+    fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\n", UNITS[measure]);
+    set_strip_title(script, TITLES[measure]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         double limit = jox_danger_limits[l].value;
         if (jox_danger_limits[l].measure != measure || limit > 2.0 * fmax(top, limit / 2.1))
@@ -81,25 +110,21 @@ static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FI
 static void write_count_strip(const JoxDanger *d, FILE *script) {
     static const char *const COLOURS[] = {"#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9",
                                           "#cc79a7", "#000000", "#999933", "#882255"};
-    bool any = false;
+    const char *lead = "plot ";
     char name[64];
     fputs("unset arrow\nunset label\nset yrange [0:*]\nset ylabel 'people'\nset key at graph "
-          "1.01,1 left top Left reverse\nset title 'People over a limit of density (Gaussian R = 1 "
-          "m, or Voronoi), pressure or load'\n",
+          "1.01,1 left top Left reverse\n",
           script);
+    set_strip_title(script, "People over a limit of density (Gaussian R = 1 m, or Voronoi), crowd "
+                            "pressure or load");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         if (d->counts[l].people > 0) {
-            fprintf(
-                script,
-                "%s'danger.csv' skip 1 using 1:%d with lines lw 2 lc '%s' title '%s' noenhanced",
-                any ? ", " : "plot ", 3 + JOX_DANGER_MEASURES + l, COLOURS[l],
-                short_limit_title(l, name));
-            any = true;
+            fprintf(script,
+                    "%s'danger.csv' skip 1 using 1:%d with lines lw 2 lc '%s' title '%s' "
+                    "noenhanced",
+                    lead, 3 + JOX_DANGER_MEASURES + l, COLOURS[l], short_limit_title(l, name));
+            lead = ", ";
         }
-    if (!any)
-        fputs("set yrange [0:1]\nset label 1 'nobody was over any limit' at graph 0.5,0.5 "
-              "center\nplot 'danger.csv' skip 1 using 1:(0) with lines lc '#808080' notitle",
-              script);
     fputc('\n', script);
 }
 
@@ -111,8 +136,11 @@ static bool has_leavers(const JoxDanger *d) {
 static void write_leaving_strip(const JoxDanger *d, FILE *script) {
     const int column = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS + JOX_LEVELS + 1;
     fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1 left top Left "
-          "reverse\nset title 'People who have left, and who are inside'\nplot 'danger.csv' skip 1 "
-          "using 1:2 with lines lw 2 lc '#999999' dt 2 title 'inside', '' skip 1 using 1:",
+          "reverse\n",
+          script);
+    set_strip_title(script, "People who have left, and who are inside");
+    fputs("plot 'danger.csv' skip 1 using 1:2 with lines lw 2 lc '#999999' dt 2 title 'inside', '' "
+          "skip 1 using 1:",
           script);
     fprintf(script, "%d with lines lw 2 lc 'black' title 'left, all'", column);
     for (uint32_t e = 0; e < d->exit_count; e++) {
@@ -132,11 +160,12 @@ static void write_flow_strip(const JoxDanger *d, FILE *script) {
     double top = JOX_STOP_FLOW;
     for (uint32_t l = 0; l < d->lines.count; l++)
         top = fmax(top, d->lines.items[l].flow_most);
+    set_strip_title(script, "Flow over lines in ten seconds; crosses: stop-and-go");
     fprintf(
         script,
         "unset arrow\nunset label\nset yrange [0:%g]\nset ylabel 'per m and s'\nset key at "
-        "graph 1.01,1 left top Left reverse\nset title 'Flow over lines in ten seconds; "
-        "crosses: stop-and-go'\nset arrow from graph 0, first %g to graph 1, first %g nohead lc "
+        "graph 1.01,1 left top Left reverse\nset arrow from graph 0, first %g to graph 1, first %g "
+        "nohead lc "
         "'#c00000' dt 2\nset label 'limit: stop-and-go, if dense' at graph 0.005, first %g left "
         "offset 0,0.6 "
         "tc '#c00000'\nplot NaN notitle",
@@ -160,12 +189,12 @@ static void write_flow_strip(const JoxDanger *d, FILE *script) {
 
 /* Begins a plot of strips over time. The axis of a run begins at 0 although its first sample is
    one step later; that of a recording begins anywhere. */
-static void begin_strip_plot(const JoxDanger *d, const char *name, bool svg, int strips,
+static void begin_strip_plot(const JoxDanger *d, const char *name, bool svg, int strips, int height,
                              const char *title, FILE *script) {
     const double begun = d->begun > 1.0 ? d->begun : 0.0;
-    begin_danger_script(script, name, svg, WIDE, 60 + strips * STRIP, title);
+    begin_danger_script(script, name, svg, JOX_DANGER_STRIPS_WIDE, strips * height, title);
     fprintf(script,
-            "set multiplot layout %d,1 title heading font ',14' noenhanced\nset grid\n"
+            "set multiplot layout %d,1\nset grid\n"
             "set lmargin %d\nset rmargin %d\nset xlabel 'time (s)'\nset xrange [%g:%g]\n",
             strips, LEFT, RIGHT, begun,
             d->row_count ? fmax(d->rows[d->row_count - 1].time, begun + 1.0) : begun + 1.0);
@@ -174,23 +203,21 @@ static void begin_strip_plot(const JoxDanger *d, const char *name, bool svg, int
 /* Writes NAME.plt, which draws the same strips as PNG and SVG, and runs it. `write_strips`
    writes their commands. */
 static bool draw_strips(const JoxDanger *d, const char *folder, const char *name, const char *title,
-                        int strips, void (*write_strips)(const JoxDanger *d, FILE *script),
-                        JoxText *error) {
+                        int strips, int height,
+                        void (*write_strips)(const JoxDanger *d, FILE *script), JoxText *error) {
     char file[40];
+    if (strips == 0)
+        return true;
     snprintf(file, sizeof file, "%s.plt", name);
     FILE *script = jox_plot_open(folder, file, error);
     if (!script)
         return false;
     for (int svg = 0; svg < 2; svg++) {
-        begin_strip_plot(d, name, svg, strips, title, script);
+        begin_strip_plot(d, name, svg, strips, height, title, script);
         write_strips(d, script);
         fputs("unset multiplot\nset output\n", script);
     }
     return jox_plot_close(script, file, error) && jox_plot_draw(folder, file, error);
-}
-
-static bool has_flows(const JoxDanger *d) {
-    return d->lines.count > 0 && d->row_count > 0;
 }
 
 /* Writes the strips of danger.plt: measures, people over limits, and flows if there are lines. */
@@ -198,7 +225,8 @@ static void write_time_strips(const JoxDanger *d, FILE *script) {
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
         if (has_measure_strip(d, m))
             write_measure_strip(d, (JoxDangerMeasure)m, script);
-    write_count_strip(d, script);
+    if (is_anybody_over_a_limit(d))
+        write_count_strip(d, script);
     if (has_flows(d))
         write_flow_strip(d, script);
 }
@@ -213,10 +241,11 @@ static void write_level_colour(int level, FILE *script) {
    over time. */
 static void write_level_strips(const JoxDanger *d, FILE *script) {
     const int first = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS;
-    fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1 left top Left reverse "
-          "invert\nset style fill solid 1 noborder\nset title 'People at each level of service (A: "
-          "most room, F: least)'\nplot ",
+    fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1.05 left top Left reverse "
+          "invert maxcols 1 spacing 0.8 font ',10'\nset style fill solid 1 noborder\n",
           script);
+    set_strip_title(script, "People at each level of service (A: most room, F: least)");
+    fputs("plot ", script);
     /* stacked: the sum of all levels first, smaller sums over it */
     for (int k = JOX_LEVELS - 1; k >= 0; k--) {
         fprintf(script, "%s'danger.csv' skip 1 using 1:(%d", k < JOX_LEVELS - 1 ? ", " : "", 0);
@@ -229,10 +258,10 @@ static void write_level_strips(const JoxDanger *d, FILE *script) {
     fputc('\n', script);
     if (d->areas.count == 0)
         return;
-    fprintf(script,
-            "set yrange [%u.5:-0.5]\nunset ylabel\nset key noinvert\nset grid noytics\nset title "
-            "'Level of service of each area (blank: nobody is there)'\nset ytics (",
+    fprintf(script, "set yrange [%u.5:-0.5]\nunset ylabel\nset key noinvert\nset grid noytics\n",
             d->areas.count - 1);
+    set_strip_title(script, "Level of service of each area (blank: nobody is there)");
+    fputs("set ytics (", script);
     for (uint32_t a = 0; a < d->areas.count; a++) {
         fputs(a ? ", " : "", script);
         jox_quote_put(script, jox_quote_gnuplot, d->areas.items[a].name);
@@ -278,16 +307,12 @@ bool jox_danger_write(const JoxDanger *d, const char *folder, const char *title,
         return false;
     if (!title || d->row_count == 0)
         return true;
-    snprintf(heading, sizeof heading, "%.200s: danger over time", title);
-    if (!draw_strips(d, folder, "danger", heading, count_measure_strips(d) + 1 + has_flows(d),
-                     write_time_strips, error))
-        return false;
-    snprintf(heading, sizeof heading, "%.200s: who left", title);
-    if (has_leavers(d) &&
-        !draw_strips(d, folder, "leaving", heading, 1, write_leaving_strip, error))
-        return false;
-    snprintf(heading, sizeof heading, "%.200s: levels of service", title);
-    return write_level_stretches(d, folder, error) &&
-           draw_strips(d, folder, "levels", heading, 1 + (d->areas.count > 0), write_level_strips,
-                       error);
+    snprintf(heading, sizeof heading, "%.200s: ", title);
+    return draw_strips(d, folder, "danger", heading, jox_danger_count_strips(d), JOX_DANGER_STRIP,
+                       write_time_strips, error) &&
+           draw_strips(d, folder, "leaving", heading, has_leavers(d), JOX_DANGER_STRIP,
+                       write_leaving_strip, error) &&
+           write_level_stretches(d, folder, error) &&
+           draw_strips(d, folder, "levels", heading, jox_danger_count_level_strips(d),
+                       jox_danger_level_strip_height(d), write_level_strips, error);
 }

@@ -119,6 +119,7 @@ bool jox_maps_draw_plan(const JoxSubject *s, JoxText *error) {
             widen_plan_area(&p, low, high);
     }
     p.when = "plan";
+    p.panel = true;
     p.exits = exits;
     p.exit_count = s->exits->count;
     p.probes = probes;
@@ -146,14 +147,11 @@ static const struct Map {
     bool greatest;
     const char *title, *legend;
 } MAPS[] = {
-    {"density", JOX_DANGER_DENSITY, false, "Mean density " JOX_DENSITY_BY,
-     "people per m\xc2\xb2 " JOX_DENSITY_BY ", mean over time"},
-    {"density-greatest", JOX_DANGER_DENSITY, true, "Greatest density " JOX_DENSITY_BY,
-     "people per m\xc2\xb2 " JOX_DENSITY_BY ", greatest of all times"},
-    {"load-greatest", JOX_DANGER_LOAD, true, "Greatest load of people and walls",
-     "load from one side, N, held for 1 s"},
-    {"pressure-greatest", JOX_DANGER_PRESSURE, true, "Greatest crowd pressure",
-     "crowd pressure, 1/s\xc2\xb2, greatest of all times"},
+    {"density", JOX_DANGER_DENSITY, false, "Mean density", "people per m\xc2\xb2 " JOX_DENSITY_BY},
+    {"density-greatest", JOX_DANGER_DENSITY, true, "Greatest density",
+     "people per m\xc2\xb2 " JOX_DENSITY_BY},
+    {"load-greatest", JOX_DANGER_LOAD, true, "Greatest load", "load from one side, N"},
+    {"pressure-greatest", JOX_DANGER_PRESSURE, true, "Greatest crowd pressure", "per s\xc2\xb2"},
 };
 enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 
@@ -248,11 +246,14 @@ void jox_write_maps_html(FILE *out, const JoxSubject *s) {
         if (is_map_drawn(s, &MAPS[m])) {
             char caption[200];
             if (MAPS[m].measure == JOX_DANGER_DENSITY)
-                snprintf(caption, sizeof caption, "%s, cells of %.3g m, %s", MAPS[m].title,
-                         (double)s->grid->cell,
+                snprintf(caption, sizeof caption, "%s " JOX_DENSITY_BY ", cells of %.3g m, %s",
+                         MAPS[m].title, (double)s->grid->cell,
                          MAPS[m].greatest ? "greatest of all samples" : "mean of all samples");
             else
-                snprintf(caption, sizeof caption, "%s; %s", MAPS[m].title, MAPS[m].legend);
+                snprintf(caption, sizeof caption, "%s, %s", MAPS[m].title,
+                         MAPS[m].measure == JOX_DANGER_LOAD
+                             ? "N: of people, from one side, and of walls, held for 1 s"
+                             : "per s\xc2\xb2, of all samples");
             jox_html_figure(out, s->folder, MAPS[m].file, caption, false);
         }
     jox_html_panels_end(out);

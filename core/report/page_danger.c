@@ -3,6 +3,7 @@
 
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
+#include "report/danger_outputs.h"
 #include "report/page_parts.h"
 
 static const double WORTH = 0.01; /* least dose of a list of people */
@@ -17,8 +18,8 @@ static void add_line_figures(JoxPageFigures *f, const JoxDanger *danger) {
         jox_page_add_figure(f, "1/(m s)", line->flow_most, "greatest flow over %.60s", line->name);
         jox_page_add_figure(f, "s", known ? line->stop_and_go.seconds : NAN,
                             "time of stop-and-go at %.60s", line->name);
-        jox_page_add_figure(f, "1/s", line->growth_most, "greatest growth of the queue at %.60s",
-                            line->name);
+        jox_page_add_figure(f, "1/s", line->growth_most < 0.0 ? 0.0 : line->growth_most,
+                            "greatest growth of the queue at %.60s", line->name);
     }
 }
 
@@ -50,7 +51,7 @@ void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
         JoxDangerCount count = jox_danger_count(danger, l);
         const char *title = jox_danger_limits[l].title;
         bool read = jox_danger_has_measure(danger, jox_danger_limits[l].measure);
-        jox_page_add_figure(f, "", read ? count.people : NAN, "people ever over a %s", title);
+        jox_page_add_figure(f, "", read ? count.people : NAN, "people over a %s", title);
         jox_page_add_figure(f, "s", read ? count.person_s : NAN, "person-seconds over a %s", title);
         jox_page_add_figure(f, "s", read ? count.longest : NAN,
                             "longest time of one person over a %s", title);
@@ -80,10 +81,11 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
     char text[1280];
     jox_html_paragraph(
         out,
-        "Density is people per m2: each person is spread by a Gaussian of R = 1 m over the "
+        "Density is people per m\xc2\xb2: each person is spread by a Gaussian of R = 1 m over the "
         "floor within the walls, which let nothing through. Its greatest value is taken over all "
         "places; a person is over a limit if the density where they stand is. It is a mean over "
-        "some 3 m2. Voronoi density is one over the area of a person's Voronoi cell, which is "
+        "some 3 m\xc2\xb2. Voronoi density is one over the area of a person's Voronoi cell, which "
+        "is "
         "cut off at 1 m and ends at walls, as individual densities of PedPy are: the room of "
         "one person, which scatters more, and reads higher in a dense crowd.");
     snprintf(
@@ -91,10 +93,12 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
         "Crowd pressure is the mean density at a place times the variance over time of the local "
         "velocity there, over %g s, averaged over %g m by %g m around the place. It shows how "
         "the crowd as a whole is shaken to and fro, not how people walk past each other. It is "
-        "measured only where the crowd stood on at least %g m2 of that square at %g per m2 or "
+        "measured only where the crowd stood on at least %g m\xc2\xb2 of that square at %g per "
+        "m\xc2\xb2 or "
         "more all that time, and the variance does not come from a single change of the flow. "
         "So it does not show a knot of people before a door, a queue that starts to move, or a "
-        "whole crowd that sways slower than every 15 s. Its authors' limit of 0.02 per s2 is for "
+        "whole crowd that sways slower than every 15 s. Its authors' limit of 0.02 per s\xc2\xb2 "
+        "is for "
         "a section of 20 m by 14 m; recorded queues of people in no danger read 0.01 at most.%s",
         (double)JOX_PRESSURE_SPAN, (double)JOX_PRESSURE_SECTION, (double)JOX_PRESSURE_SECTION,
         (double)JOX_PRESSURE_FLOOR, (double)JOX_PRESSURE_LEAST,
@@ -129,9 +133,9 @@ static void put_limit_table(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     JoxPageTable table = jox_page_table(
         s, "limits",
-        "limit|>people ever over it|>time of all people over it [person-seconds]|>longest of one "
-        "person [s]|>first at [s]|where that was|>from then to the end [min]");
-    table.zero_rows = "Nobody was over, or it was not measured";
+        "limit|>people over it|>time of all people over it [person-seconds]|>longest of one "
+        "person [s]|>first at [s]|where that was");
+    table.zero_rows = "Limits that nobody was over, or that were not measured";
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
         const JoxDangerCount count = jox_danger_count(danger, l);
@@ -142,7 +146,6 @@ static void put_limit_table(FILE *out, const JoxSubject *s) {
         jox_table_number(&table, read ? count.longest : NAN);
         jox_table_number(&table, count.first);
         add_place(&table, s, count.first, count.first_at);
-        jox_table_number(&table, jox_danger_minutes_since(danger, count.first));
     }
     jox_table_put(out, &table);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
@@ -209,12 +212,11 @@ static void put_dose_table(FILE *out, const JoxSubject *s) {
     if (danger->people[order[0]].dose < WORTH) {
         char text[160];
         snprintf(text, sizeof text,
-                 "The greatest dose of a person was %.2g: a list of people begins at %g.",
-                 danger->people[order[0]].dose, WORTH);
+                 "No person's dose of load reached %g, from which on people are listed.", WORTH);
         jox_html_paragraph(out, text);
         return;
     }
-    jox_html_subheading(out, "Who bore most");
+    jox_html_subheading(out, "People with the greatest doses");
     jox_html_paragraph(out, "The people with the greatest doses; danger-people.csv lists all whose "
                             "dose is over 0.01 or whose load was over the first limit.");
     for (uint32_t k = 0; k < shown; k++) {
@@ -235,23 +237,27 @@ static void put_dose_table(FILE *out, const JoxSubject *s) {
 
 void jox_page_put_danger(FILE *out, const JoxSubject *s) {
     JoxText how = {0};
-    jox_html_heading(out, "Danger: who was over which limit");
+    jox_html_heading(out, "Density and load against published limits");
     put_limit_table(out, s);
     put_greatest_table(out, s);
-    jox_html_figure(out, s->folder, "danger",
-                    "Danger over time: density " JOX_DENSITY_BY
-                    " and crowd pressure anywhere on the "
-                    "floor, greatest of a sample; load of a person, mean over 1 s. Dashed lines: "
-                    "published limits near the curves.",
-                    true);
-    jox_html_subheading(out, "Where");
+    jox_html_strips(out, s->folder, "danger",
+                    "Density " JOX_DENSITY_BY
+                    " and crowd pressure anywhere on the floor, greatest of a sample each 0.5 s; "
+                    "load of a person, mean over 1 s. Dashed lines: published limits near the "
+                    "curves.",
+                    &(JoxStrips){.count = jox_danger_count_strips(s->danger),
+                                 .width = JOX_DANGER_STRIPS_WIDE,
+                                 .height = JOX_DANGER_STRIP});
+    jox_html_subheading(out, "Maps");
     jox_text_add(&how, "Densities of maps and moments: ");
     jox_page_say_kernel(s, &how);
-    jox_text_add(&how, ". \"Mean\" is the mean of the samples, \"greatest\" the greatest of them.");
+    jox_text_add(&how, ". \"Mean\" is the mean of the samples, \"greatest\" the greatest of them. "
+                       "Letters below a scale: Fruin's levels of service for "
+                       "queues.");
     jox_html_paragraph(out, how.data);
     jox_text_free(&how);
     jox_write_maps_html(out, s);
-    jox_html_subheading(out, "Telling moments");
+    jox_html_subheading(out, "Snapshots");
     jox_write_snapshots_html(out, s);
     put_dose_table(out, s);
 }

@@ -1,6 +1,5 @@
 /* The section on inputs of a run's page: who, how many, with what values as given and as drawn;
-   where they come in and leave; walls, gates and events; the model and what differs from its
-   defaults. */
+   where they come in and leave; walls, gates and events. page_model.c writes the model. */
 #include <math.h>
 #include <string.h>
 
@@ -142,7 +141,7 @@ static void say_quantity_source(const JoScene *scene, const JoxGroup *group, con
     if (!out->length && parameter >= 0)
         jox_text_add(out, "behaviour, or default");
     else if (!out->length)
-        jox_text_add(out, "by the radius, unless given");
+        jox_text_add(out, "by the radius");
 }
 
 /* Returns whether a value is the same for all people of its group, and that of the parameter by
@@ -344,7 +343,7 @@ static void add_opening(JoxPageTable *table, const char *name, const char *what,
 /* Writes the lines that people cross, with what walls leave of them, and the gates. */
 static void put_opening_table(FILE *out, const JoxWalls *walls, const JoxSubject *s) {
     JoxPageTable table =
-        jox_page_table(s, "openings", "door, line or gate|what it is|from, m|to, m|>width [m]");
+        jox_page_table(s, "openings", "door, line or gate|what it is|from [m]|to [m]|>width [m]");
     for (uint32_t l = 0; l < s->danger->lines.count; l++) {
         const JoxDangerLine *line = &s->danger->lines.items[l];
         add_opening(&table, line->name, "line: width that walls leave, at the end", line->a,
@@ -364,75 +363,6 @@ static void put_opening_table(FILE *out, const JoxWalls *walls, const JoxSubject
     jox_table_put(out, &table);
 }
 
-/* ---- the model ---- */
-
-/* Appends the constants of the walking law that differ from their defaults. */
-static void say_walking(const JoxWalkLaw *law, JoxText *out) {
-    static const struct {
-        const char *name;
-        double value;
-    } DEFAULTS[] = {
-#define X(name, unit, least, greatest, value, meaning) {#name, value},
-        JOX_WALK_CONSTANTS(X)
-#undef X
-    };
-    const double used[] = {
-#define X(name, unit, least, greatest, value, meaning) (double)law->name,
-        JOX_WALK_CONSTANTS(X)
-#undef X
-    };
-    for (size_t k = 0; k < sizeof used / sizeof *used; k++)
-        if (fabs(used[k] - DEFAULTS[k].value) > 1e-6 * fabs(DEFAULTS[k].value))
-            jox_text_printf(out, "%swalking.%s %.4g (default %.4g)", out->length ? ", " : "",
-                            DEFAULTS[k].name, used[k], DEFAULTS[k].value);
-}
-
-/* Writes facts on the model and on what the author or the command line set. */
-static void put_model_facts(FILE *out, const JoScene *scene) {
-    const JoxSceneSpec *spec = scene->spec;
-    const JoWorldDef *def = &scene->world->model.def;
-    JoxText other = {0}, sets = {0}, mods = {0}, plan = {0}, law = {0};
-    char step[64];
-    say_walking(&spec->walking, &other);
-    if (fabs(spec->gravity - 9.81) > 1e-9)
-        jox_text_printf(&other, "%sgravity %.4g m/s\xc2\xb2", other.length ? ", " : "",
-                        spec->gravity);
-    for (size_t k = 0; k < scene->def.override_count; k++)
-        jox_text_printf(&sets, "%s%s", k ? "; " : "", scene->def.overrides[k]);
-    for (uint32_t m = 0; m < scene->mods->count; m++)
-        jox_text_printf(&mods, "%s%s %s", m ? ", " : "", scene->mods->items[m].name,
-                        scene->mods->items[m].version);
-    jox_text_noun(&plan, scene->world->model.all_walls.ring_count, "wall");
-    jox_text_add(&plan, ", ");
-    jox_text_noun(&plan, spec->place_count, "place");
-    jox_text_add(&plan, ", ");
-    jox_text_noun(&plan, spec->body_count, "body|bodies");
-    if (spec->bounded)
-        jox_text_printf(&plan, "; bounds (%.4g, %.4g) to (%.4g, %.4g) m%s", (double)spec->low.x,
-                        (double)spec->low.y, (double)spec->high.x, (double)spec->high.y,
-                        spec->periodic_x || spec->periodic_y ? ", periodic" : "");
-    jox_text_add(&law, "people with a time gap: the walking law of Jostle (core/walking.md); "
-                       "others: ORCA");
-    jox_text_add(&law, !def->forces   ? "; no forces"
-                       : def->literal ? "; forces by the equations as printed by Kim et al. 2014"
-                                      : "; forces between people, walls and bodies");
-    snprintf(step, sizeof step, "%g s; Bullet at 1/60 s or less, if there are bodies", def->dt);
-    jox_html_facts(out);
-    jox_html_fact(out, "Walking and forces", law.data);
-    jox_html_fact(out, "Time step", step);
-    jox_html_fact(out, "Differs from defaults", other.data ? other.data : "nothing");
-    jox_html_fact(out, "Set for this run", sets.data ? sets.data : "nothing");
-    jox_html_fact(out, "Mods", mods.data ? mods.data : "none");
-    jox_html_fact(out, "Plan", plan.data);
-    jox_html_fact(out, "Assumptions and sources", spec->report.notes);
-    jox_html_table_end(out);
-    jox_text_free(&other);
-    jox_text_free(&sets);
-    jox_text_free(&mods);
-    jox_text_free(&plan);
-    jox_text_free(&law);
-}
-
 static bool has_gates(const JoxWalls *walls) {
     for (uint32_t r = 0; r < walls->ring_count; r++)
         if (walls->rings[r].name)
@@ -444,7 +374,7 @@ void jox_page_put_inputs(FILE *out, const JoScene *scene, const JoxSubject *s,
                          const JoxDrawnValues *drawn) {
     const JoxSceneSpec *spec = scene->spec;
     jox_html_heading(out, "Inputs");
-    put_model_facts(out, scene);
+    jox_page_put_model(out, scene);
     if (spec->group_count) {
         jox_html_subheading(out, "People");
         put_group_table(out, scene, s, drawn);

@@ -13,4 +13,7 @@
 void jox_page_put_inputs(FILE *out, const JoScene *scene, const JoxSubject *subject,
                          const JoxDrawnValues *drawn);
 
+/* Writes the facts on the model, and on what the author or the command line set. */
+void jox_page_put_model(FILE *out, const JoScene *scene);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
+#include "report/danger_outputs.h"
 #include "report/page_parts.h"
 #include "report/page_table.h"
 
@@ -38,8 +39,9 @@ static void put_area_levels(FILE *out, const JoxSubject *s) {
     const JoxDanger *danger = s->danger;
     JoxPageTable table = jox_page_table(
         s, "areas",
-        "area|>size [m2]|>most people at a time|>greatest mean density about its people "
-        "[1/m2]|>at [s]|>time at level A [s]|>at B [s]|>at C [s]|>at D [s]|>at E [s]|>at F [s]");
+        "area|>size [m2]|>most people at a time|>greatest mean density at its people "
+        "[1/m2]|>at [s]|>time at A [s]|>time at B [s]|>time at C [s]|>time at D [s]|>time at E "
+        "[s]|>time at F [s]");
     table.zero_rows = "Nobody was seen in";
     for (uint32_t a = 0; a < danger->areas.count; a++) {
         const JoxDangerArea *area = &danger->areas.items[a];
@@ -56,18 +58,40 @@ static void put_area_levels(FILE *out, const JoxSubject *s) {
     jox_table_put(out, &table);
 }
 
+/* Writes the plot of people at each level and of the level of each area; a sentence in its place if
+   all people were at one level all the time. */
+static void put_level_plot(FILE *out, const JoxSubject *s) {
+    const JoxDanger *danger = s->danger;
+    const int strips = jox_danger_count_level_strips(danger);
+    char text[160];
+    if (strips) {
+        jox_html_strips(
+            out, s->folder, "levels",
+            strips > 1 ? "Above: number of people at each level, by the density where they "
+                         "stand " JOX_DENSITY_BY ". Below: the level of each area, by its mean."
+                       : "Number of people at each level, by the density where they "
+                         "stand " JOX_DENSITY_BY ".",
+            &(JoxStrips){.count = strips,
+                         .width = JOX_DANGER_STRIPS_WIDE,
+                         .height = jox_danger_level_strip_height(danger)});
+        return;
+    }
+    for (int k = 0; k < JOX_LEVELS; k++)
+        if (danger->level_s[k] > 0.0) {
+            snprintf(text, sizeof text, "All people were at level %s all the time.",
+                     jox_levels[k].name);
+            jox_html_paragraph(out, text);
+        }
+}
+
 static void put_level_section(FILE *out, const JoxSubject *s) {
-    jox_html_heading(out, "Levels of service by area and time");
+    jox_html_heading(out, "Levels of service");
     jox_html_paragraph(
         out, "Levels for queues, by the area that each person has: 1 / density where they "
              "stand " JOX_DENSITY_BY ". An area "
              "is at the level of the mean density about the people in it; the maps of density have "
              "the same levels on their scales.");
-    jox_html_figure(
-        out, s->folder, "levels",
-        "Above: how many people were at each level, by the density where they stand " JOX_DENSITY_BY
-        ". Below: the level of each area, by its mean.",
-        true);
+    put_level_plot(out, s);
     put_area_levels(out, s);
     put_queue_levels(out, s);
     jox_html_statement(out, "Source of the levels:", jox_levels_source);
@@ -126,20 +150,20 @@ static void put_wall_section(FILE *out, const JoxSubject *s) {
     const JoxDangerWalls *walls = &danger->walls;
     jox_html_heading(out, "Loads on walls");
     if (!walls->known) {
-        jox_html_paragraph(out, "Not measured: loads on walls are not known here.");
+        jox_html_paragraph(out, "Not measured: the recording has no forces on walls.");
         return;
     }
     char text[400];
     snprintf(text, sizeof text,
              "Forces of people perpendicular to each piece of a side of a wall, at most 1 m long, "
              "as a mean over a second. The limit is %g N on a rail: %s (%s). %u of %u pieces were "
-             "ever over it.",
+             "over it at some time.",
              JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
-    JoxPageTable table = jox_page_table(
-        s, "wall-loads",
-        "from, m|to, m|>greatest load [N]|>per metre [N/m]|>at [s]|>load at the end [N]|>time over "
-        "4500 N [s]|>first over it at [s]");
+    JoxPageTable table = jox_page_table(s, "wall-loads",
+                                        "from [m]|to [m]|>greatest load [N]|>per metre [N/m]|>at "
+                                        "[s]|>load at the end [N]|>time over "
+                                        "4500 N [s]|>first over it at [s]");
     uint32_t order[JOX_PAGE_SHOWN],
         shown = jox_page_rank_greatest(danger, walls->count, greatest_load_of_piece, order);
     for (uint32_t k = 0; k < shown; k++) {
@@ -177,7 +201,7 @@ static void add_leaving_times(JoxPageTable *table, const JoxLeaving *leaving, in
 
 void jox_page_put_leaving(FILE *out, const JoxSubject *s) {
     const JoxLeaving *leaving = &s->danger->leaving;
-    jox_html_heading(out, "Who left when and where");
+    jox_html_heading(out, "Times of leaving");
     if (leaving->count == 0) {
         jox_html_paragraph(out, "Nobody left.");
         return;

@@ -79,10 +79,12 @@ static void put_line_counts(FILE *out, const JoxSubject *s) {
 /* Writes the greatest flow, the worst level, stop-and-go and the queue of each line. */
 static void put_line_flows(FILE *out, const JoxSubject *s) {
     const JoxDangerLines *lines = &s->danger->lines;
-    JoxPageTable table = jox_page_table(
-        s, "lines",
-        "line|>greatest flow [1/(m s)]|>at [s]|worst level|>time at A [s]|>B [s]|>C [s]|>D [s]|>E "
-        "[s]|>F [s]|>stop-and-go [s]|>first at [s]|>fastest growth of the queue [1/s]|>at [s]");
+    JoxPageTable table = jox_page_table(s, "lines",
+                                        "line|>greatest flow [1/(m s)]|>at [s]|worst level|>time "
+                                        "at A [s]|>time at B [s]|>time at C [s]|"
+                                        ">time at D [s]|>time at E [s]|>time at F [s]|>time of "
+                                        "stop-and-go [s]|>stop-and-go first at [s]|>"
+                                        "fastest growth of the queue [1/s]|>growth at [s]");
     table.zero_rows = "Nobody crossed, or less than ten seconds were measured";
     for (uint32_t l = 0; l < lines->count; l++) {
         const JoxDangerLine *line = &lines->items[l];
@@ -95,7 +97,7 @@ static void put_line_flows(FILE *out, const JoxSubject *s) {
             jox_table_number(&table, known ? line->level_s[k] : NAN);
         jox_table_number(&table, known ? line->stop_and_go.seconds : NAN);
         jox_table_number(&table, line->stop_and_go.first);
-        jox_table_number(&table, line->growth_most);
+        jox_table_number(&table, line->growth_most > 0.0 ? line->growth_most : NAN);
         jox_table_number(&table, line->growth_most > 0.0 ? line->growth_most_time : NAN);
     }
     jox_table_put(out, &table);
@@ -104,9 +106,8 @@ static void put_line_flows(FILE *out, const JoxSubject *s) {
 void jox_page_put_lines(FILE *out, const JoxSubject *s) {
     jox_html_heading(out, "Doors and other lines");
     if (s->danger->lines.count == 0) {
-        jox_html_paragraph(out,
-                           "Not measured: the scene has no probe `flow` with a line that people "
-                           "cross.");
+        jox_html_paragraph(
+            out, "Not measured: the scene names no line to measure (a probe of the kind flow).");
         return;
     }
     put_line_counts(out, s);

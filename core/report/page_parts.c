@@ -87,7 +87,9 @@ static bool is_nothing_figure(const JoxPageFigure *f) {
 static void put_difference(FILE *out, double whole, double half) {
     const double change = half - whole;
     fputs("<td class=n>", out);
-    if (isfinite(change) && whole != 0.0)
+    if (change == 0.0)
+        fputs("0", out);
+    else if (isfinite(change) && whole != 0.0)
         fprintf(out, "%+.3g (%+.1f&nbsp;%%)", change, 100.0 * change / fabs(whole));
     else if (isfinite(change))
         fprintf(out, "%+.3g", change);
@@ -142,8 +144,7 @@ void jox_page_put_figures(FILE *out, const JoxSubject *s, const JoxPageFigures *
         }
         if (strcmp(group, a->group) != 0) {
             group = a->group;
-            jox_html_row(out);
-            fputs("<th colspan=9>", out);
+            fputs("\n<tr class=group><th colspan=9>", out);
             jox_html_text(out, group);
         }
         jox_html_row(out);
@@ -154,7 +155,7 @@ void jox_page_put_figures(FILE *out, const JoxSubject *s, const JoxPageFigures *
     }
     jox_html_table_end(out);
     if (left_out) {
-        snprintf(text, sizeof text, "%u more %s 0 or not known; table-figures.csv has all.",
+        snprintf(text, sizeof text, "%u more %s 0 or not known; table-figures.csv has them, too.",
                  left_out, left_out == 1 ? "is" : "are");
         jox_html_paragraph(out, text);
     }
@@ -183,10 +184,10 @@ void jox_page_say_kernel(const JoxSubject *s, JoxText *out) {
 }
 
 void jox_page_put_validation(FILE *out) {
-    jox_html_heading(out, "What this is worth");
+    jox_html_heading(out, "Validation");
     jox_html_paragraph(
         out,
-        "The engine is compared with published measurements by the command `jostle reproduce`, "
+        "The engine is compared with published measurements by the command jostle reproduce, "
         "which writes a page of its own with every figure, its source, its band and whether it is "
         "met: scenes of Kim et al. 2014 (running through a crowd, two bottlenecks, stability over "
         "the time step), doors and bottlenecks (Wuppertal 2018; Seyfried et al. 2009; Kretz et al. "

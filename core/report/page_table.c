@@ -95,7 +95,7 @@ static void put_table_cell(FILE *out, const JoxTableCell *cell, const TableHead 
         fputs("<td class=n>", out);
         jox_html_text(out, cell->text);
     } else
-        jox_html_cell(out, cell->text);
+        jox_html_cell(out, cell->is_unit ? jox_html_unit(cell->text) : cell->text);
 }
 
 /* Writes the rows and columns that are not zero throughout. */
@@ -108,7 +108,7 @@ static void put_table_rows(FILE *out, const JoxPageTable *t, const TableHead *he
         jox_text_printf(&shown, "%s%s%s", shown.length ? "|" : "", heads[c].right ? ">" : "",
                         heads[c].name);
         if (*heads[c].unit)
-            jox_text_printf(&shown, ", %s", jox_html_unit(heads[c].unit));
+            jox_text_printf(&shown, ",\xc2\xa0%s", jox_html_unit(heads[c].unit));
     }
     jox_html_table(out, shown.data ? shown.data : "");
     jox_text_free(&shown);
@@ -142,7 +142,7 @@ static void put_left_out(FILE *out, const JoxPageTable *t, const TableHead *head
     }
     if (columns.length) {
         JoxText text = {0};
-        jox_text_printf(&text, "All 0 or not known, and not shown: %s.", columns.data);
+        jox_text_printf(&text, "Columns left out, as all is 0 or not known: %s.", columns.data);
         jox_html_paragraph(out, text.data);
         jox_text_free(&text);
     }

@@ -53,18 +53,18 @@ static void put_recording_validation(FILE *out, const JoxReport *r) {
     bool forces = jox_danger_has_measure(r->danger, JOX_DANGER_LOAD);
     jox_page_put_validation(out);
     jox_html_paragraph(
-        out,
-        forces
-            ? "None of that validates this recording. It is a simulated crowd; its geometry, "
-              "numbers of people, behaviours and parameters are what its author gave. "
-              "Load in particular is a model's: forces inside real crowds of this size "
-              "have hardly been measured, and the limits come from single persons and from "
-              "what was found after disasters. Read the limits as places and times to look "
-              "at, not as a count of injured."
-            : "All figures on this page follow from positions alone and are as accurate as these. "
-              "Velocities are displacements over 0.2 s before and after, unless the recording "
-              "gives them; body sway and tracking noise add to crowd pressure. Read "
-              "the limits as places and times to look at, not as a count of injured.");
+        out, forces
+                 ? "None of that validates this recording. It is a simulated crowd; its geometry, "
+                   "numbers of people, behaviours and parameters are what its author gave. "
+                   "Load in particular is a model's: forces inside real crowds of this size "
+                   "have hardly been measured, and the limits come from single persons and from "
+                   "what was found after disasters. Read the limits as places and times to look "
+                   "at, not as a count of injured."
+                 : "All figures of this report follow from positions alone and are as accurate as "
+                   "these. "
+                   "Velocities are displacements over 0.2 s before and after, unless the recording "
+                   "gives them; body sway and tracking noise add to crowd pressure. Read "
+                   "the limits as places and times to look at, not as a count of injured.");
 }
 
 /* Computes the SHA-256 of a file, mapped as it may be large; "-" if it cannot be mapped. */
@@ -96,7 +96,7 @@ static void put_recording_inputs(FILE *out, const JoxReport *r, const JoxSubject
                                  const char hash[65]) {
     char path[JOX_LONGEST_PATH];
     JoxPageTable table = jox_page_table(s, "files", "file|what it is|SHA-256");
-    jox_html_heading(out, "How to repeat it");
+    jox_html_heading(out, "How to repeat the report");
     fputs("<p><code>jostle report ", out);
     jox_html_argument(out, jox_page_path(r->def->recording, NULL, path));
     if (r->def->scene) {
@@ -151,7 +151,7 @@ static void put_recording_summary(FILE *out, const JoxReport *r, const JoxSubjec
     jox_text_free(&text);
     jox_summary_crowd(out, subject);
     jox_html_statement(
-        out, "What this is worth.",
+        out, "What is validated, and what is not.",
         jox_danger_has_measure(r->danger, JOX_DANGER_LOAD)
             ? "It is a simulated crowd: the engine is compared with published "
               "measurements (jostle reproduce), this scenario is not."
@@ -182,7 +182,7 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
         jox_page_put_criteria(out, &subject, verdicts, count);
         jox_page_put_crowd(out, &subject);
         put_recording_figures(out, r, &subject);
-        jox_html_heading(out, "How danger is measured");
+        jox_html_heading(out, "Definitions");
         jox_page_put_definitions(out, subject.danger);
         put_recording_validation(out, r);
         put_recording_inputs(out, r, &subject, hash);

@@ -64,21 +64,23 @@ static JoxPageFigures collect_run_figures(const JoScene *scene) {
     const JoxProbe *probe;
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
         jox_page_add_probe(&f, probe);
-    f.group = "The simulation itself";
-    jox_page_add_figure(&f, "", jox_statistics_overlap_p99(s),
-                        "overlap that 99 %% stay below, share of a person's depth");
+    f.group = "Accuracy of the simulation";
+    jox_page_add_figure(
+        &f, "", jox_statistics_overlap_p99(s),
+        "overlap of two people that 99 %% of people stay below, share of a person's depth");
     jox_page_add_figure(&f, "m", jox_statistics_depth_p99(s),
-                        "overlap that 99 %% of those who touch stay below");
+                        "overlap of two people that 99 %% of those who touch stay below");
     jox_page_add_figure(
         &f, "", jox_statistics_overlap_share(s, JOX_TRUST_OVERLAP),
         "share of people's time in which they overlap by more than %.0f %% of their depth",
         100.0 * JOX_TRUST_OVERLAP);
     jox_page_add_figure(&f, "", jox_statistics_share(s, s->failures),
-                        "share of agent-steps whose 2-D program failed");
+                        "share of steps of people in which no velocity met all constraints");
     jox_page_add_figure(&f, "", jox_statistics_share(s, s->turned_aside),
-                        "share of agent-steps turned aside (no equation of the paper)");
+                        "share of steps of people in which they turned aside to get past others");
     jox_page_add_figure(&f, "", jox_statistics_share(s, s->plans_bounded),
-                        "share of agent-steps whose plans were bounded (no equation of the paper)");
+                        "share of steps of people in which their contacts or forces asked for more "
+                        "than they can do");
     return f;
 }
 
@@ -188,8 +190,15 @@ static void put_run_summary(FILE *out, const JoScene *scene, const JoxSubject *s
 
 /* Writes the figures that only pages of runs have: regions and paths. */
 static void put_run_pictures(FILE *out, const JoScene *scene, const char *directory) {
-    if (jox_run_regions(scene))
+    const JoxRegions *regions = jox_run_regions(scene);
+    uint64_t people = 0;
+    for (uint32_t r = 0; regions && r < regions->count; r++)
+        people += regions->items[r].people;
+    if (people)
         jox_html_figure(out, directory, "regions", "Mean speed of the regions", false);
+    else if (regions)
+        jox_html_paragraph(out, "Mean speed of the regions: nothing was measured, as nobody was in "
+                                "a region at a sample (each 2 s).");
     if (scene->world->state.agents.next_id <= JOX_MOST_PATHS)
         jox_html_figure(out, directory, "paths", "Paths of all people", false);
 }
@@ -214,11 +223,16 @@ static void put_model_notes(FILE *out, const JoScene *scene) {
     jox_diag_free(&notes);
 }
 
-/* Adds a file with its hash. */
+/* Adds a file with its hash, unless it is in the table: behaviours share modules. */
 static void add_input_file(JoxPageTable *table, const JoScene *scene, const char *what,
                            const char *path, const char *sha256) {
     char shown[JOX_LONGEST_PATH];
-    jox_table_text(table, jox_page_path(path, scene->spec->path, shown));
+    jox_page_path(path, scene->spec->path, shown);
+    for (uint32_t k = 0; k + 2 < table->count; k += table->columns)
+        if (strcmp(table->cells[k].text, shown) == 0 &&
+            strcmp(table->cells[k + 2].text, sha256) == 0)
+            return;
+    jox_table_text(table, shown);
     jox_table_text(table, what);
     jox_table_text(table, sha256);
 }
@@ -229,7 +243,7 @@ static void put_run_inputs(FILE *out, const JoScene *scene, const JoxSubject *s)
     const JoWorld *world = scene->world;
     char path[JOX_LONGEST_PATH];
     JoxPageTable table = jox_page_table(s, "files", "file|what it is|SHA-256");
-    jox_html_heading(out, "How to repeat it");
+    jox_html_heading(out, "How to repeat the run");
     fputs("<p><code>jostle run ", out);
     jox_html_argument(out, jox_page_path(def->path, NULL, path));
     fprintf(out, " --seed %llu --dt %g --steps %llu", (unsigned long long)world->model.def.seed,
@@ -247,7 +261,8 @@ static void put_run_inputs(FILE *out, const JoScene *scene, const JoxSubject *s)
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            add_input_file(&table, scene, "behaviour", files[f].path, files[f].sha256);
+            add_input_file(&table, scene, f ? "module" : "behaviour", files[f].path,
+                           files[f].sha256);
     }
     if (scene->input_path)
         add_input_file(&table, scene, "input log", scene->input_path, scene->input_sha256);
@@ -316,13 +331,13 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
         jox_page_put_crowd(out, &subject);
         put_run_pictures(out, scene, directory);
         put_run_figures(out, &subject, scene, half, why);
-        jox_html_heading(out, "How danger is measured");
+        jox_html_heading(out, "Definitions");
         jox_page_put_definitions(out, subject.danger);
         jox_page_put_validation(out);
         jox_html_paragraph(
             out,
             "None of that validates this scenario. Its geometry, numbers of people, behaviours "
-            "and parameters are what its author gave; nothing on this page was compared with a "
+            "and parameters are what its author gave; nothing in this report was compared with a "
             "crowd that did this here. Load in particular is a model's: forces inside real crowds "
             "of this size have hardly been measured, the contacts are those of rigid outlines, "
             "and the limits come from single persons and from what was found after disasters. "

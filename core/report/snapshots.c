@@ -22,7 +22,7 @@ static void write_moment_names(const JoxSubject *s, int kind, char title[128], c
         snprintf(title, 128, "At the start%s",
                  is_same_moment(s, JOX_MOMENT_DENSEST, kind) ? ": densest" : "");
     else if (kind == JOX_MOMENT_DENSEST)
-        snprintf(title, 128, "Greatest density " JOX_DENSITY_BY);
+        snprintf(title, 128, "Greatest density");
     else if (kind == JOX_MOMENT_HALF)
         snprintf(title, 128, "Half have left");
     else if (s->inside == 0)

@@ -48,7 +48,7 @@ static void put_leaving_summary(FILE *out, const JoxSubject *s) {
                             ? "1 person was"
                             : (jox_noun(people, s->inside, "person|people were"), people),
                         s->until);
-        put_summary_statement(out, "Who got out when.", &text);
+        put_summary_statement(out, "Who left when.", &text);
         return;
     }
     if (s->inside)
@@ -61,7 +61,7 @@ static void put_leaving_summary(FILE *out, const JoxSubject *s) {
                     jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.5),
                     jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.95), s->exits->last);
     say_exits(s, &text);
-    put_summary_statement(out, "Who got out when.", &text);
+    put_summary_statement(out, "Who left when.", &text);
     if (s->inside)
         jox_text_printf(&text, "No. %s still inside at %.1f s, the end of what was measured.",
                         s->inside == 1 ? "1 person was"
@@ -159,7 +159,7 @@ static void put_load_summary(FILE *out, const JoxSubject *s) {
     if (!jox_danger_has_measure(s->danger, JOX_DANGER_LOAD))
         return;
     say_measure(s, JOX_DANGER_LOAD, &text);
-    put_summary_statement(out, "What people bore.", &text);
+    put_summary_statement(out, "Loads on people.", &text);
 }
 
 static void put_pressure_summary(FILE *out, const JoxSubject *s) {

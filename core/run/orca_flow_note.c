@@ -1,5 +1,5 @@
-/* Looks for groups that walk by ORCA in scenes whose probes measure flow. `jostle check` and
-   reports add the note. */
+/* Tells by which law groups walk, and notes groups that walk by ORCA in scenes whose probes measure
+   flow. `jostle check` and reports add the note. */
 #include <string.h>
 
 #include "run/orca_flow_note.h"
@@ -62,6 +62,23 @@ static const JoxState *find_orca_state(const JoxMachine *machine) {
             !keeps_time_gap(machine, &machine->states[s]))
             return &machine->states[s];
     return NULL;
+}
+
+bool jox_run_group_walks_by(const JoScene *scene, uint32_t number, bool orca) {
+    const JoxGroup *group = &scene->spec->groups[number];
+    for (uint32_t s = 0; s < group->set_count; s++)
+        if (strcmp(group->set[s].name, jox_parameters[JOX_PARAM_time_gap].name) == 0)
+            return orca ==
+                   !(group->set[s].dist.kind != JOX_DIST_CONSTANT || group->set[s].dist.a > 0.0);
+    for (uint32_t m = 0; m < group->mix_count; m++) {
+        const int32_t index = jox_run_find_machine(scene, group->mix[m].behaviour);
+        const JoxMachine *machine = index < 0 ? NULL : scene->world->model.machines.items[index];
+        for (uint32_t s = 0; machine && s < machine->state_count; s++)
+            if (steers_toward_goal(&machine->states[s]) &&
+                keeps_time_gap(machine, &machine->states[s]) != orca)
+                return true;
+    }
+    return false;
 }
 
 bool jox_run_note_orca_flow(const JoScene *scene, JoxDiagnostics *diagnostics) {

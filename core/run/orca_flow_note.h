@@ -9,4 +9,8 @@
    the first such group. False: there is none. */
 bool jox_run_note_orca_flow(const JoScene *scene, JoxDiagnostics *diagnostics);
 
+/* Returns whether people of a group walk somewhere, in some state, by ORCA, or (`orca` false) by
+   the walking law. */
+bool jox_run_group_walks_by(const JoScene *scene, uint32_t group, bool orca);
+
 #endif

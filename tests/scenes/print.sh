@@ -1,5 +1,6 @@
 # A report's page on paper: printed by chromium, read by poppler.
 . tests/scenes/lib.sh
+python=$(command -v /usr/bin/python3 || command -v python3) # Debian's has numpy
 "$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --set 'report.author=A. Engineer' --set 'report.organisation=Crowd </style> "Safety"' \
     --set report.date=2026-05-04 --report "$work/page" >/dev/null 2>&1
 verdict "a run with a report" $?
@@ -16,7 +17,7 @@ pdftotext "$work/page.pdf" - | tr -d '\f' >"$work/page.txt"
 sed -n 's/^<h2[^>]*>\(.*\)<\/h2>$/\1/p' "$work/page/index.html" | sed 's/&ensp;/ /' >"$work/heads"
 tr -s ' \342\200\202' ' ' <"$work/page.txt" >"$work/plain.txt"
 [ "$(grep -c . "$work/heads")" -ge 10 ] && [ "$(grep -xFf "$work/heads" "$work/plain.txt" | awk '!seen[$0]++')" = "$(cat "$work/heads")" ]; verdict "all sections are there, with numbers, in order" $?
-pictures=$(grep -c '<img' "$work/page/index.html")
+pictures=$(grep -o '<img src="[^"]*"' "$work/page/index.html" | sort -u | wc -l)
 # pdfimages lists each picture once; a missing picture has no row.
 between "number of pictures" "$(pdfimages -list "$work/page.pdf" | awk 'NR > 2 && $3 == "image" && $4 > 500' | sort -u -k11,11 | wc -l)" "$pictures" "$pictures"
 # Each page has its running head and number, and no word over the margins.
@@ -42,6 +43,22 @@ PYTHON
 pdftotext -bbox "$work/page.pdf" "$work/boxes"
 python3 "$work/pages.py" "$work/boxes" "$pages"
 ! grep -q "$work\|/home\|/tmp" "$work/page.txt"; verdict "no page has a path of this machine" $?
+# Pages are filled: each but the last has ink in its last third, below a third of blank lines at most.
+cat >"$work/ink.py" <<'PYTHON'
+import glob, sys
+import numpy as np
+blank, first = [], 0
+for path in sorted(glob.glob(sys.argv[1] + "-*.pgm"))[:-1]:
+    with open(path, "rb") as file:
+        words, size, _, pixels = file.read().split(b"\n", 3)
+    width, height = map(int, size.split())
+    page = np.frombuffer(pixels, np.uint8)[: width * height].reshape(height, width)
+    body = np.nonzero((page[: int(height * 0.945)] < 200).any(axis=1))[0]  # without the foot
+    blank.append(1 - body[-1] / (height * 0.945))
+print("ok no page ends more than a third empty (%.0f %% at most)" % (100 * max(blank)) if max(blank) < 1 / 3
+      else "not ok pages end empty: " + ", ".join("%.0f %%" % (100 * b) for b in blank))
+PYTHON
+pdftoppm -r 20 -gray "$work/page.pdf" "$work/ink" && "$python" "$work/ink.py" "$work/ink"
 # The same test fails for a page with a cell that is too wide, and without the running head.
 sed 's/<td>scenes\/evacuation.yaml/<td style="white-space:nowrap">a name that fits no page, as it is not broken, and goes on and on and on, and on and on and on, to the end/; s/@top-left/@top-centre/' \
     "$work/page/index.html" >"$work/page/wide.html"

@@ -12,7 +12,8 @@ enum { TOLD = 8 }; /* regions that summaries list */
 
 const char jox_congestion_source[] =
     "IMO MSC.1/Circ.1533, advanced method, as its open implementations quote it: local density "
-    "above 4 per m2, significant where a region stays so for longer than 10 % of the time that "
+    "above 4 per m\xc2\xb2, significant where a region stays so for longer than 10 % of the time "
+    "that "
     "everybody takes to leave";
 
 JoxCongestion jox_congestion_create(const JoxDensity *grid) {

@@ -14,8 +14,9 @@ static const double DENSE = 3.5;   /* 1/m2: density of stop-and-go */
 static const double HAIR = 1e-6;   /* s: tolerance, as times are sums of steps */
 
 const char jox_stop_and_go_source[] =
-    "outflow below 0.8 per m s: Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007; the "
-    "density, 3.5 per m2, is that of IMO's simplified method";
+    "outflow below 0.8 per m and s: Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007; "
+    "the "
+    "density, 3.5 per m\xc2\xb2, is that of IMO's simplified method";
 
 void jox_danger_lines_add(JoxDangerLines *lines, const char *name, JoxV2 a, JoxV2 b) {
     const double length = (double)jox_length(jox_sub(b, a));

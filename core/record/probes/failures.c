@@ -45,8 +45,9 @@ static void add_failures_figures(const JoxProbeDef *def, const void *state, JoxF
             peak_time = def->from + (b + 0.5) * def->every;
         }
     }
-    jox_figure_add(out, "agent_steps", "agent-steps measured", "", (double)sum.all);
-    jox_figure_add(out, "share", "share whose 2-D program failed", "", compute_failure_share(sum));
+    jox_figure_add(out, "agent_steps", "steps of people measured", "", (double)sum.all);
+    jox_figure_add(out, "share", "share in which no velocity met all constraints", "",
+                   compute_failure_share(sum));
     jox_figure_add(out, "peak", "greatest share of an interval", "", peak);
     jox_figure_add(out, "peak_time", "time of the greatest share", "s", peak_time);
 }

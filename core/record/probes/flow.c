@@ -168,7 +168,8 @@ static void add_flow_figures(const JoxProbeDef *def, const void *state, JoxFigur
     for (size_t i = 1; i < count; i++)
         lapses[i - 1] = times[i] - times[i - 1];
     size_t gaps = count ? count - 1 : 0;
-    jox_figure_add(out, "passages", "passages, without revoked ones", "", (double)count);
+    jox_figure_add(out, "passages", "people who passed, less those who came back", "",
+                   (double)count);
     jox_figure_add(out, "forward", "crossings from right to left of the line", "", f->forward);
     jox_figure_add(out, "back", "crossings from left to right of the line", "", f->back);
     jox_figure_add(out, "flow", "flow over the middle 60 % of the passages", "1/s", flow);

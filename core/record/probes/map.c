@@ -169,7 +169,7 @@ static void add_map_figures(const JoxProbeDef *def, const void *state, JoxFigure
     for (size_t c = 0; c < count_map_cells(m->local->grid); c++)
         pressure = fmax(pressure, m->measured[c] ? m->pressure[c] / m->measured[c] : NAN);
     jox_figure_add(out, "samples", "samples", "", m->samples);
-    jox_figure_add(out, "density_max", "greatest density by the Gaussian of `kernel`", "1/m2",
+    jox_figure_add(out, "density_max", "greatest density (Gaussian of the caption)", "1/m2",
                    m->samples ? m->density_most : NAN);
     jox_figure_add(out, "density_max_x", "x of the greatest density", "m",
                    m->samples ? m->density_at.x : NAN);

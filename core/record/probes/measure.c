@@ -244,7 +244,7 @@ static void plot_measure(const JoxProbeDef *def, const void *state, bool walls, 
     }
     jox_text_printf(out,
                     "unset title\nset multiplot layout 2,2 title heading font ',14' "
-                    "noenhanced\nset key top right opaque\nset yrange [0:*]\n"
+                    "noenhanced\nset key above\nset yrange [0:*]\n"
                     "set xlabel 'time (s)'\nset ylabel 'density (1/m\xc2\xb2)'\n"
                     "plot csv skip 1 using 1:4 with lines lw 2 lc '#1f77b4' title 'Voronoi', "
                     "'' skip 1 using 1:3 with lines lw 1 lc '#999999' title 'classical'\n"

@@ -182,7 +182,7 @@ void jox_probe_csv(const JoxProbe *p, FILE *out) {
     p->calls->csv(&p->def, p->state, out);
 }
 
-void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width, int *height) {
+void jox_probe_plot_size(const JoxProbe *p, int *width, int *height) {
     *width = p->calls->width;
     *height = p->calls->height;
     if (*height == 0) {
@@ -190,6 +190,10 @@ void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width
         float ratio = jox_clampf(wide > 0.0f ? high / wide : 1.0f, 0.3f, 1.5f);
         *height = (int)((float)*width * ratio);
     }
+}
+
+void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width, int *height) {
+    jox_probe_plot_size(p, width, height);
     if (p->last_interval != INT64_MIN || !(p->def.from > 0.0)) {
         p->calls->plot(&p->def, p->state, walls, commands);
         return;

@@ -56,6 +56,8 @@ void jox_probe_csv(const JoxProbe *probe, FILE *out);
 /* Appends the gnuplot commands that draw NAME.csv, and sets the size of the plot in pixels. With
    `walls`, walls.dat is drawn too. */
 void jox_probe_plot(const JoxProbe *probe, bool walls, JoxText *commands, int *width, int *height);
+/* Returns the size of that plot, px. */
+void jox_probe_plot_size(const JoxProbe *probe, int *width, int *height);
 const JoxProbeDef *jox_probe_def(const JoxProbe *probe);
 /* Returns the name of its kind: "flow", "measure", ... */
 const char *jox_probe_kind_name(const JoxProbe *probe);

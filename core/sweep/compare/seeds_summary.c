@@ -70,7 +70,7 @@ static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSide
     JoxText text = {0};
     if (last.runs == 0) {
         jox_text_printf(&text, "In no run did anybody leave within %.4g s.", drawn->subject.until);
-        put_seeds_statement(out, "Who got out when.", &text);
+        put_seeds_statement(out, "Who left when.", &text);
         return;
     }
     jox_text_add(&text, "Half of those who left had done so by ");
@@ -92,7 +92,7 @@ static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSide
             jox_text_printf(&text, ", the last at %.1f s", then.median);
     }
     jox_text_add(&text, drawn->exits.count ? "." : "");
-    put_seeds_statement(out, "Who got out when.", &text);
+    put_seeds_statement(out, "Who left when.", &text);
     if (inside.most > 0) {
         jox_text_printf(&text, "%s in %u of %u runs. At the end, %.4g s, ",
                         clear.runs ? "Not always:" : "No:", clear.runs, side->runs,
@@ -170,7 +170,7 @@ static void put_danger_statements(FILE *out, const JoxSide *side, const JoxSideD
         jox_spread_add_text(&load, "N", false, &text);
         jox_text_add(&text, ".");
         add_exceeded_limits(side, JOX_DANGER_LOAD, &text);
-        put_seeds_statement(out, "What people bore.", &text);
+        put_seeds_statement(out, "Loads on people.", &text);
     }
     if (pressure.runs) {
         jox_text_printf(&text, "Crowd pressure was measured in %u of %u runs; the greatest was ",
