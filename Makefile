@@ -125,7 +125,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install install-built uninstall dist deb deb-check clean test-all format
+.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm matrix soak install install-built uninstall dist deb deb-check clean test-all format
 LIBRARIES := jostle jostle-tools
 all: $(B)/jostle $(if $(filter 0,$(VIEW)),,$(PAGE)/main.js) $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
@@ -193,6 +193,10 @@ check:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all
 	@B=$(B) SHARED=$(SHARED) .ci/suite check
+# Analyses the C sources with cppcheck.
+analyse:
+	@.ci/setup test
+	@B=$(B) .ci/analyse
 tests-built: $(B)/units
 # Runs the fuzzer that FUZZ names, or all, for TIME seconds each, by libFuzzer in a build of their own.
 TIME ?= 60

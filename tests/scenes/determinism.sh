@@ -133,6 +133,6 @@ compare office --set groups.people.count=300 --for 5 --input tests/data/session.
 for file in scenes/*.yaml; do
     less=$(.ci/smaller "$file")
     same_hash "$file, short" "$(hash_of "$JOSTLE" "$file" --for 4 $less)" \
-        "$(hash_of "$JOSTLE" "$file" --for 4 $less --threads 2)" "$(hash_of build/debug/jostle "$file" --for 4 $less --isa scalar)"
+        "$(hash_of "$JOSTLE" "$file" --for 4 $less --threads 2)" "$(hash_of build/clang/jostle "$file" --for 4 $less --isa scalar)"
 done
 exit 0
