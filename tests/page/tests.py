@@ -229,7 +229,7 @@ def check_dressed(browser):
     expect(len(kinds) > 20 and not wrong, f"these kinds have no shape: {wrong}")
     meshes, triangles, material = browser.run("""const ground = page.view.ground;
         const made = ground.group.children.filter((n) => [ground.scenery.material, ground.scenery.paintMaterial].includes(n.material));
-        return [made.length, made.reduce((sum, n) => sum + n.geometry.attributes.position.count / 3, 0), ground.uniforms.material.value]""")
+        return [made.length, made.reduce((sum, n) => sum + n.geometry.attributes.position.count / 3, 0), ground.floor.material.defines.MATERIAL]""")
     expect(meshes == 2 and 5000 < triangles < 300000 and material == 1, f"scenery: {meshes} meshes of {triangles} triangles on floor {material}")
 
 

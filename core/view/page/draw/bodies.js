@@ -51,7 +51,7 @@ export class Bodies {
         });
         this.shadeMaterial = new THREE.RawShaderMaterial({
             uniforms: this.uniforms, vertexShader: BODY_SHADE_VERTEX, fragmentShader: BODY_SHADE_FRAGMENT,
-            transparent: true, depthWrite: false, side: THREE.DoubleSide,
+            transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true,
         });
         this.group = new THREE.Group();
         this.radii = []; // m, of a sphere around each body

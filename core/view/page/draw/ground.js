@@ -52,14 +52,14 @@ export class Ground {
             field: { value: null }, ramp: { value: texture(table("value"), 256, 1, THREE.RGBAFormat) },
             cover: { value: new THREE.Vector4() }, gain: { value: 1 },
             shade: { value: null }, shaded: { value: new THREE.Vector4() },
-            material: { value: 0 }, dim: { value: 1 }, extent: { value: new THREE.Vector3(0, 0, 1) },
+            dim: { value: 1 }, extent: { value: new THREE.Vector3(0, 0, 1) },
             sky: { value: new THREE.Color() }, zenith: { value: new THREE.Color() },
         };
         // Camera position for lowering walls, and the box of the floor that they must not hide, m.
         this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 }, edge: { value: 0.4 } };
         const material = new THREE.ShaderMaterial({
             uniforms: this.uniforms, vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT,
-            depthWrite: false,
+            depthWrite: false, defines: { MATERIAL: 0 },
         });
         this.floor = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), material);
         this.floor.frustumCulled = false;
@@ -100,7 +100,7 @@ export class Ground {
         this.floor.geometry = new THREE.PlaneGeometry(x1 - x0 + 2 * margin, y1 - y0 + 2 * margin);
         this.floor.geometry.translate((x0 + x1) / 2, (y0 + y1) / 2, 0);
         this.uniforms.spacing.value = Math.max(x1 - x0, y1 - y0) > 80 ? 10 : 1;
-        this.uniforms.material.value = Math.max(0, MATERIALS.indexOf(scene.floor));
+        this.cover(Math.max(0, MATERIALS.indexOf(scene.floor)));
         this.uniforms.extent.value.set((x0 + x1) / 2, (y0 + y1) / 2, Math.max(8, Math.hypot(x1 - x0, y1 - y0)));
         this.group.add(this.floor, this.sky);
         const box = boxOf(this.walls.flatMap((w) => w.points ?? []));
@@ -116,6 +116,14 @@ export class Ground {
         this.addLines(places, this.colours.place, 0.9);
         this.addLines(regions, this.colours.region, 0.6);
         this.gates();
+    }
+
+    /** Gives the floor a material of MATERIALS. */
+    cover(number) {
+        const { material } = this.floor;
+        if (material.defines.MATERIAL === number) return;
+        material.defines.MATERIAL = number;
+        material.needsUpdate = true;
     }
 
     /** Sets the camera's position; from above no wall hides anything. */

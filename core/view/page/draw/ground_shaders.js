@@ -34,11 +34,9 @@ export const WALL_EDGE_FRAGMENT = `
 uniform vec3 colour;
 void main() { gl_FragColor = vec4(colour, 1.0); }`;
 
-/** The floor's materials, in the order of MATERIALS; how fields and shade lie over them; how it fades into the sky. */
+/** How fields and shade lie over the floor, and how it fades into the sky. */
 const ON_FLOOR = `
 uniform vec3 base, line, sky;
-uniform float spacing;     // m between thin lines; every fifth is thicker
-uniform int material;
 uniform float dim;         // factor of the materials' colours: a dark page has darker floors
 uniform sampler2D field, ramp;
 uniform vec4 cover;        // x0, y0, width, height of the field, m; width 0: none
@@ -47,6 +45,35 @@ uniform vec4 shaded;       // its area, as of cover; width 0: none
 uniform float gain;        // factor of the field's values, so that people and floor share a scale
 uniform vec3 extent;       // x, y of the scene's middle; distance up to which the floor is quite visible, m
 varying vec2 ground;
+/* The field, the shade of walls and the distance over a colour of the floor. */
+vec3 onFloor(vec3 colour) {
+    if (cover.z > 0.0) {
+        vec2 at = (ground - cover.xy) / cover.zw;
+        if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) {
+            float v = gain * texture2D(field, at).r;
+            if (v > 0.004) colour = mix(colour, texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.2 + 3.0 * v));
+        }
+    }
+    if (shaded.z > 0.0) {
+        vec2 at = (ground - shaded.xy) / shaded.zw;
+        // Weaker where a field's colours have to be read.
+        if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))))
+            colour *= 1.0 - (cover.z > 0.0 ? 0.25 : 0.6) * texture2D(shade, at).a;
+    }
+    float far = distance(ground, extent.xy) / extent.z;
+    return mix(colour, sky, smoothstep(1.0, 3.2, far));
+}`;
+
+export const FLOOR_VERTEX = `
+varying vec2 ground;
+void main() {
+    ground = position.xy;
+    gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+}`;
+
+/** The floor's materials, by MATERIAL in the order of MATERIALS: a shader of one, as a processor that draws compiles for long. */
+const FLOOR_COLOUR = `
+uniform float spacing;     // m between thin lines; every fifth is thicker
 float random(vec2 cell) {
     vec3 p = fract(vec3(cell.xyx) * vec3(0.1031, 0.1030, 0.0973));
     p += dot(p, p.yzx + 33.33);
@@ -75,62 +102,40 @@ float lines(float every, float wide) {
 }
 vec3 floorColour() {
     float own, joint;
-    if (material == 0) return mix(base, line, max(0.35 * lines(spacing, 1.0), 0.8 * lines(5.0 * spacing, 1.3)));
+#if MATERIAL == 0
+    return mix(base, line, max(0.35 * lines(spacing, 1.0), 0.8 * lines(5.0 * spacing, 1.3)));
+#else
     vec3 c;
-    if (material == 1) { // marble
-        joint = tiles(vec2(1.6), 0.0, 0.012, own);
-        float vein = grain(2.3) + 0.5 * grain(0.7);
-        c = vec3(0.885, 0.875, 0.85) * (1.0 + 0.03 * own + 0.035 * vein - 0.1 * joint);
-    } else if (material == 2) { // asphalt
-        c = vec3(0.60, 0.61, 0.63) * (1.0 + 0.10 * grain(0.05) + 0.06 * grain(0.3) + 0.07 * grain(4.0));
-    } else if (material == 3) { // concrete
-        joint = tiles(vec2(3.0), 0.0, 0.015, own);
-        c = vec3(0.79, 0.785, 0.77) * (1.0 + 0.02 * own + 0.05 * grain(1.7) + 0.03 * grain(0.12) - 0.12 * joint);
-    } else if (material == 4) { // grass
-        c = mix(vec3(0.47, 0.58, 0.34), vec3(0.58, 0.67, 0.42), 0.5 + 0.7 * grain(5.0) + 0.5 * grain(1.1)) * (1.0 + 0.16 * grain(0.11));
-    } else if (material == 5) { // wood
-        joint = tiles(vec2(1.8, 0.14), 0.37, 0.003, own);
-        c = vec3(0.80, 0.68, 0.52) * (1.0 + 0.09 * own + 0.05 * grain(0.5) - 0.16 * joint);
-    } else if (material == 6) { // court
-        c = vec3(0.66, 0.74, 0.72) * (1.0 + 0.025 * grain(3.0) + 0.03 * grain(0.06));
-    } else if (material == 7) { // sand
-        c = vec3(0.88, 0.81, 0.67) * (1.0 + 0.06 * grain(2.5) + 0.05 * grain(0.6) + 0.08 * grain(0.05));
-    } else if (material == 8) { // paving
-        joint = tiles(vec2(0.6, 0.4), 0.5, 0.012, own);
-        c = vec3(0.78, 0.755, 0.715) * (1.0 + 0.08 * own + 0.05 * grain(3.1) - 0.16 * joint);
-    } else { // carpet
-        joint = tiles(vec2(0.5), 0.0, 0.002, own);
-        c = vec3(0.68, 0.71, 0.74) * (1.0 + 0.03 * own + 0.08 * grain(0.04) + 0.02 * grain(2.0));
-    }
+#if MATERIAL == 1 // marble
+    joint = tiles(vec2(1.6), 0.0, 0.012, own);
+    float vein = grain(2.3) + 0.5 * grain(0.7);
+    c = vec3(0.885, 0.875, 0.85) * (1.0 + 0.03 * own + 0.035 * vein - 0.1 * joint);
+#elif MATERIAL == 2 // asphalt
+    c = vec3(0.60, 0.61, 0.63) * (1.0 + 0.10 * grain(0.05) + 0.06 * grain(0.3) + 0.07 * grain(4.0));
+#elif MATERIAL == 3 // concrete
+    joint = tiles(vec2(3.0), 0.0, 0.015, own);
+    c = vec3(0.79, 0.785, 0.77) * (1.0 + 0.02 * own + 0.05 * grain(1.7) + 0.03 * grain(0.12) - 0.12 * joint);
+#elif MATERIAL == 4 // grass
+    c = mix(vec3(0.47, 0.58, 0.34), vec3(0.58, 0.67, 0.42), 0.5 + 0.7 * grain(5.0) + 0.5 * grain(1.1)) * (1.0 + 0.16 * grain(0.11));
+#elif MATERIAL == 5 // wood
+    joint = tiles(vec2(1.8, 0.14), 0.37, 0.003, own);
+    c = vec3(0.80, 0.68, 0.52) * (1.0 + 0.09 * own + 0.05 * grain(0.5) - 0.16 * joint);
+#elif MATERIAL == 6 // court
+    c = vec3(0.66, 0.74, 0.72) * (1.0 + 0.025 * grain(3.0) + 0.03 * grain(0.06));
+#elif MATERIAL == 7 // sand
+    c = vec3(0.88, 0.81, 0.67) * (1.0 + 0.06 * grain(2.5) + 0.05 * grain(0.6) + 0.08 * grain(0.05));
+#elif MATERIAL == 8 // paving
+    joint = tiles(vec2(0.6, 0.4), 0.5, 0.012, own);
+    c = vec3(0.78, 0.755, 0.715) * (1.0 + 0.08 * own + 0.05 * grain(3.1) - 0.16 * joint);
+#else // carpet
+    joint = tiles(vec2(0.5), 0.0, 0.002, own);
+    c = vec3(0.68, 0.71, 0.74) * (1.0 + 0.03 * own + 0.08 * grain(0.04) + 0.02 * grain(2.0));
+#endif
     return c * dim;
-}
-/* The field, the shade of walls and the distance over a colour of the floor. */
-vec3 onFloor(vec3 colour) {
-    if (cover.z > 0.0) {
-        vec2 at = (ground - cover.xy) / cover.zw;
-        if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) {
-            float v = gain * texture2D(field, at).r;
-            if (v > 0.004) colour = mix(colour, texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.2 + 3.0 * v));
-        }
-    }
-    if (shaded.z > 0.0) {
-        vec2 at = (ground - shaded.xy) / shaded.zw;
-        // Weaker where a field's colours have to be read.
-        if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))))
-            colour *= 1.0 - (cover.z > 0.0 ? 0.25 : 0.6) * texture2D(shade, at).a;
-    }
-    float far = distance(ground, extent.xy) / extent.z;
-    return mix(colour, sky, smoothstep(1.0, 3.2, far));
+#endif
 }`;
 
-export const FLOOR_VERTEX = `
-varying vec2 ground;
-void main() {
-    ground = position.xy;
-    gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
-}`;
-
-export const FLOOR_FRAGMENT = ON_FLOOR + `
+export const FLOOR_FRAGMENT = ON_FLOOR + FLOOR_COLOUR + `
 void main() { gl_FragColor = vec4(onFloor(floorColour()), 1.0); }`;
 
 /** What is painted on the floor. */

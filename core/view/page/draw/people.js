@@ -34,6 +34,7 @@ export class People {
         this.taken = null; // the frame of the last picture
         this.fresh = 0; // new frames since then
         this.stale = this.jumped = false; // whether any frame came since; whether time jumped
+        this.baked = false; // whether the atlas is there
         this.personVersion = -1;
         this.group = new THREE.Group();
         this.makeLayers();
@@ -194,8 +195,10 @@ export class People {
         this.levels.most = MOST.map((most, level) => Math.max(LEAST[level], Math.round(this.detail * most)));
     }
 
-    /** Bakes the atlas of sprites, at start and after the graphics card was lost. */
-    bake(renderer) {
+    /** Bakes the atlas of sprites as soon as somebody is one: it takes a second of a processor that draws. */
+    bakeIfNeeded(renderer) {
+        if (this.baked || this.levels.counts[SPRITES] === 0) return;
+        this.baked = true;
         const { target, boxes } = bakeAtlas(renderer, this.atlas, makeBody(this.slow ? 2 : 1, true), !this.slow);
         const [clothes, body, surface] = target.textures, u = this.uniforms;
         u.boxes.value = boxes;

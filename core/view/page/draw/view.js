@@ -41,9 +41,9 @@ export class View {
         this.coarse = 1; // share of the screen's pixels along a side that are drawn
         this.called = 0; // ms that the calls of the last picture took; with software rendering they block
         this.useControls();
-        this.people.bake(this.renderer);
         canvas.addEventListener("webglcontextrestored", () => {
-            this.people.bake(this.renderer);
+            this.people.baked = false;
+            this.compiled = false;
             this.dirty = true;
         });
     }
@@ -294,13 +294,22 @@ export class View {
             this.people.uniforms.clock.value = (next.time - (1 - share) * (next.time - previous.time)) % 1000;
             this.people.choose(this.crowd, { camera, top: this.top, metre: this.pixelsOfMetre(), target: this.controls.target });
         }
+        this.people.bakeIfNeeded(this.renderer);
         this.sizeCanvas();
+        this.compile(camera);
         const begun = performance.now();
         this.renderer.render(this.scene, camera);
         this.called = performance.now() - begun;
         if (this.crowd.next) this.canvas.parentElement.classList.remove("empty"); // until then it would be black
         this.spare(now, drawn);
         return true;
+    }
+
+    /** Begins to compile the programs of all that is in the first picture, so that none waits for another. */
+    compile(camera) {
+        if (this.compiled || !this.crowd.next) return;
+        this.compiled = true;
+        this.scene.traverseVisible((node) => node.material && this.renderer.compile(node, camera, this.scene));
     }
 
     /** Draws fewer people as meshes when pictures are slow, and more when they are fast again; a processor then draws fewer pixels. */

@@ -56,8 +56,8 @@ precision highp float;
 precision highp int;
 in vec3 position, normal, model; // moved by the pose; in the pose of the model
 in uint part;
-in vec4 cell, eye;               // column and row; towards the eye
-in vec3 right, up;
+in vec3 eye, right, up;          // of the column: towards the eye, right and up of it
+in float row;
 uniform vec2 grid;               // cells across and up
 out vec3 facing, where;
 out vec2 inside;
@@ -68,7 +68,7 @@ void main() {
     facing = normal;
     where = model;
     of = part;
-    gl_Position = vec4((cell.xy + 0.5 + 0.5 * inside) / grid * 2.0 - 1.0, -dot(at, eye.xyz) / 4.0, 1.0);
+    gl_Position = vec4((vec2(gl_InstanceID, row) + 0.5 + 0.5 * inside) / grid * 2.0 - 1.0, -dot(at, eye) / 4.0, 1.0);
 }`;
 
 const BAKE_FRAGMENT = `
@@ -97,20 +97,22 @@ function indexOf(mesh, robe) {
         const corners = mesh.index.subarray(t, t + 3);
         if (corners.every(shown)) out.push(...corners);
     }
-    return new Uint16Array(out);
+    return new THREE.BufferAttribute(new Uint16Array(out), 1);
 }
 
-/** The cells of a row, as attributes of instances. */
-function cellsOf(atlas, row, lies) {
-    const cell = [], eye = [], right = [], up = [];
-    for (let column = 0; column < atlas.columns; column++) {
-        const axes = axesOf(column, lies);
-        cell.push(column, row, 0, 0);
-        eye.push(...axes.eye, 0);
-        right.push(...axes.right);
-        up.push(...axes.up);
-    }
-    return { cell: [cell, 4], eye: [eye, 4], right: [right, 3], up: [up, 3] };
+/** The axes of the cells of a row, as attributes of instances. */
+function axisAttributes(columns, lies) {
+    const axes = Array.from({ length: columns }, (_, column) => axesOf(column, lies));
+    return Object.fromEntries(["eye", "right", "up"].map((name) => [name, new THREE.InstancedBufferAttribute(new Float32Array(axes.flatMap((a) => a[name])), 3)]));
+}
+
+/** A geometry of attributes, which several share. */
+function geometryOf(index, attributes, instances) {
+    const geometry = new THREE.InstancedBufferGeometry();
+    geometry.setIndex(index);
+    for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
+    geometry.instanceCount = instances;
+    return geometry;
 }
 
 /**
@@ -125,22 +127,16 @@ export function bakeAtlas(renderer, atlas, mesh, smooth) {
     });
     const parts = new THREE.BufferAttribute(mesh.bone.filter((_, i) => i % 4 === 3), 1), model = new THREE.BufferAttribute(mesh.position, 3);
     parts.gpuType = THREE.IntType;
-    const outfits = [false, true].map((robe) => indexOf(mesh, robe));
+    const outfits = [false, true].map((robe) => indexOf(mesh, robe)), [upright, lying] = [false, true].map((lies) => axisAttributes(columns, lies));
     listPoses(atlas).forEach(([of, frame], pose) => {
         const moved = skinMesh(mesh, poseOf(of, frame)), lies = pose === poses - 1;
+        const position = new THREE.BufferAttribute(moved.position, 3), normal = new THREE.BufferAttribute(moved.normal, 3);
         outfits.forEach((index, outfit) => {
-            const geometry = new THREE.InstancedBufferGeometry(), row = pose + outfit * poses;
-            geometry.setIndex(new THREE.BufferAttribute(index, 1));
-            geometry.setAttribute("position", new THREE.BufferAttribute(moved.position, 3));
-            geometry.setAttribute("normal", new THREE.BufferAttribute(moved.normal, 3));
-            geometry.setAttribute("model", model);
-            geometry.setAttribute("part", parts);
-            for (const [name, [values, size]] of Object.entries(cellsOf(atlas, row, lies))) geometry.setAttribute(name, new THREE.InstancedBufferAttribute(new Float32Array(values), size));
-            geometry.instanceCount = columns;
-            const drawn = new THREE.Mesh(geometry, material);
+            const row = pose + outfit * poses, ofRow = new THREE.InstancedBufferAttribute(new Float32Array([row]), 1, false, columns);
+            const drawn = new THREE.Mesh(geometryOf(index, { position, normal, model, part: parts, row: ofRow, ...(lies ? lying : upright) }, columns), material);
             drawn.frustumCulled = false;
             scene.add(drawn);
-            for (let column = 0; column < columns; column++) boxes.set(boxOf(moved.position, index, axesOf(column, lies)), 4 * (row * columns + column));
+            for (let column = 0; column < columns; column++) boxes.set(boxOf(moved.position, index.array, axesOf(column, lies)), 4 * (row * columns + column));
         });
     });
     const target = new THREE.WebGLRenderTarget(columns * cell[0], rows * cell[1], {

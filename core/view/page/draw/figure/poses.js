@@ -213,13 +213,12 @@ export function bakePoses() {
         let before = null;
         for (let f = 0; f < FRAMES; f++) {
             const { turns, joints } = poseOf(row, f);
-            BONES.forEach((_, bone) => {
-                const at = 4 * ((bone * ROWS + row) * width + f);
-                const sign = (before ? turns[bone].reduce((sum, v, k) => sum + v * before[bone][k], 0) : turns[bone][3]) < 0 ? -1 : 1;
-                turns[bone] = turns[bone].map((v) => sign * v);
-                turns[bone].forEach((v, k) => (data[at + k] = toHalf(v)));
-                joints[bone].forEach((v, k) => (data[at + 4 * width * block + k] = toHalf(v)));
-            });
+            for (let bone = 0; bone < BONES.length; bone++) {
+                const at = 4 * ((bone * ROWS + row) * width + f), q = turns[bone], p = before?.[bone] ?? [0, 0, 0, 1];
+                const sign = q[0] * p[0] + q[1] * p[1] + q[2] * p[2] + q[3] * p[3] < 0 ? -1 : 1;
+                for (let k = 0; k < 4; k++) data[at + k] = toHalf((q[k] *= sign));
+                for (let k = 0; k < 3; k++) data[at + 4 * width * block + k] = toHalf(joints[bone][k]);
+            }
             before = turns;
         }
     }

@@ -44,8 +44,8 @@ export function turn(q, [x, y, z]) {
 
 /** A turn about x (roll), then y (pitch: positive brings the head forward and a leg back), then z (yaw to the left). */
 export function turnOf(pitch, roll = 0, yaw = 0) {
-    const about = (axis, angle) => [0, 1, 2].map((k) => (k === axis ? Math.sin(angle / 2) : 0)).concat(Math.cos(angle / 2));
-    return multiply(about(2, yaw), multiply(about(1, pitch), about(0, roll)));
+    const cx = Math.cos(roll / 2), sx = Math.sin(roll / 2), cy = Math.cos(pitch / 2), sy = Math.sin(pitch / 2), cz = Math.cos(yaw / 2), sz = Math.sin(yaw / 2);
+    return [sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz, cx * cy * cz + sx * sy * sz];
 }
 
 /**
