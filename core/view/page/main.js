@@ -168,7 +168,7 @@ class Page {
         else if (this.tools.gesture) this.tools.cancel();
         else if (this.strip.close()) return true;
         else if (!this.help.node.hidden) this.help.toggle(false);
-        else if (this.end.close() || this.about.close()) return true;
+        else if (this.end.close() || this.about.closeAsked()) return true;
         else if (this.view.tool !== "select") this.tool("select");
         else this.inspect(null);
         return true;

@@ -26,6 +26,7 @@ export class AboutCard {
         this.told = told;
         if (this.file !== scene.file && scene.about && !scene.game) {
             this.show(true);
+            this.asked = false;
             this.waits = true;
         }
         this.file = scene.file;
@@ -55,6 +56,11 @@ export class AboutCard {
         this.node.hidden = !on;
         this.button?.setAttribute("aria-pressed", String(on));
         if (!on && inside) (this.button?.getClientRects().length ? this.button : byId("picture")).focus();
+    }
+
+    /** Closes the card; true if it was asked for: one that came by itself goes with whatever else Escape does. */
+    closeAsked() {
+        return this.close() && this.asked;
     }
 
     /** Closes the card; false if it is closed. */
