@@ -146,6 +146,6 @@ char *jo_scene_plan(JoScene *scene) {
     JOX_GUARD (scene->heap, NULL)
         return NULL;
     JoxText text = {0};
-    jox_live_scene(scene, &text);
+    jox_live_scene(scene, false, &text);
     return jox_disown(text.data);
 }

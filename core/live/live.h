@@ -13,7 +13,7 @@
 #include "jostle_tools.h"
 
 /* Version of the messages: a page that was loaded with another version reloads itself. */
-enum { JOX_LIVE_PROTOCOL = 5 };
+enum { JOX_LIVE_PROTOCOL = 6 };
 
 /* A growing byte buffer; zero-initialise, set `length = 0` to reuse, free by jox_bytes_free. */
 typedef struct JoxBytes {
@@ -119,8 +119,9 @@ typedef struct JoxLiveSession {
 
 /* Listener that collects the figures of a scene's messages; the scene owns it. */
 typedef struct JoxLive JoxLive;
-/* Writes {"type": "scene", ...}: the parts of a scene that rarely change. */
-void jox_live_scene(JoScene *scene, JoxText *out);
+/* Writes {"type": "scene", ...}: the parts of a scene that rarely change. `restarts`: pages may
+   begin the run, or a round of its game, anew. */
+void jox_live_scene(JoScene *scene, bool restarts, JoxText *out);
 /* The colour that a page begins with: the scene's `view`, else one that suits it. */
 JoxLiveColour jox_live_first_colour(const JoScene *scene);
 /* Returns a hash that changes when the scene message must be sent again: machines, walls, places or

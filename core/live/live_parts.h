@@ -79,6 +79,7 @@ typedef struct JoxLiveSceneHead {
     double dt, duration;                        /* s */
     uint64_t seed;
     JoxLiveArea area;
+    bool restarts; /* pages may begin the run anew */
 } JoxLiveSceneHead;
 /* Each adds members of a scene message to an open object. */
 /* "name", null for NULL and "". */

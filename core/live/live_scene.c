@@ -262,6 +262,7 @@ void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json) {
     jox_json_number(json, "dt", head->dt);
     jox_json_number(json, "duration", head->duration);
     jox_json_whole(json, "seed", head->seed);
+    jox_json_bool(json, "restarts", head->restarts);
     add_points(json, "area", (JoxV2[]){head->area.low, head->area.high}, 2);
 }
 
@@ -330,7 +331,7 @@ JoxLiveColour jox_live_first_colour(const JoScene *scene) {
         jox_scene_choose_colouring(scene->spec, states, scene->spec->group_count));
 }
 
-void jox_live_scene(JoScene *scene, JoxText *out) {
+void jox_live_scene(JoScene *scene, bool restarts, JoxText *out) {
     const JoxLive *live = jox_live_attach(scene);
     const JoxSceneSpec *spec = scene->spec;
     const JoxSceneLook look = jox_scene_look(spec);
@@ -342,7 +343,8 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
                                    .dt = world->model.def.dt,
                                    .duration = spec->duration,
                                    .seed = world->model.def.seed,
-                                   .area = live->area};
+                                   .area = live->area,
+                                   .restarts = restarts};
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);

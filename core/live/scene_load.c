@@ -142,7 +142,7 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
         jox_live_say(&s->page, "error", ending.text);
     s->scene = next;
     jo_scene_vet(next, s->def->vetter);
-    s->failed = s->page.session.paused = false;
+    s->failed = s->have_left = s->page.session.paused = false;
     s->page.session.end = JOX_LIVE_GOES_ON;
     s->page.session.broke = NULL;
     if (!begin_outputs(s, error)) {

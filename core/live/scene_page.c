@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "live/live_parts.h"
 #include "live/scene_page.h"
 #include "run/messages.h"
 #include "run/reload.h"
@@ -21,16 +22,29 @@ JoViewDef jo_default_view_def(void) {
 
 /* ---- time ---- */
 
-/* Pauses the run when its time is over. */
-static void pause_at_end(JoxScenePage *s) {
-    if (jo_world_time(s->scene->world) + 0.5 * s->scene->world->model.def.dt < s->until)
-        return;
-    jox_run_say(s->scene, "%g s are over: the scene is paused. Continue or restart it\n", s->until);
-    s->until = INFINITY;
-    s->page.session.end = JOX_LIVE_TIME_IS_UP;
+static void pause_page_scene(JoxScenePage *s) {
     s->page.session.paused = true;
     s->steps = 0;
-    s->page.last_status = 0.0;
+    s->page.last_status = 0.0; /* a status is sent at once */
+}
+
+/* Pauses the run when its time is over, and when all agents have left for good. */
+static void pause_at_end(JoxScenePage *s) {
+    const char *way_out =
+        s->embedded ? "Continue it, or load it anew in its program" : "Continue or restart it";
+    const bool is_over =
+        jo_world_time(s->scene->world) + 0.5 * s->scene->world->model.def.dt >= s->until;
+    const bool have_left = jox_live_find_end(s->scene, &s->page.session) == JOX_LIVE_ALL_HAVE_LEFT;
+    if (is_over) {
+        jox_run_say(s->scene, "%g s are over: the scene is paused. %s\n", s->until, way_out);
+        s->until = INFINITY;
+        s->page.session.end = JOX_LIVE_TIME_IS_UP;
+        pause_page_scene(s);
+    } else if (have_left && !s->have_left) {
+        jox_run_say(s->scene, "everybody has left: the scene is paused. %s\n", way_out);
+        pause_page_scene(s);
+    }
+    s->have_left = have_left;
 }
 
 /* Pauses the run where a breakpoint was met, and shows all browsers the agent that met it. */
@@ -41,9 +55,7 @@ static void pause_at_breakpoint(JoxScenePage *s) {
     jox_run_say(s->scene, "%s", jo_scene_broke(s->scene));
     jox_scene_page_show_agent(s, JOX_VIEW_ALL, agent);
     s->page.session.broke = jo_scene_broke(s->scene);
-    s->page.session.paused = true;
-    s->steps = 0;
-    s->page.last_status = 0.0;
+    pause_page_scene(s);
 }
 
 /* Makes a step. If it fails, the run is paused for good and browsers are told. */
@@ -108,7 +120,7 @@ static JoxLiveField choose_scene_field(const void *self) {
 
 static void write_scene_message(void *self, JoxText *out) {
     JoxScenePage *s = self;
-    jox_live_scene(s->scene, out);
+    jox_live_scene(s->scene, !s->embedded, out);
 }
 
 static uint64_t find_scene_version(const void *self) {

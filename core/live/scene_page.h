@@ -42,6 +42,7 @@ typedef struct JoxScenePage {
     const char **overrides; /* settings of the present match's level; NULL: those of `def` */
     char *level;            /* the setting that chooses the level */
     bool embedded;          /* the scene belongs to the program (embedded_page.c) */
+    bool have_left;         /* all agents had left for good at the end of the last step */
     bool failed;            /* the run cannot continue; `failure` says why */
     char failure[1024];
     bool reported; /* messages being printed are errors that browsers already have as data */

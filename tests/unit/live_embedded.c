@@ -86,7 +86,7 @@ static uint64_t find_tick(void) {
 
 static void steps_of_the_program_are_shown(void **state) {
     (void)state;
-    serve_until("\"type\": \"scene\"", NULL);
+    serve_until("\"type\": \"scene\"", "\"restarts\": false");
     assert_true(read_member(serve_until("\"type\": \"status\"", "\"paused\": true"), "tick") == 0);
     assert_int_equal(jo_live_watchers(live), 1);
     jo_live_serve(live, 0.3); /* it is paused: a page that is looked at changes nothing */

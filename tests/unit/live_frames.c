@@ -441,7 +441,7 @@ static void messages_do_not_change_the_run(void **state) {
         for (int t = 0; t < 60; t++) {
             JoxText text = {0};
             step_scene(shown, 1);
-            jox_live_scene(shown, &text);
+            jox_live_scene(shown, true, &text);
             jox_live_status(shown, &(JoxLiveSession){0}, &text);
             jox_text_free(&text);
             const uint64_t before = jox_alloc_count();

@@ -80,7 +80,7 @@ static void recording_shows_what_its_scene_shows(void **state) {
     const char *file = test_path("dressed.sqlite");
     assert_true(jo_scene_record(scene, file, 0.0, &error));
     step_scene(scene, 40);
-    jox_live_scene(scene, &live);
+    jox_live_scene(scene, true, &live);
     JoxPose pose = {0};
     const bool bodies = jox_bodies_available();
     assert_true(!bodies || jox_bodies_pose(scene->world->state.bodies, 1, &pose));

@@ -7,7 +7,7 @@ static void scene_message_has_all_parts_of_tawaf(void **state) {
     JoScene *scene = load_tawaf("300");
     const JoWorld *world = scene->world;
     JoxText text = {0};
-    jox_live_scene(scene, &text);
+    jox_live_scene(scene, true, &text);
     parse_numbers(&text);
     assert_near(number_at("protocol", 0, 0, 0), JOX_LIVE_PROTOCOL, 0);
     assert_near(number_at("dt", 0, 0, 0), 0.05, 1e-9);
@@ -58,7 +58,7 @@ static void scene_message_of_bodies_and_a_player(void **state) {
     (void)state;
     JoScene *scene = load_scene_file("scenes/dodgeball.yaml", NULL, 0);
     JoxText text = {0};
-    jox_live_scene(scene, &text);
+    jox_live_scene(scene, true, &text);
     parse_numbers(&text);
     check_name_in(&text, "ball");
     assert_near(number_at("bodies.0.mass", 0, 0, 0), 0.4, 1e-6);
@@ -111,7 +111,7 @@ static void scene_message_escapes_names(void **state) {
         "\"y\xC3\xA4rd 1.b\"}}\n",
         STANDING_AT_SPEED("1", ""));
     JoxText text = {0};
-    jox_live_scene(scene, &text);
+    jox_live_scene(scene, true, &text);
     parse_numbers(&text);
     check_name_in(&text, scene->spec->title);
     check_name_in(&text, "g\xC3\xA4-te");
@@ -156,7 +156,7 @@ static void version_changes_with_bodies_but_not_with_gates(void **state) {
     assert_true(jox_live_version(scene) != version);
     JoxText text = {0};
     JoxBytes frame = {0};
-    jox_live_scene(scene, &text);
+    jox_live_scene(scene, true, &text);
     parse_numbers(&text);
     jox_live_frame(scene, JOX_LIVE_COLOUR_state, NULL, &frame);
     Seen seen = decode_frame(&frame, scene->world);
@@ -196,7 +196,7 @@ static void scenery_is_sent_and_does_not_enter_the_hash(void **state) {
     assert_true(jox_live_version(dressed) != jox_live_version(bare));
     step_scene(dressed, 60);
     assert_true(jo_world_hash(dressed->world) == jo_world_hash(bare->world));
-    jox_live_scene(dressed, &text);
+    jox_live_scene(dressed, true, &text);
     parse_numbers(&text);
     assert_near(number_at("walls.0.height", 0, 0, 0), 0.5, 1e-6);
     check_part(&text, "\"floor\": \"marble\"");
@@ -233,7 +233,7 @@ static void clothes_and_poses_are_sent_and_do_not_enter_the_hash(void **state) {
     step_scene(plain, 40);
     step_scene(dressed, 40);
     assert_true(jo_world_hash(dressed->world) == jo_world_hash(plain->world));
-    jox_live_scene(dressed, &text);
+    jox_live_scene(dressed, true, &text);
     check_part(&text, "\"clothes\": {\"g\": \"ihram\"}");
     check_part(&text, "\"pose\": \"raise\"");
     jox_text_free(&text);
@@ -247,7 +247,7 @@ static void scene_message_has_states_that_run_machines(void **state) {
     JoxText text = {0};
     assert_true(jo_scene_input(scene, "set guard Guard.Look push 5", NULL));
     assert_true(jo_scene_input(scene, "set guard Guard perception 3", NULL));
-    jox_live_scene(scene, &text);
+    jox_live_scene(scene, true, &text);
     check_part(&text, "{\"name\": \"Guard\", \"line\": 10, \"within\": [1, 2, 3]");
     check_part(&text, "\"unit\": \"N\", \"apart\": [\"Guard.Look\"]");
     check_part(&text, "\"set\": \"state Guard tests/data/nested/guard.lua:10\"");

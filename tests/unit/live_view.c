@@ -14,7 +14,7 @@ static void new_page_gets_scene_errors_frames_and_status(void **state) {
     assert_non_null(message);
     assert_int_equal(kind, FRAME_TEXT); /* the scene message comes first */
     assert_non_null(
-        strstr(message, "{\"type\": \"scene\", \"protocol\": 5, \"session\": \"live\""));
+        strstr(message, "{\"type\": \"scene\", \"protocol\": 6, \"session\": \"live\""));
     free(message);
     wait_for_json("\"type\": \"errors\"", "\"errors\": []");
     uint32_t first = wait_for_tick();
@@ -120,7 +120,7 @@ static void finished_scene_pauses_and_restarts(void **state) {
     assert_non_null(strstr(last, "scene.yaml --seed 3 --for 0.5 --report report\""));
     assert_non_null(strstr(last, "changed.yaml --seed 3 --seeds 10 --for 0.5 --out compared\""));
     send_command("{\"do\": \"restart\", \"seed\": 77}");
-    wait_for_json("\"type\": \"scene\"", "\"seed\": 77");
+    wait_for_json("\"type\": \"scene\"", "\"seed\": 77, \"restarts\": true");
     wait_for_json("\"say\"", "0.5 s are over");
     send_command("{\"do\": \"restart\", \"seed\": 0.5}");
     wait_for_json("\"refused\"", "\"do\": \"restart\"");
@@ -177,13 +177,20 @@ static void run_ends_once_all_have_left(void **state) {
                     "(0.2) } }, Out = { removes = true } } }\n");
     begin_session(0);
     join_session();
+    wait_for_json("\"say\"", "everybody has left");
     wait_for_json("\"status\"", "\"end\": {\"why\": \"left\""); /* not before the source ends */
+    assert_non_null(strstr(last, "\"paused\": true"));
     assert_non_null(strstr(last, "\"people\": 6, \"left\": 6, \"inside\": 0"));
     assert_non_null(strstr(last, "\"exits\": [{\"name\": \"door\", \"people\": 6, \"last\": "));
     const char *density = strstr(last, "\"density\": {");
     assert_non_null(density);
     assert_true(read_member(density, "most") > 0.2);
     assert_true(strstr(density, "\"where\": \", in door\""));
+    const double left_at = read_member(last, "time");
+    send_command("{\"do\": \"pause\", \"on\": false}"); /* goes on, and is not paused again */
+    while (read_member(wait_for_json("\"status\"", NULL), "time") < left_at + 0.3)
+        ;
+    assert_non_null(strstr(last, "\"paused\": false"));
     end_session();
     jo_free(session.summary);
     write_test_file("scene.yaml", SCENE);

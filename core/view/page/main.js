@@ -40,7 +40,7 @@ const LOST = {
     token: `The program at ${HERE} refuses this page, whose address is of an earlier start. Open the address that the program printed last.`,
     full: `The program at ${HERE} answers, but admits no further page: close another one. This page tries again by itself.`,
 };
-const PROTOCOL = 5; // of the messages, as the program counts it
+const PROTOCOL = 6; // of the messages, as the program counts it
 const MOVE = 0.08; // share of the distance to the target that an arrow key moves
 
 /** What people are coloured by at first: where the scene leaves it open, the outer states of machines with many states. */
@@ -218,6 +218,7 @@ class Page {
         if (scene.protocol !== PROTOCOL) return this.messages.stand("protocol", "This page is of another version than the program. Reload it.");
         const first = !this.scene;
         if (first) this.loading.scene(scene);
+        if (!scene.restarts) scene.game = null; // nor does the page begin rounds
         this.scene = scene;
         say(byId("title"), scene.title || scene.file || "Jostle");
         byId("title").title = byId("title").textContent;

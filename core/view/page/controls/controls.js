@@ -32,8 +32,7 @@ export class TimeBar {
     }
 
     set(scene) {
-        const live = scene.session !== "replay";
-        for (const node of this.live) node.hidden = !live;
+        for (const node of this.live) node.hidden = !scene.restarts;
         if (document.activeElement !== this.seed) this.seed.value = scene.seed ?? "";
     }
 

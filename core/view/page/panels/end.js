@@ -4,6 +4,8 @@ import { SERVICE } from "../draw/palette.js";
 
 const TITLES = { left: "Everybody has left", failed: "The run cannot go on" };
 
+const NOTES = { time: "Play goes on beyond this time.", left: "The time is stopped. Play goes on without people." };
+
 /** "97 left by south, the last at 53 s; 3 are still inside." */
 function leavingSentence(end) {
     const people = (n) => `${figure(n)} ${n === 1 ? "person" : "people"}`;
@@ -68,15 +70,17 @@ export class EndCard {
         if (this.shown || this.scene?.game) return;
         this.why = end.why;
         this.shown = "shown";
-        this.show(TITLES[end.why] ?? `${figure(end.time)} s are over`, endSentences(end), [
+        const again = this.scene?.restarts ? [
             this.button("Again", `Run it again with seed ${end.seed}`, () => this.page.send({ do: "restart", seed: end.seed }), true),
             this.button("Another seed", `Run it with seed ${end.seed + 1}`, () => this.page.send({ do: "restart", seed: end.seed + 1 })),
+        ] : [];
+        this.show(TITLES[end.why] ?? `${figure(end.time)} s are over`, endSentences(end), [...again,
             this.button("Compare", "The command that compares this scene with a changed copy", () => this.tell([
                 "Save a changed copy of the scene as changed.yaml. This runs both with ten seeds and says what differs:"], end.compare)),
             this.button("Report", "The command that writes a report of this run", () => this.tell([
                 "This runs the scene again with this seed and writes report/index.html:",
                 end.acted ? "What was done by hand on this page is not part of it." : null], end.report)),
-        ], end.why === "time" ? "Play goes on beyond this time." : null);
+        ], NOTES[end.why] ?? null);
     }
 
     /** Takes a `time` message of a recording. */
