@@ -39,6 +39,7 @@ def fits(browser):
                                     ("dodgeball", 0.7, 0.3, 0.25)):
         def test():
             browser.wait("return page.view.peopled", "nobody is there")
+            browser.run("page.view.home = null; page.view.goHome(); page.view.camera.updateMatrixWorld()")  # also where the scene has a camera
             span = browser.run(SPAN)
             expect(span["outside"] == 0, f"{scene}: {span['outside']} people are out of sight")
             expect(across < span["across"] <= 1.05 and up < span["up"] <= 1.05 and span["across"] * span["up"] > both,

@@ -552,6 +552,63 @@ def plays(browser):
         shutil.rmtree(folder)
 
 
+# Held by keys while the camera of a game looks east: of tackle ahead, of catch to the ball until it is held, then thrown.
+GAMES = (("tackle", "page.crowd.position(arguments[0], 1)[0] > 12"), ("catch", "page.game.shown || page.crowd.bodyPosition(0)[2] > 0.5"))
+
+
+def ball_games(browser):
+    """tackle and catch are played to an end by keys, with compass and names out of the way"""
+    for name, until in GAMES:
+        session = Session("run", f"scenes/{name}.yaml", "--view", "--no-watch", "--set", "game.rounds=1", "--set", "game.time=12")
+        try:
+            browser.open(session)
+            card = browser.find("#game")
+            browser.run(TAGS)
+            tags = browser.run("return window.tagged()")
+            expect(tags["names"] and not tags["under"], f"{name}: before the game the names are {tags}")
+            browser.button("Play").send_keys(Keys.ENTER)
+            browser.wait("return page.game.playing && page.player.on && page.overlay.players.length > 0", f"{name}: nobody plays")
+            expect(browser.run("return window.tagged().names") == ["player"], f"{name}: names are in the way")
+            expect(not browser.find("#compass").is_displayed() and not browser.find("#scale").is_displayed(), f"{name}: the compass is in the way")
+            slot = browser.run("return page.overlay.players[0]")
+            if name == "tackle":
+                ActionChains(browser.driver, duration=0).key_down("w").key_down(" ").perform()
+                browser.wait(f"return {until}", "the runner does not run", slot)
+                browser.wait("return page.game.shown === 'over'", "nobody gets through or down")
+                ActionChains(browser.driver, duration=0).key_up("w").key_up(" ").perform()
+            else:
+                drive(browser, slot, until)
+                ActionChains(browser.driver, duration=0).key_down(" ").perform()
+                browser.wait("return page.game.shown || page.crowd.bodyPosition(0)[0] > 0", "the ball is not thrown")
+                ActionChains(browser.driver, duration=0).key_up(" ").perform()
+                browser.wait("return page.game.shown === 'over'", "the round does not end")
+            won, lost = browser.run("return [page.game.state.winner === 'ours', page.game.state.winner === 'theirs']")
+            said = "You have won" if won else "You have lost" if lost else "A draw"
+            expect(said in card.text and (won or lost), f"{name}: the card says {card.text!r}")
+            expect(browser.find("#compass").is_displayed(), f"{name}: the compass does not come back")
+            expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+            browser.picture(name)
+        finally:
+            session.stop()
+
+
+# window.tagged(): names that are drawn, and those of them under the compass.
+TAGS = """
+const overlay = page.overlay, tag = overlay.tag.bind(overlay);
+let seen = [];
+overlay.tag = (text, spot, colour) => { seen.push([text, spot]); tag(text, spot, colour); };
+window.tagged = () => {
+    seen = [];
+    overlay.drawn = '';
+    overlay.draw(1);
+    const stage = document.getElementById('stage').getBoundingClientRect(), box = document.getElementById('compass').getBoundingClientRect();
+    const under = ([text, [x, y]]) => Math.abs(x + stage.left - box.left - box.width / 2) < box.width / 2 + overlay.pen.measureText(text).width / 2 + 5
+        && Math.abs(y + stage.top - box.top - box.height / 2) < box.height / 2 + 9;
+    return { names: seen.map(([text]) => text), under: box.width ? seen.filter(under).map(([text]) => text) : [] };
+};
+"""
+
+
 def drive(browser, slot, until):
     """Runs after the ball by the keys, as the camera of a game looks east, until a condition of the page holds."""
     keys = {"x": (Keys.ARROW_DOWN, Keys.ARROW_UP), "y": (Keys.ARROW_RIGHT, Keys.ARROW_LEFT)}
@@ -713,7 +770,7 @@ events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, *figures.TESTS, fallen, edits, settings, *nested.TESTS, given_colours, gates, reloads, plays, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, *figures.TESTS, fallen, edits, settings, *nested.TESTS, given_colours, gates, reloads, plays, ball_games, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

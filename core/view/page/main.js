@@ -84,6 +84,7 @@ class Page {
         this.news = new News();
         this.about = new AboutCard();
         this.compass = new Compass(this.view, () => this.redraw());
+        this.overlay.covered = [this.compass.button, this.compass.bar, byId("score")];
         this.strip = new Bar(WORDS);
         this.bar = new TimeBar(send, this.strip);
         this.replay = new Replay(send);
@@ -416,6 +417,8 @@ class Page {
         this.touch.show(on, game?.button);
         say(byId("hint"), on ? "" : TOOLS[this.view.tool].hint);
         this.overlay.marks = null;
+        this.overlay.playing = on;
+        byId("stage").classList.toggle("playing", on);
         if (!on) return this.redraw();
         this.overlay.marks = (pen) => markBalls(pen, this.view, this.balls());
         if (this.view.top) this.top();

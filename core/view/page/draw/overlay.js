@@ -22,6 +22,8 @@ export class Overlay {
         this.labels = [];
         this.ranked = []; // labels, those first that are told first
         this.names = "some"; // "all", "some": as many as have room, or "none": only the one under the pointer
+        this.playing = false; // a person plays: names that nobody asked for are not shown
+        this.covered = []; // nodes over the picture that names keep clear of
         this.pointer = null; // CSS pixels
         this.chosen = null; // slot
         this.forces = null; // forces on the chosen person
@@ -63,7 +65,7 @@ export class Overlay {
     draw(share) {
         const pen = this.pen, ratio = this.view.screenRatio;
         const still = this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross && !this.marks;
-        const blank = still && this.names === "none" && !this.pointer;
+        const blank = still && this.shownNames() === "none" && !this.pointer;
         const stamp = still && !blank ? this.stamp() : "";
         if ((blank && this.blank) || (stamp && stamp === this.drawn)) return; // clearing takes time, too, when the processor draws
         this.blank = blank;
@@ -73,7 +75,7 @@ export class Overlay {
         pen.font = FONT;
         pen.textAlign = "center";
         pen.textBaseline = "middle";
-        if (this.names !== "none" || this.pointer) this.drawLabels();
+        if (this.shownNames() !== "none" || this.pointer) this.drawLabels();
         for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", "player");
         if (this.chosen !== null) this.drawChosen(share);
         this.marks?.(pen);
@@ -84,7 +86,7 @@ export class Overlay {
     /** What names depend on where nothing else is drawn: the camera, the window, the pointer. */
     stamp() {
         const { camera, wide, high, ratio } = this.view;
-        return [this.names, this.dark, wide, high, ratio, this.pointed, ...camera.matrixWorldInverse.elements, ...camera.projectionMatrix.elements].join();
+        return [this.shownNames(), this.dark, wide, high, ratio, this.pointed, ...camera.matrixWorldInverse.elements, ...camera.projectionMatrix.elements].join();
     }
 
     /** Sets the position of the pointer, CSS pixels, or null; true if another name has to be shown. */
@@ -100,17 +102,29 @@ export class Overlay {
         return spot !== null && this.pointer !== null && Math.hypot(spot[0] - this.pointer[0], spot[1] - this.pointer[1]) < NEAR;
     }
 
+    /** "all", "some" or "none": during a game only names that were asked for. */
+    shownNames() {
+        return this.playing && this.names === "some" ? "none" : this.names;
+    }
+
     drawLabels() {
-        const taken = [], { wide, high } = this.view;
+        const { wide, high } = this.view, names = this.shownNames();
+        const kept = this.covered.map((n) => [n.offsetLeft, n.offsetTop, n.offsetLeft + n.offsetWidth, n.offsetTop + n.offsetHeight]), taken = [...kept];
+        const meets = (a, b) => b[0] < a[2] && b[2] > a[0] && b[1] < a[3] && b[3] > a[1];
         let some = 0;
-        for (const label of this.names === "some" ? [...this.ranked, ...this.labels] : this.labels) {
+        for (const label of names === "some" ? [...this.ranked, ...this.labels] : this.labels) {
             const spot = this.view.project(label.at[0], label.at[1], label.at[2] ?? 0);
             if (!spot || spot[0] < 0 || spot[1] < 0 || spot[0] > wide || spot[1] > high) continue;
             const half = this.pen.measureText(label.text).width / 2 + 8;
             const box = [spot[0] - half, spot[1] - 12, spot[0] + half, spot[1] + 12];
-            const asked = this.names === "all" || this.near(spot);
-            if (!asked && (this.names === "none" || some >= MOST_NAMES || box[0] < 0 || box[2] > wide || this.isTiny(label))) continue;
-            if (taken.some((b) => b[0] < box[2] && b[2] > box[0] && b[1] < box[3] && b[3] > box[1])) continue;
+            const under = kept.find((b) => meets(box, b));
+            if (under) { // beside what covers it
+                spot[0] -= box[2] - under[0] + 2;
+                [box[0], box[2]] = [spot[0] - half, spot[0] + half];
+            }
+            const asked = names === "all" || this.near(spot);
+            if (!asked && (names === "none" || some >= MOST_NAMES || box[0] < 0 || box[2] > wide || this.isTiny(label))) continue;
+            if (taken.some((b) => meets(box, b))) continue;
             taken.push(box);
             if (!asked) some++;
             this.tag(label.text, spot, this.nameColour(label));
