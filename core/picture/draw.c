@@ -12,8 +12,6 @@
 static const float HEAD = 46, LEGEND = 206, EDGE = 16;
 static const float WIDE = 1280, LOW = 480; /* px: usual width, least height */
 
-static const JoxInk FLOOR = {0xf8, 0xf8, 0xf6, 1};
-
 void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
     float wide = WIDE - LEGEND - 2 * EDGE;
     float tall = wide * (high.y - low.y) / (high.x - low.x);
@@ -115,7 +113,13 @@ static void draw_wall_ring(const JoxDrawing *d, uint32_t r) {
     jox_free(points);
 }
 
-/* Draws walls in four groups: solids, thin walls, closed gates and open gates. */
+/* Returns the group of a wall: solids, thin walls, closed gates, open gates. A solid in whose place
+   scenery is drawn is outlined as a thin wall. */
+static int find_wall_group(const JoxPicture *p, const struct JoxWallRing *ring) {
+    return ring->name ? 2 + ring->open : !ring->solid || jox_draw_fills_wall(p, ring);
+}
+
+/* Draws walls in four groups. */
 static void draw_walls(JoxDrawing *d) {
     const JoxWalls *walls = d->picture->walls;
     float u = d->unit;
@@ -130,7 +134,7 @@ static void draw_walls(JoxDrawing *d) {
         bool any = false;
         for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
             const struct JoxWallRing *ring = &walls->rings[r];
-            if ((ring->name ? 2 + ring->open : !ring->solid) != kind)
+            if (find_wall_group(d->picture, ring) != kind)
                 continue;
             if (!any)
                 jox_canvas_open(d->canvas, NULL, kinds[kind], styles[kind]);
@@ -242,8 +246,9 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     lay_out_map(d);
     jox_draw_choose_classes(d);
     draw_title_line(d);
-    draw_map_box(d, "floor", (JoxStyle){.fill = FLOOR});
+    draw_map_box(d, "floor", (JoxStyle){.fill = jox_draw_ground_ink(picture)});
     jox_canvas_clip(canvas, d->low, d->high);
+    jox_draw_scenery(d);
     jox_draw_field(d);
     draw_places(d);
     draw_trails(d);

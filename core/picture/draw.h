@@ -10,6 +10,7 @@
 #include "record/fields/density.h"
 #include "record/frame.h"
 #include "record/trajectory_reader.h"
+#include "scene/scenery.h"
 
 /* Quantity that the colours of people, or of the floor, show. */
 typedef enum JoxShow {
@@ -97,6 +98,9 @@ typedef struct JoxPicture {
     const float *face_x, *face_y;
     const float *density;  /* 1/m2, per person; NULL: not known */
     const JoxWalls *walls; /* with the open gates */
+    uint32_t ground;       /* index of jox_floor_names */
+    const JoxScenery *scenery;
+    uint32_t scenery_count;
     const JoxPlace *places;
     uint32_t place_count;
     const char *const *exits; /* names of places where people leave */

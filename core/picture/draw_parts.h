@@ -71,6 +71,11 @@ void jox_draw_plan_line(const JoxDrawing *drawing, const JoxV2 *points, uint32_t
 /* Returns whether a place of this name is an exit. */
 bool jox_draw_is_exit(const JoxPicture *picture, const char *name);
 
+/* draw_scenery.c: colour of the floor; scenery beneath people. */
+JoxInk jox_draw_ground_ink(const JoxPicture *picture);
+void jox_draw_scenery(const JoxDrawing *drawing);
+/* Returns whether a thing stands in a solid wall and covers half of its box at least. */
+bool jox_draw_fills_wall(const JoxPicture *picture, const struct JoxWallRing *ring);
 void jox_draw_field(JoxDrawing *drawing);
 void jox_draw_people(JoxDrawing *drawing);
 void jox_draw_probes(JoxDrawing *drawing);

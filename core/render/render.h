@@ -10,6 +10,7 @@
 #include "record/trajectory_reader.h"
 #include "run/figure_listeners.h"
 #include "run/run.h"
+#include "scene/scene_look.h"
 
 /* Exactly one of `scene` and `crowd` is set. jox_render_free frees all that it owns. */
 typedef struct JoxRender {
@@ -17,6 +18,7 @@ typedef struct JoxRender {
     JoScene *scene;         /* a scene that is run, or NULL */
     JoxTrajectories *crowd; /* a recording, or NULL */
     JoxSceneSpec *spec; /* with a recording: the scene whose walls and places are drawn, or NULL */
+    JoxSceneLook look;  /* floor and scenery: of the scene, else of the recording */
     uint32_t at;        /* index of the recording's current frame */
     double first, last; /* s: range of times; `last` of a scene is infinite */
     double interval;    /* s: between two frames */

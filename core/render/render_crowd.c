@@ -349,6 +349,17 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
 
 /* ---- loading ---- */
 
+/* Takes floor and scenery from the scene that was given, else from the recording. */
+static void choose_recorded_look(JoxRender *r, JoxDiagnostics *diagnostics) {
+    const char *text = r->reader ? jox_trajectory_reader_info(r->reader).look : NULL;
+    const JoxPosition at = {r->def->recording, 0, 0, 0};
+    if (r->spec)
+        r->look = jox_scene_look(r->spec);
+    else if (text && !jox_scene_read_look(text, &r->look))
+        jox_diag_warn(diagnostics, at, "bad-recording", "Give the scene by --scene",
+                      "what it has of its scene's looks is damaged, and is not shown");
+}
+
 static bool load_recording(JoxRender *r, JoError *error) {
     const JoRenderDef *def = r->def;
     JoxDiagnostics diagnostics = {0};
@@ -365,6 +376,7 @@ static bool load_recording(JoxRender *r, JoError *error) {
         r->crowd = jox_trajectories_read(def->recording, &options, &diagnostics);
     if (r->crowd && jox_is_sqlite(def->recording))
         r->reader = jox_trajectory_reader_open(def->recording, &options, &diagnostics);
+    choose_recorded_look(r, &diagnostics);
     if (r->reader && !jox_trajectory_reader_info(r->reader).has_bodies) {
         jox_trajectory_reader_close(r->reader);
         r->reader = NULL;
@@ -388,6 +400,7 @@ static bool load_scene(JoxRender *r, JoError *error) {
     r->scene = jo_scene_load(r->def->scene, error);
     if (!r->scene)
         return false;
+    r->look = jox_scene_look(r->scene->spec);
     r->last = INFINITY;
     r->interval = r->scene->world->model.def.dt;
     r->picture.walls = &r->scene->world->model.all_walls;
@@ -401,7 +414,10 @@ bool jox_render_load(JoxRender *r, JoError *error) {
     const JoxSceneSpec *spec = r->scene ? r->scene->spec : r->spec;
     const char *path = def->scene ? def->scene->path : def->recording;
     snprintf(r->title, sizeof r->title, "%.250s",
-             spec && spec->title ? spec->title : jox_path_name(path));
+             r->look.title && *r->look.title ? r->look.title : jox_path_name(path));
+    r->picture.ground = r->look.floor;
+    r->picture.scenery = r->look.scenery;
+    r->picture.scenery_count = r->look.scenery_count;
     r->picture.title = r->title;
     r->picture.radius = RADIUS;
     if (spec) {
@@ -420,6 +436,7 @@ bool jox_render_load(JoxRender *r, JoError *error) {
 
 void jox_render_free(JoxRender *r) {
     jo_scene_free(r->scene);
+    jox_scene_free_look(&r->look);
     jox_trajectory_reader_close(r->reader);
     jox_trajectories_free(r->crowd);
     jox_scene_free(r->spec);

@@ -126,8 +126,8 @@ static const JoxKey KEYS[] = {
     {"scene", "tally", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, tallies, tally_count), .example = "tally: {red: {memory: hits, group: blue}}", .content = "tally*", .meaning = "scores, printed in the last lines of a run"},
     {"scene", "game", TABLE, "", 0, 0, "", TO(JoxSceneSpec, game), .content = "game", .example = "game: {ours: red, theirs: blue, points: 5}", RESTART("a round keeps its rules"), .meaning = "a game of the `player` against the machine"},
 
-    {"scene", "floor", TEXT, "", 0, 0, "plain", TO(JoxSceneSpec, floor), .choices = FLOORS, .meaning = "material of the floor on the live page"},
-    {"scene", "scenery", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, scenery, scenery_count), .example = "scenery: [{kind: tree, at: [2, 3]}]", .content = "scenery[]", .meaning = "things that the live page draws around people; no obstacles"},
+    {"scene", "floor", TEXT, "", 0, 0, "plain", TO(JoxSceneSpec, floor), .choices = FLOORS, .meaning = "material of the floor on the live page and in pictures"},
+    {"scene", "scenery", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, scenery, scenery_count), .example = "scenery: [{kind: tree, at: [2, 3]}]", .content = "scenery[]", .meaning = "things that the live page and `jostle render` draw around people; no obstacles"},
 
     JOX_REPORT_KEY_ROWS
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},

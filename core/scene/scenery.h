@@ -1,6 +1,7 @@
-/* Scenery: the floor's material and things that the live page draws around people. The simulation
-   reads none of it. scenery.c reads it, live/live_scenery.c sends it to the page, and
-   run/scenery_checks.c warns of things that stand where people walk. */
+/* Scenery: the floor's material and things that are drawn around people. The simulation reads none
+   of it. scenery.c reads it, scene_look.c writes it for the page and recordings,
+   picture/draw_scenery.c draws it from above, and run/scenery_checks.c warns of things that stand
+   where people walk. */
 #ifndef JOX_SCENE_SCENERY_H
 #define JOX_SCENE_SCENERY_H
 

@@ -53,6 +53,10 @@ at() { # the middle of the outline of person 7
 awk -v a="$(at "$work/with.svg")" -v b="$(at "$work/run.svg")" 'BEGIN {
     split(a, p, " "); split(b, q, " "); exit !(p[1] > 0 && (p[1] - q[1]) ^ 2 + (p[2] - q[2]) ^ 2 < 1)}'
 verdict "and in the same places, within a pixel ($(at "$work/with.svg"), $(at "$work/run.svg"))" $?
+around() { grep -o '<rect[^>]*>\|<path[^>]*>' <(sed -n '/<g id="floor"/,/<g id="places"/p' "$1"); }
+"$JOSTLE" run scenes/market.yaml --for 1 --record "$work/market.sqlite" --quiet 2>/dev/null
+for from in scenes/market.yaml "$work/market.sqlite"; do render "$from" --at 1 --area 0,0,30,20 --out "$work/$(basename "$from").svg" 2>/dev/null; done
+around "$work/market.yaml.svg" | cmp - <(around "$work/market.sqlite.svg") && grep -q 'class="stall"' "$work/market.sqlite.svg"; verdict "a recording has the floor and the scenery of its scene" $?
 "$JOSTLE" run scenes/wall-breaking.yaml --set groups.people.count=20 --for 1 --record "$work/wall.sqlite" --quiet 2>/dev/null
 "$JOSTLE" render scenes/wall-breaking.yaml --set groups.people.count=20 --at 1 --out "$work/wall.svg" --quiet 2>/dev/null
 render "$work/wall.sqlite" --at 1 --scene scenes/wall-breaking.yaml --out "$work/wall2.svg" 2>/dev/null

@@ -260,6 +260,63 @@ static void svg_has_layers_classes_and_texts(void **state) {
     jox_walls_free(&h.walls);
 }
 
+/* Floor and scenery are drawn paler than they are, beneath people; over a field as outlines. */
+static void scenery_is_drawn_beneath_people(void **state) {
+    (void)state;
+    Hall h;
+    make_hall(&h);
+    JoxV2 lawn[4] = {{4, 4}, {8, 4}, {8, 9.5f}, {4, 9.5f}}, tree = {13, 8}, cube = {10, 5};
+    char carrier[] = "box";
+    const JoxScenery scenery[] = {
+        {.kind = JOX_SCENERY_KIND_TREE, .at = &tree, .at_count = 1, .size = {2, 2, 6}},
+        {.kind = JOX_SCENERY_KIND_AREA, .through = lawn, .through_count = 4},
+        {.kind = JOX_SCENERY_KIND_KAABA, .at = &cube, .at_count = 1, .size = {1.6, 1.6, 3}},
+        {.kind = JOX_SCENERY_KIND_BLOCK,
+         .at = &tree,
+         .at_count = 1,
+         .size = {5, 5, 1},
+         .colour = JOX_COLOUR_GIVEN | 0xff0000,
+         .body = carrier},
+        {.kind = JOX_SCENERY_KIND_LINE, .through = lawn, .through_count = 2, .size = {0, 0.2, 0}}};
+    h.picture.ground = 1; /* marble */
+    h.picture.scenery = scenery;
+    h.picture.scenery_count = 5;
+    JoxCanvas *canvas = jox_canvas_image(WIDTH, HEIGHT);
+    if (canvas) {
+        jox_draw(canvas, &h.picture);
+        const uint8_t *pixels = jox_canvas_pixels(canvas);
+        expect_pixel_colour(pixels, 18.5f, 9, (JoxInk){0xef, 0xee, 0xea, 1}); /* marble, 0.4 */
+        expect_pixel_colour(pixels, 13, 8.5f, (JoxInk){0xba, 0xce, 0xab, 1}); /* leaves, 0.45 */
+        expect_pixel_colour(pixels, 7, 9, (JoxInk){0xdc, 0xe1, 0xd3, 1});     /* area, 0.45 */
+        expect_pixel_colour(pixels, 10, 5, (JoxInk){0x73, 0x72, 0x70, 1});    /* the cube, 0.6 */
+        expect_pixel_colour(pixels, 4.8f, 5, (JoxInk){0x00, 0x72, 0xb2, 1});  /* a person */
+        float field[200] = {0};
+        JoxDensity *grid = jox_density_create((JoxV2){0, 0}, (JoxV2){20, 10}, 1.0f, 1.0f);
+        h.picture.grid = grid;
+        h.picture.field = field;
+        h.picture.floor = JOX_SHOW_DENSITY;
+        h.picture.floor_most = 8;
+        jox_draw(canvas, &h.picture);
+        expect_pixel_colour(jox_canvas_pixels(canvas), 13, 8.5f, (JoxInk){0xf8, 0xf8, 0xf6, 1});
+        jox_density_free(grid);
+        h.picture.grid = NULL;
+        h.picture.floor = JOX_SHOW_NOTHING;
+    }
+    char *text = draw_svg(&h.picture);
+    const char *layer = strstr(text, "<g id=\"scenery\"");
+    assert_non_null(layer);
+    const char *const ORDER[] = {"class=\"area\"", "class=\"line\"", "class=\"tree\"",
+                                 "class=\"kaaba\"", "<g id=\"places\""};
+    for (int k = 0; k < 5; k++) { /* flat things first, then what stands */
+        layer = strstr(layer, ORDER[k]);
+        assert_non_null(layer);
+    }
+    assert_null(strstr(text, "class=\"block\"")); /* the body that carries it is drawn */
+    jox_free(text);
+    jox_canvas_free(canvas);
+    jox_walls_free(&h.walls);
+}
+
 static void outlines_of_bodies_follow_their_rotation(void **state) {
     (void)state;
     const float half = 0.70710678f, none[4] = {0, 0, 0, 1}, about_z[4] = {0, 0, half, half},
@@ -381,6 +438,7 @@ int main(void) {
         cmocka_unit_test(draws_each_thing_at_its_place),
         cmocka_unit_test(colours_follow_values_and_scales),
         cmocka_unit_test(svg_has_layers_classes_and_texts),
+        cmocka_unit_test(scenery_is_drawn_beneath_people),
         cmocka_unit_test(outlines_of_bodies_follow_their_rotation),
         cmocka_unit_test(draws_hostile_names_and_numbers),
         cmocka_unit_test(greater_values_are_darker_and_classes_differ),
