@@ -21,7 +21,6 @@
 #include "run/read_scene.h"
 #include "run/run.h"
 #include "run/scene_machines.h"
-#include "run/scenery_checks.h"
 #include "run/standstill.h"
 #include "run/starting_people.h"
 #include "run/starting_torsos.h"
@@ -168,7 +167,6 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_check_step_length(scene, diagnostics);
         jox_run_start_torsos(scene, diagnostics);
         jox_run_check_sources(scene, diagnostics);
-        jox_run_check_scenery(scene, diagnostics);
         jox_run_check_journeys(scene, diagnostics);
         jox_run_number_event_signals(scene, diagnostics);
         jox_run_collect_regions(scene);

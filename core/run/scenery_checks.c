@@ -1,5 +1,5 @@
 /* Checks whether solid scenery stands where people can walk, as nothing keeps them out of it.
-   build_scene.c calls it. */
+   `jostle check` calls it (validate/check.c). */
 #include "run/scenery_checks.h"
 
 #include <math.h>

@@ -17,6 +17,7 @@
 #include "run/orca_flow_note.h"
 #include "run/read_scene.h"
 #include "run/run.h"
+#include "run/scenery_checks.h"
 #include "run/wall_checks.h"
 #include "validate/claims.h"
 
@@ -45,6 +46,7 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     if (scene) {
         jox_run_note_orca_flow(scene, all);
         jox_run_check_goals(scene, all);
+        jox_run_check_scenery(scene, all);
         jox_diag_move(all, &scene->mod_problems);
     }
     jo_scene_free(scene);

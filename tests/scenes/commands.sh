@@ -348,6 +348,7 @@ printf 'jostle: 1\nwalls: [{line: [[0, 0], [12, 0], [12, 6], [0, 6]], closed: tr
 expect "check warns of solid scenery that people can walk through" 0 "walked.yaml:4:5: warning: people can walk through this bench, at (" "$JOSTLE" check "$work/walked.yaml"
 expect "  also along a line" 0 "walked.yaml:5:5: warning: people can walk through this hedge, at (3.0, 1.0) m" "$JOSTLE" check "$work/walked.yaml"
 expect "  not of what stands outside, in a wall or on one, or lies flat" 0 "0 errors, 2 warnings" "$JOSTLE" check "$work/walked.yaml"
+! "$JOSTLE" run "$work/walked.yaml" --steps 1 2>&1 | grep -q "walk through"; verdict "  a run does not look for it" $?
 sed 's/{exit: out}/{until: alarm}, {wait: 1, open: east}, {exit: hall}/' "$work/west.yaml" >"$work/waits.yaml"
 expect "check warns of a journey step that waits for a gate that nothing opens" 0 "waits.yaml:8:60: warning: gate 'east' is closed, and nothing opens it" "$JOSTLE" check "$work/waits.yaml"
 expect "  or for a signal that nothing gives" 0 "waits.yaml:8:44: warning: no machine of the scene gives the signal 'alarm'" "$JOSTLE" check "$work/waits.yaml"
