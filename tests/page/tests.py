@@ -227,6 +227,10 @@ def check_dressed(browser):
         return !numbers.length || !numbers.every(Number.isFinite);
     })""", kinds)
     expect(len(kinds) > 20 and not wrong, f"these kinds have no shape: {wrong}")
+    rows, lost = browser.run("""const train = {kind: "train", at: [[0, 0]], turns: [0], size: [4, 3, 3], body: "train"}, {scenery} = page.view.ground;
+        const {pile} = scenery.shape([train], [{name: null}, {name: "train"}]);
+        return [[...new Set(pile.part.filter((_, i) => i % 3 === 2))], scenery.shape([train], [{name: null}]).pile.position.length]""")
+    expect(rows == [1] and lost == 0, f"scenery of body 1 takes the poses of {rows}; without its body it has {lost} numbers")
     meshes, triangles, material = browser.run("""const ground = page.view.ground;
         const made = ground.group.children.filter((n) => [ground.scenery.material, ground.scenery.paintMaterial].includes(n.material));
         return [made.length, made.reduce((sum, n) => sum + n.geometry.attributes.position.count / 3, 0), ground.floor.material.defines.MATERIAL]""")

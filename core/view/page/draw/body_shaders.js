@@ -1,28 +1,21 @@
 // Shaders of bodies and of the shade under them.
+import { POSE } from "./pose_shaders.js";
 
 /** Bodies: all parts of all of them in one mesh, whose vertices know the row of their body. */
 export const BODY_VERTEX = `
 precision highp float;
+` + POSE + `
 attribute vec3 position;
 attribute vec3 normal;
 attribute vec4 tint;       // colour, and the body's row
-uniform sampler2D poses;   // four texels a body: previous place and turn, next place and turn
-uniform vec2 size;         // of the texture
-uniform float share, chosen;
+uniform float chosen;
 uniform mat4 viewMatrix, projectionMatrix;
 varying vec3 facing, colour;
 varying float high;
-vec4 texel(float index) {
-    float row = floor((index + 0.5) / size.x);
-    return texture2D(poses, vec2(index - row * size.x + 0.5, row + 0.5) / size);
-}
-vec3 turned(vec3 v, vec4 q) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 void main() {
-    float at = 4.0 * tint.w;
-    vec4 q0 = texel(at + 1.0), q1 = texel(at + 3.0);
-    vec4 q = mix(dot(q0, q1) < 0.0 ? -q0 : q0, q1, share);
-    q = dot(q, q) < 1e-6 ? vec4(0.0, 0.0, 0.0, 1.0) : normalize(q);
-    vec3 p = mix(texel(at).xyz, texel(at + 2.0).xyz, share) + turned(position, q);
+    vec4 q;
+    vec3 p = poseOf(tint.w, q);
+    p += turned(position, q);
     facing = turned(normal, q);
     high = p.z;
     colour = abs(tint.w - chosen) < 0.5 ? vec3(1.0, 0.85, 0.3) : tint.rgb;
@@ -32,28 +25,19 @@ void main() {
 /** The shade under bodies: a rectangle a body, on the floor under its two axes that lie flattest. */
 export const BODY_SHADE_VERTEX = `
 precision highp float;
+` + POSE + `
 attribute vec3 position;   // of a corner: sign along both axes; and the body's row
 attribute vec3 half_size;  // m, of the box about the body
 attribute vec3 centre;     // m, of that box, in the body's frame
-uniform sampler2D poses;
-uniform vec2 size;
-uniform float share;
 uniform mat4 viewMatrix, projectionMatrix;
 varying vec2 at, reach;
 varying float dark;
 const float SOFT = 0.35;   // m
-vec4 texel(float index) {
-    float row = floor((index + 0.5) / size.x);
-    return texture2D(poses, vec2(index - row * size.x + 0.5, row + 0.5) / size);
-}
-vec3 turned(vec3 v, vec4 q) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 void main() {
-    float first = 4.0 * position.z;
-    vec4 q0 = texel(first + 1.0), q1 = texel(first + 3.0);
-    vec4 q = mix(dot(q0, q1) < 0.0 ? -q0 : q0, q1, share);
-    q = dot(q, q) < 1e-6 ? vec4(0.0, 0.0, 0.0, 1.0) : normalize(q);
+    vec4 q;
+    vec3 p = poseOf(position.z, q);
     vec3 x = turned(vec3(1.0, 0.0, 0.0), q), y = turned(vec3(0.0, 1.0, 0.0), q), z = turned(vec3(0.0, 0.0, 1.0), q);
-    vec3 p = mix(texel(first).xyz, texel(first + 2.0).xyz, share) + turned(centre, q);
+    p += turned(centre, q);
     vec3 one = x * half_size.x, other = y * half_size.y;
     if (abs(x.z) > abs(y.z) && abs(x.z) > abs(z.z)) one = z * half_size.z;
     else if (abs(y.z) > abs(z.z)) other = z * half_size.z;

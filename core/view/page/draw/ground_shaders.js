@@ -138,11 +138,14 @@ vec3 floorColour() {
 export const FLOOR_FRAGMENT = ON_FLOOR + FLOOR_COLOUR + `
 void main() { gl_FragColor = vec4(onFloor(floorColour()), 1.0); }`;
 
+/** How paint varies: not at all, with the floor under it, as grass does. */
+export const GRAIN = { none: 0, floor: 0.5, lawn: 1 };
+
 /** What is painted on the floor. */
 export const PAINT_VERTEX = `
-attribute vec3 ink;
+attribute vec4 ink;        // colour, and how it varies
 varying vec2 ground;
-varying vec3 paint;
+varying vec4 paint;
 void main() {
     ground = position.xy;
     paint = ink;
@@ -150,8 +153,24 @@ void main() {
 }`;
 
 export const PAINT_FRAGMENT = ON_FLOOR + `
-varying vec3 paint;
-void main() { gl_FragColor = vec4(onFloor(paint * mix(1.0, dim, 0.7)), 1.0); }`;
+varying vec4 paint;
+/* How bright the floor is here, over its mean: boards, joints and grain show through the paint. */
+float relief() {
+    if (material == 0) return 1.0 + 0.05 * grain(1.7) + 0.04 * grain(0.12);
+    float mean = material == 1 ? 0.87 : material == 2 ? 0.613 : material == 3 ? 0.782 : material == 4 ? 0.52 : material == 5 ? 0.667
+        : material == 6 ? 0.707 : material == 7 ? 0.787 : material == 8 ? 0.75 : 0.707;
+    return dot(floorColour(), vec3(0.3333)) / (dim * mean);
+}
+void main() {
+    vec3 colour = paint.rgb;
+    if (paint.a > 0.75) { // dry and lush patches, tufts, blades
+        float patch_ = grain(5.0) + 0.6 * grain(1.1);
+        colour *= (1.0 + 0.16 * patch_ + 0.2 * grain(0.11)) * vec3(1.0 + 0.1 * patch_, 1.0, 1.0 - 0.12 * patch_);
+    } else if (paint.a > 0.25) {
+        colour *= relief();
+    }
+    gl_FragColor = vec4(onFloor(colour * mix(1.0, dim, 0.7)), 1.0);
+}`;
 
 /** The sky behind everything: a triangle over the window; at the horizon it has the colour that the floor fades into. */
 export const SKY_VERTEX = `

@@ -1,17 +1,22 @@
 // Scenery of a scene message: things that stand or are carried by bodies, in one mesh, and what is painted on the floor, in
 // another. It is drawn and nothing else: people neither meet nor see it.
 import * as THREE from "three";
-import { PAINT_FRAGMENT, PAINT_VERTEX } from "./ground_shaders.js";
+import { GRAIN, PAINT_FRAGMENT, PAINT_VERTEX } from "./ground_shaders.js";
 import { ALONG, STANDING } from "./scenery_kinds.js";
 import { SCENERY_FRAGMENT, SCENERY_VERTEX } from "./scenery_shaders.js";
 import { Paint, Pile, draw, rgb } from "./shapes.js";
 
 const PAINTED = { line: "#f7f6f1", ring: "#f7f6f1", area: "#b9c4a8" };
 
+/** Whether a colour is that of a lawn: green that leans to yellow. */
+function isLawn([red, green, blue]) {
+    return green > red && red > blue;
+}
+
 function paintItem(paint, { kind, through = [], at = [], size, colour }) {
     const own = rgb(colour ?? PAINTED[kind]);
     if (kind === "line") paint.line(through, size[1], own);
-    if (kind === "area") paint.area(through, own);
+    if (kind === "area") paint.area(through, own, isLawn(own) ? GRAIN.lawn : GRAIN.floor);
     if (kind === "ring") for (const p of at) paint.ring(p, size[0] / 2, 0.08, own);
 }
 
@@ -19,8 +24,10 @@ function paintItem(paint, { kind, through = [], at = [], size, colour }) {
 function pileItem(pile, { kind, at = [], through = [], turns = [], size, colour, doors, body }, rowOf) {
     const own = colour ? { colour: rgb(colour) } : {};
     if (STANDING[kind]) {
+        const row = body ? rowOf(body) : -1;
+        if (body && row < 0) return; // it is not there, or not yet
         for (const [k, [x, y]] of at.entries()) {
-            pile.place(x, y, (turns[k] * Math.PI) / 180, body ? rowOf(body) : -1);
+            pile.place(x, y, (turns[k] * Math.PI) / 180, row);
             STANDING[kind](pile, size, { ...own, doors, seed: draw(x, y) });
         }
     } else if (ALONG[kind]) {
@@ -70,7 +77,7 @@ export class Scenery {
     build(scene, beside) {
         const { pile, paint } = this.shape(scene.scenery ?? [], scene.bodies, beside), meshes = [];
         this.rings = pile.rings;
-        if (paint.position.length) meshes.push(meshOf([["position", paint.position, 3], ["ink", paint.colour, 3]], this.paintMaterial, -0.9));
+        if (paint.position.length) meshes.push(meshOf([["position", paint.position, 3], ["ink", paint.colour, 4]], this.paintMaterial, -0.9));
         if (pile.position.length) {
             meshes.push(meshOf([["position", pile.position, 3], ["normal", pile.normal, 3], ["ink", pile.colour, 4], ["where", pile.where, 4], ["part", pile.part, 3]], this.material, 0));
         }

@@ -1,10 +1,12 @@
 // Shaders of scenery. It stands still, or is carried by a body, whose pose it takes from the texture of bodies.
 import { LOWERED } from "./ground_shaders.js";
 import { LIGHT } from "./light.js";
+import { POSE } from "./pose_shaders.js";
 
 /** Blocks that stand between the eye and the box `keep` are lowered like walls; roofs are left out below the eye. */
 export const SCENERY_VERTEX = `
 precision highp float;
+` + POSE + `
 attribute vec3 position;
 attribute vec3 normal;
 attribute vec4 ink;        // colour, and glow
@@ -13,29 +15,18 @@ attribute vec3 part;       // height of the shape's foot; height above which no 
 uniform vec3 eye;
 uniform vec4 keep;         // x0, y0, x1, y1
 uniform float lowered, edge;
-uniform sampler2D poses;   // four texels a body: previous place and turn, next place and turn
-uniform vec2 size;
-uniform float share;
 uniform mat4 viewMatrix, projectionMatrix;
 varying vec3 facing;
 varying vec4 colour;
 varying vec3 at;
-vec4 texel(float index) {
-    float row = floor((index + 0.5) / size.x);
-    return texture2D(poses, vec2(index - row * size.x + 0.5, row + 0.5) / size);
-}
-vec3 turned(vec3 v, vec4 q) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 void main() {
     at = position;
     facing = normal;
     colour = ink;
     bool gone = part.y > 0.0 && eye.z > part.y;
     if (part.z > -0.5) {
-        float first = 4.0 * part.z;
-        vec4 q0 = texel(first + 1.0), q1 = texel(first + 3.0);
-        vec4 q = mix(dot(q0, q1) < 0.0 ? -q0 : q0, q1, share);
-        q = dot(q, q) < 1e-6 ? vec4(0.0, 0.0, 0.0, 1.0) : normalize(q);
-        vec3 middle = mix(texel(first).xyz, texel(first + 2.0).xyz, share);
+        vec4 q;
+        vec3 middle = poseOf(part.z, q);
         // It stands on the floor under its body, turned about the vertical axis as the body is.
         vec3 along = turned(vec3(1.0, 0.0, 0.0), q);
         vec2 a = length(along.xy) > 1e-3 ? normalize(along.xy) : vec2(1.0, 0.0), b = vec2(-a.y, a.x);

@@ -214,17 +214,18 @@ export class Paint {
         this.colour = [];
     }
 
-    add(points, faces, colour) {
+    /** Adds triangles; `grain`: GRAIN of the shader. */
+    add(points, faces, colour, grain = 0) {
         for (const face of faces) {
             for (const k of face) {
                 this.position.push(points[k][0], points[k][1], 0.004);
-                this.colour.push(...colour);
+                this.colour.push(colour[0], colour[1], colour[2], grain);
             }
         }
     }
 
-    area(points, colour) {
-        this.add(points, cutEars(points), colour);
+    area(points, colour, grain = 0) {
+        this.add(points, cutEars(points), colour, grain);
     }
 
     line(points, wide, colour) {
