@@ -13,6 +13,7 @@ uniform float texels;       // of a cell, up
 flat out mat2 across;       // from the point's pixels to the figure's box
 flat out vec4 box;          // middle and half of the box in the atlas
 flat out vec3 sun, sky, top, sleeve, hips, leg, skin, hair, shoe;
+flat out vec4 bag;          // its colour, and 1 if it is worn
 flat out float blur;
 const vec3 SUN = vec3(${SUN.join(", ")});
 
@@ -59,7 +60,9 @@ void main() {
     blur = clamp(log2(0.5 * texels / (${HALF[1]} * p.size.z * pixels)), 0.0, 3.0);
     sun = vec3(dot(SUN, front), dot(SUN, left) * side, dot(SUN, up));
     sky = vec3(front.z, left.z * side, up.z);
-    top = o.top, sleeve = o.sleeve, hips = o.hips, leg = o.skirt ? o.skin : o.leg, skin = o.skin, hair = o.hair, shoe = o.shoe;
+    top = o.top, sleeve = o.sleeve, hips = o.hips, leg = o.skirt ? o.skin : o.leg, skin = o.skin, shoe = o.shoe;
+    hair = o.hat ? o.bag : o.hair; // a hat has the colour of bags, and covers the hair
+    bag = vec4(o.bag, o.bagged);
 }`;
 
 export const SPRITE_FRAGMENT = `
@@ -69,6 +72,7 @@ uniform sampler2D atlasClothes, atlasBody, atlasSurface;
 flat in mat2 across;
 flat in vec4 box;
 flat in vec3 sun, sky, top, sleeve, hips, leg, skin, hair, shoe;
+flat in vec4 bag;
 flat in float blur;
 out vec4 drawn;
 ` + FADE + LIGHT + `
@@ -80,7 +84,8 @@ void main() {
     if (body.a < 0.45) discard;
     fade();
     vec4 clothes = textureLod(atlasClothes, spot, blur), surface = textureLod(atlasSurface, spot, blur);
-    vec3 colour = clothes.r * top + clothes.g * sleeve + clothes.b * hips + clothes.a * leg + body.r * skin + body.g * hair + body.b * shoe;
     vec3 n = normalize(2.0 * surface.rgb - body.a + vec3(0.0, 0.0, 1e-3));
+    vec3 back = mix(top, bag.rgb, bag.a * smoothstep(0.55, 0.9, -n.x)); // a bag covers the middle of the back
+    vec3 colour = clothes.r * back + clothes.g * sleeve + clothes.b * hips + clothes.a * leg + body.r * skin + body.g * hair + body.b * shoe;
     drawn = vec4(litIn(colour / body.a, n, surface.a / body.a, sky, sun), 1.0);
 }`;
