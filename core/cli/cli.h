@@ -175,7 +175,7 @@ int cli_write_report_page(const CliCommand *command, const CliReportPage *page);
 /* Writes the page of runs with many seeds from a sweep's file of one variant; returns the exit
    status. */
 int cli_write_runs_page(const CliCommand *command, const char *runs, const char *folder,
-                        bool quiet);
+                        const JoReportHead *head, bool quiet);
 /* Returns whether a file was written by `jostle sweep`. */
 bool cli_is_sweep(const char *path);
 /* Makes a folder and its parents; false with a message. */

@@ -11,6 +11,8 @@ static bool read_report_unit(void *options, const char *text, char why[160]) {
     return cli_read_unit(&((Wanted *)options)->def.unit, text, why);
 }
 
+#define HEAD(name, value, meaning, member)                                                         \
+    { name, value, meaning, CLI_TO(Wanted, def.head.member) }
 static const CliOption OPTIONS[] = {
     {"scene", "SCENE",
      "measure with this scene's `probes` and draw its walls (without: fields, and densities and "
@@ -26,8 +28,20 @@ static const CliOption OPTIONS[] = {
      CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, if it does not say", .kind = CLI_READ,
      .read = read_report_unit},
+    HEAD("title", "TEXT", "title of the report; without: the scene's, or the recording's name",
+         title),
+    HEAD("author", "NAME",
+         "who prepared the report; this and what follows overrides the scene's `report`", author),
+    HEAD("organisation", "NAME", "the author's organisation", organisation),
+    HEAD("project", "TEXT", "project or client", project),
+    HEAD("reference", "TEXT", "number of the document and its revision", reference),
+    HEAD("checked-by", "NAME", "who checks the report", checked_by),
+    HEAD("approved-by", "NAME", "who approves the report", approved_by),
+    HEAD("date", "DATE", "date of the report; without: that of SOURCE_DATE_EPOCH, or today, in UTC",
+         date),
     CLI_TRUSTED_OPTION(Wanted),
 };
+#undef HEAD
 
 static void confine_report(const Wanted *wanted) {
     CliReach reach = {.programs = true};
@@ -51,7 +65,7 @@ static int report_recording(const Wanted *wanted) {
         if (wanted->summary || wanted->def.scene || !wanted->def.directory)
             return cli_report_misuse(&cli_report, "the runs of a sweep go with --out DIR alone");
         return cli_write_runs_page(&cli_report, wanted->def.recording, wanted->def.directory,
-                                   false);
+                                   &wanted->def.head, false);
     }
     char *summary = jo_report(&wanted->def, &error);
     if (!summary) /* faults of files were sent as messages */

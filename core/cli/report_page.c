@@ -85,12 +85,13 @@ bool cli_make_folder(const CliCommand *command, const char *path) {
 }
 
 int cli_write_runs_page(const CliCommand *command, const char *runs, const char *folder,
-                        bool quiet) {
+                        const JoReportHead *head, bool quiet) {
     JoCompareDef def = jo_default_compare_def();
     JoError error = {0};
     def.sides = &runs;
     def.side_count = 1;
     def.out = folder;
+    def.head = *head;
     char *text = jo_compare(&def, NULL, &error);
     if (!text)
         return cli_report_error(command, &error, false);

@@ -366,7 +366,8 @@ static int run_seeds(Run *run, char **summary) {
         run->troubled |= counts.troubled > 0;
         status = !good ? print_run_error(&error, false) : counts.failed ? JO_FAILED : JO_OK;
         if (good && run->report && counts.done + counts.failed) {
-            const int page = cli_write_runs_page(&cli_run, kept.data, run->report, run->quiet);
+            const int page = cli_write_runs_page(&cli_run, kept.data, run->report,
+                                                 &(JoReportHead){0}, run->quiet);
             status = status == JO_OK ? page : status;
         }
     }

@@ -167,6 +167,12 @@ JO_API bool jo_scene_try(JoScene *scene, const JoVetting *what);
 
 /* ---- recordings, pictures, costs --------------------------------------------------------- */
 
+/* What the title block of a report states; NULL: what the scene's `report` states, or nothing. */
+typedef struct JoReportHead {
+    const char *title, *author, *organisation, *project, *reference;
+    const char *checked_by, *approved_by, *date;
+} JoReportHead;
+
 /* Definition of a report on a recording: an SQLite file of jo_scene_record or of JuPedSim, or
    text with the columns id, frame, x, y as PeTrack writes it, or CSV with a line of column
    names. */
@@ -179,6 +185,7 @@ typedef struct JoReportDef {
     const char *directory;
     double fps;  /* frames a second; 0: as the recording says */
     double unit; /* m: unit of the recording's lengths: 1, or 0.01 for centimetres; 0: as it says */
+    JoReportHead head;
     JoMessage *message; /* NULL: to stderr */
     void *message_context;
     uint32_t cookie;
@@ -332,6 +339,7 @@ typedef struct JoCompareDef {
     size_t label_count;
     const char *base;   /* the base: number of a side from 1, name or file; NULL: the first */
     const char *out;    /* folder for a page, index.html, made if it is missing; NULL: none */
+    JoReportHead head;  /* of the page of one side, whose runs differ by their seeds */
     double share;       /* confidence level of intervals, 0.5 to below 1; default 0.95 */
     double percentile;  /* per cent, 0 to below 100: adds to the result this percentile of each
                            figure over a side's runs, an upper confidence bound for it, and the worst

@@ -127,6 +127,16 @@ void jox_page_put_definitions(FILE *out, const JoxDanger *danger) {
         jox_html_paragraph(out, "Compression was not measured.");
 }
 
+void jox_page_put_limit_meaning(FILE *out, int limit) {
+    JoxText lead = {0}, meaning = {0};
+    jox_text_printf(&lead, "Limit %s:", jox_danger_limits[limit].title);
+    jox_text_printf(&meaning, "%s (%s).", jox_danger_limits[limit].what,
+                    jox_danger_limits[limit].source);
+    jox_html_statement(out, lead.data, meaning.data);
+    jox_text_free(&lead);
+    jox_text_free(&meaning);
+}
+
 /* Writes a table of the published limits that somebody was over: who, for how long, and since
    when; then what each limit means. */
 static void put_limit_table(FILE *out, const JoxSubject *s) {
@@ -149,15 +159,8 @@ static void put_limit_table(FILE *out, const JoxSubject *s) {
     }
     jox_table_put(out, &table);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
-        if (jox_danger_count(danger, l).people) {
-            const JoxDangerLimit *limit = &jox_danger_limits[l];
-            JoxText lead = {0}, meaning = {0};
-            jox_text_printf(&lead, "Limit %s:", limit->title);
-            jox_text_printf(&meaning, "%s (%s).", limit->what, limit->source);
-            jox_html_statement(out, lead.data, meaning.data);
-            jox_text_free(&lead);
-            jox_text_free(&meaning);
-        }
+        if (jox_danger_count(danger, l).people)
+            jox_page_put_limit_meaning(out, l);
 }
 
 /* Writes a table of the greatest value of each measure, with its time and place. */

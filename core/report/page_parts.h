@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/format/path.h"
+#include "jostle_tools.h"
 #include "record/danger/criteria.h"
 #include "report/page_table.h"
 #include "report/subject.h"
@@ -38,6 +39,9 @@ void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe);
 void jox_page_put_value(FILE *out, const JoxPageFigure *figure);
 void jox_page_release(JoxPageFigures *f);
 
+/* Returns what a report states: what its caller asks for, else what the scene gives (or NULL). The
+   texts are borrowed; `notes` are the scene's. */
+JoxSceneReport jox_page_head(const JoxSceneReport *given, const JoReportHead *asked);
 /* Writes the head of a report and opens the table of facts about it with what the scene gives
    (`given`, or NULL) and the date; jox_html_fact adds to it, jox_html_table_end ends it. `about` is
    a line below the title, `foot` the running text at the foot of printed pages. */
@@ -78,6 +82,8 @@ uint32_t jox_page_rank_greatest(const JoxDanger *danger, uint32_t count,
    step, which are written behind each value with the difference. */
 void jox_page_put_figures(FILE *out, const JoxSubject *subject, const JoxPageFigures *figures,
                           const char *heads, const JoxPageFigures *half);
+/* Writes what a published limit means, and its source. */
+void jox_page_put_limit_meaning(FILE *out, int limit);
 /* Writes the definitions of the danger measures. */
 void jox_page_put_definitions(FILE *out, const JoxDanger *danger);
 /* Writes the heading and first paragraph of the section on validation. */

@@ -10,6 +10,22 @@
 #include "picture/html_sections.h"
 #include "report/page_parts.h"
 
+static char *choose_text(const char *asked, const char *given) {
+    return (char *)(uintptr_t)(asked ? asked : given);
+}
+
+JoxSceneReport jox_page_head(const JoxSceneReport *given, const JoReportHead *asked) {
+    const JoxSceneReport none = {0}, *scene = given ? given : &none;
+    return (JoxSceneReport){.author = choose_text(asked->author, scene->author),
+                            .organisation = choose_text(asked->organisation, scene->organisation),
+                            .project = choose_text(asked->project, scene->project),
+                            .reference = choose_text(asked->reference, scene->reference),
+                            .checked_by = choose_text(asked->checked_by, scene->checked_by),
+                            .approved_by = choose_text(asked->approved_by, scene->approved_by),
+                            .date = choose_text(asked->date, scene->date),
+                            .notes = scene->notes};
+}
+
 /* Writes the date given, else that of SOURCE_DATE_EPOCH, else today's, in UTC. */
 static void write_report_date(const JoxSceneReport *given, char date[64]) {
     const char *epoch = getenv("SOURCE_DATE_EPOCH");

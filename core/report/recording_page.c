@@ -117,8 +117,9 @@ static void put_recording_inputs(FILE *out, const JoxReport *r, const JoxSubject
 
 /* Writes the head of the page, with the facts of the recording, and lines to sign. */
 static void put_recording_title(FILE *out, const JoxReport *r, const JoxSubject *s,
-                                const char hash[65]) {
-    const JoxSceneReport *given = r->spec ? &r->spec->report : NULL;
+                                const char hash[65], const JoxVerdict *verdicts, uint32_t count) {
+    JoxText criteria = {0};
+    const JoxSceneReport given = jox_page_head(r->spec ? &r->spec->report : NULL, &r->def->head);
     char path[JOX_LONGEST_PATH], foot[400], program[64], measured[120];
     jox_page_path(r->def->recording, NULL, path);
     snprintf(foot, sizeof foot, "Jostle %s, %.200s, SHA-256 %.16s", jo_version(),
@@ -126,15 +127,18 @@ static void put_recording_title(FILE *out, const JoxReport *r, const JoxSubject 
     snprintf(program, sizeof program, "Jostle %s", jo_version());
     snprintf(measured, sizeof measured, "%.6g to %.6g s, %g frames a second", s->from, s->until,
              r->crowd->fps);
-    jox_page_begin(out, s, given, "A report on a recording.", foot);
+    jox_page_begin(out, s, &given, "A report on a recording.", foot);
     jox_html_fact(out, "Recording", path);
     jox_html_fact(out, "SHA-256 of the recording", hash);
     if (r->def->scene)
         jox_html_fact(out, "Scene of its plan", jox_page_path(r->def->scene, NULL, path));
     jox_html_fact(out, "Measured", measured);
     jox_html_fact(out, "Program", program);
+    jox_page_say_criteria(verdicts, count, &criteria);
+    jox_html_fact(out, "Criteria", criteria.data);
+    jox_text_free(&criteria);
     jox_html_table_end(out);
-    jox_page_put_signatures(out, given);
+    jox_page_put_signatures(out, &given);
 }
 
 static void put_recording_summary(FILE *out, const JoxReport *r, const JoxSubject *subject) {
@@ -177,7 +181,7 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
         JoxVerdict *verdicts = jox_alloc(count + 1, sizeof *verdicts);
         for (uint32_t k = 0; k < count; k++)
             verdicts[k] = jox_criteria_judge(r->criteria, k, &evidence);
-        put_recording_title(page, r, &subject, hash);
+        put_recording_title(page, r, &subject, hash, verdicts, count);
         put_recording_summary(out, r, &subject);
         jox_page_put_criteria(out, &subject, verdicts, count);
         jox_page_put_crowd(out, &subject);
@@ -208,7 +212,9 @@ const JoxWalls *jox_report_walls(const JoxReport *r) {
 }
 
 const char *jox_report_title(const JoxReport *r) {
-    return r->spec && r->spec->title ? r->spec->title : jox_path_name(r->def->recording);
+    return r->def->head.title          ? r->def->head.title
+           : r->spec && r->spec->title ? r->spec->title
+                                       : jox_path_name(r->def->recording);
 }
 
 JoxSubject jox_report_subject(const JoxReport *r) {

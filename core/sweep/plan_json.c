@@ -71,6 +71,24 @@ static void put_plan_bodies(JoxJson *json, const JoxBodies *bodies) {
     jox_free(drawn.items);
 }
 
+/* Writes what the scene states for the title block of reports. */
+static void put_plan_report(JoxJson *json, const JoxSceneReport *report) {
+    const struct {
+        const char *key, *text;
+    } texts[] = {{"author", report->author},
+                 {"organisation", report->organisation},
+                 {"project", report->project},
+                 {"reference", report->reference},
+                 {"checked_by", report->checked_by},
+                 {"approved_by", report->approved_by},
+                 {"date", report->date}};
+    jox_json_object(json, "report");
+    for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
+        if (texts[t].text)
+            jox_json_string(json, texts[t].key, texts[t].text);
+    jox_json_end(json);
+}
+
 void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     JoxV2 low, high;
@@ -78,6 +96,7 @@ void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
     jox_run_find_shown_area(scene, &low, &high);
     jox_json_object(&json, NULL);
     jox_json_string(&json, "title", spec->title ? spec->title : "");
+    put_plan_report(&json, &spec->report);
     jox_json_numbers_of(
         &json, "area",
         (const double[]){(double)low.x, (double)low.y, (double)high.x, (double)high.y}, 4, 9);

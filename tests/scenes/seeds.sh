@@ -2,12 +2,13 @@
 # continued.
 . tests/scenes/lib.sh
 page=$work/page
-what=(scenes/evacuation.yaml --set groups.hall.count=30 --set groups.office.count=10 --set groups.archive.count=2 --dt 0.1 --report "$page")
+what=(scenes/evacuation.yaml --set groups.hall.count=30 --set groups.office.count=10 --set groups.archive.count=2 --dt 0.1 --set "report.author=B. Planner" --report "$page")
 expect "a run of several seeds with a report" 0 "report: $page/index.html" "$JOSTLE" run "${what[@]}" --seeds 3 --for 45
+grep -q "<th>Author<td>B. Planner" "$page/index.html" && grep -q "<th>Program<td>Jostle" "$page/index.html" && grep -q "counter(pages)" "$page/index.html"; verdict "the page has its title block and page numbers" $?
 outlined "the page and its plots have their sections, titles and axes" "$page" seeds --no-ranges
 for file in plan spread density density-greatest density-worst; do [ -s "$page/$file.png" ] && [ -s "$page/$file.svg" ]; verdict "  $file" $?; done
 same_hash "the page has the hash of each run" "$(hash_of "$JOSTLE" scenes/evacuation.yaml --set groups.hall.count=30 --set groups.office.count=10 --set groups.archive.count=2 --dt 0.1 --for 45 --seed 2)" \
-    "$(grep -o '^<tr><td class=n>2<td class=n>.*<code>[0-9a-f]*</code>' "$page/index.html" | sed 's/.*<code>\(.*\)<.code>/\1/')"
+    "$(sed -n 's/^2,.*,\([0-9a-f]*\),$/\1/p' "$page/table-runs.csv")"
 python3 - "$page" >"$work/check" 2>&1 <<'END'
 import html, re, sqlite3, statistics, sys
 page = sys.argv[1]
@@ -43,10 +44,13 @@ expect "with other inputs all runs are repeated" 0 "2 of 2 runs done, 0 running"
 grep -q "In no run did anybody leave within 5 s" "$page/index.html"; verdict "  the page says that nobody left" $?
 cp "$page/runs.sqlite" "$work/runs.sqlite"
 expect "report of a sweep's file makes the same page" 0 "report: $work/again/index.html" "$JOSTLE" report "$work/runs.sqlite" --out "$work/again"
-sed "s|$work/runs.sqlite|$page/runs.sqlite|" "$work/again/index.html" | cmp -s - "$page/index.html"; verdict "  byte for byte" $?
+cmp -s "$work/again/index.html" "$page/index.html"; verdict "  byte for byte" $?
+expect "  with a title block of its own" 0 "report:" "$JOSTLE" report "$work/runs.sqlite" --author "A. Engineer" --title "Hall & exits" --out "$work/signed"
+grep -q "<h1>Hall &amp; exits: 2 runs with different seeds</h1>" "$work/signed/index.html" && grep -q "<th>Author<td>A. Engineer" "$work/signed/index.html"; verdict "  which the page states" $?
+! grep -q "$work\|/tmp" "$work/signed/index.html"; verdict "  without a path of this machine" $?
 expect "  and refuses --summary" 2 "the runs of a sweep go with --out DIR alone" "$JOSTLE" report "$work/runs.sqlite" --summary -
 printf 'return machine { name = "odd", start = "A", states = { A = { steer = drift(1, 0) } } }\n' >"$work/odd.lua"
 printf 'jostle: 1\ngroups: {walkers: {behaviour: odd.lua, at: [[9999.5, 0], [9, 9]]}}\n' >"$work/fails.yaml"
 expect "if all runs fail the page gives the reasons" 1 "report:" "$JOSTLE" run "$work/fails.yaml" --set guard.people=end --seeds 2 --for 2 --report "$work/failed"
-[ "$(grep -c 'left out: step 8, t = 0.40 s: the position of agent 0 is more than 10 km' "$work/failed/index.html")" = 2 ]; verdict "  for each run" $?
+[ "$(grep -c '<td>step 8, t = 0.40 s: the position of agent 0 is more than 10 km' "$work/failed/index.html")" = 2 ]; verdict "  for each run" $?
 expect "an unwritable folder is an error" 1 "cannot make the folder '/proc/x'" "$JOSTLE" run "${what[@]}" --seeds 2 --report /proc/x

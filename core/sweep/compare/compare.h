@@ -158,14 +158,12 @@ uint32_t jox_spread_count_positive(const JoxSide *side, const char *figure);
 /* Appends "45.2 s (43 to 48.1; at most 49, seed 7)": the median, the 5 % and 95 % quantiles, and
    the greatest value, or the least one if `low`. If all runs have the same value, only that. */
 void jox_spread_add_text(const JoxSpread *spread, const char *unit, bool low, JoxText *out);
-/* Writes a table cell with the median and the 5 % and 95 % quantiles, without unit. */
-void jox_spread_put_cell(FILE *out, const JoxSpread *spread);
 
 /* The page of a sweep of one variant, whose runs differ by their seeds only. seeds_page.c writes
    index.html; its summary is in seeds_summary.c, its curves and maps in seeds_pictures.c. */
 void jox_seeds_put_summary(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn);
 bool jox_seeds_draw(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why);
-void jox_seeds_put_curves(FILE *out, const JoxSideDrawn *drawn);
+void jox_seeds_put_curves(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn);
 void jox_seeds_put_maps(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn);
 
 /* Returns the value that the file stores for all runs under a key; "" if none. */

@@ -90,23 +90,29 @@ static void plot_exits(FILE *script, const JoxSide *side) {
     fputc('\n', script);
 }
 
-/* Draws spread.svg and PNG, strips below each other; nothing if there are no curves. */
-static bool draw_spread(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
-    const char *folder = drawn->subject.folder;
+/* Returns the number of strips of the plot of curves; sets `left` if one shows exits. */
+static int count_spread_strips(const JoxSide *side, bool *left) {
     int strips = 0;
-    bool left = false;
+    *left = false;
     for (int k = 0; k < STRIP_COUNT; k++)
         strips += find_drawn_curve(side, STRIPS[k].curve) != NULL;
     for (uint32_t k = 0; k < side->curve_count; k++)
-        left |= is_exit(&side->curves[k]);
-    strips += left;
+        *left |= is_exit(&side->curves[k]);
+    return strips + *left;
+}
+
+/* Draws spread.svg and PNG, strips below each other; nothing if there are no curves. */
+static bool draw_spread(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why) {
+    const char *folder = drawn->subject.folder;
+    bool left;
+    const int strips = count_spread_strips(side, &left);
     if (strips == 0)
         return true;
     FILE *script = jox_plot_open(folder, "spread.plt", why);
     if (!script)
         return false;
     for (int svg = 0; svg < 2; svg++) {
-        jox_plot_begin(script, "spread", svg, WIDE, 20 + strips * STRIP);
+        jox_plot_begin(script, "spread", svg, WIDE, strips * STRIP);
         fprintf(
             script,
             "set multiplot layout %d,1\nset grid\nset lmargin 10\nset rmargin 29\nset xlabel "
@@ -127,28 +133,32 @@ static bool draw_spread(const JoxSide *side, const JoxSideDrawn *drawn, JoxText 
     return jox_plot_close(script, "spread.plt", why) && jox_plot_draw(folder, "spread.plt", why);
 }
 
-void jox_seeds_put_curves(FILE *out, const JoxSideDrawn *drawn) {
-    jox_html_figure(out, drawn->subject.folder, "spread",
-                    "Over time: the median of the runs, what nine in ten lie between, and all. At "
-                    "each moment for itself: no run needs to be the median all the time.",
-                    true);
+void jox_seeds_put_curves(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+    bool left;
+    jox_html_strips(
+        out, drawn->subject.folder, "spread",
+        "Over time: the median of the runs, what nine in ten lie between, and all. At "
+        "each moment for itself: no run needs to be the median all the time.",
+        &(JoxStrips){.count = count_spread_strips(side, &left), .width = WIDE, .height = STRIP});
 }
 
 /* ---- maps ---- */
 
 static const struct {
-    const char *file, *title, *legend;
+    const char *file, *title, *legend, *caption;
     JoxSideFieldKind kind;
     bool density;
-} MAPS[] = {{"density", "Mean density " JOX_DENSITY_BY,
-             "people per m\xc2\xb2, mean over time and runs", JOX_FIELD_MEAN, true},
-            {"density-greatest", "Greatest density " JOX_DENSITY_BY ", mean of the runs",
-             "people per m\xc2\xb2, greatest of all times, mean of the runs", JOX_FIELD_GREATEST,
-             true},
-            {"density-worst", "Greatest density " JOX_DENSITY_BY ", worst of the runs",
-             "people per m\xc2\xb2, greatest of all times and runs", JOX_FIELD_WORST, true},
-            {"density-often", "Where it is 5 per m\xc2\xb2 or more " JOX_DENSITY_BY,
-             "% of the runs in which it ever was that dense here", JOX_FIELD_OFTEN, false}};
+} MAPS[] = {{"density", "Mean density", "people per m\xc2\xb2 " JOX_DENSITY_BY,
+             "Mean density " JOX_DENSITY_BY " over time and runs", JOX_FIELD_MEAN, true},
+            {"density-greatest", "Greatest, mean of runs", "people per m\xc2\xb2 " JOX_DENSITY_BY,
+             "Greatest density " JOX_DENSITY_BY " of all times, mean of the runs",
+             JOX_FIELD_GREATEST, true},
+            {"density-worst", "Greatest, worst of runs", "people per m\xc2\xb2 " JOX_DENSITY_BY,
+             "Greatest density " JOX_DENSITY_BY " of all times and runs", JOX_FIELD_WORST, true},
+            {"density-often", "5 per m\xc2\xb2 or more", "% of the runs",
+             "Share of the runs, %, in which the density " JOX_DENSITY_BY
+             " was 5 per m\xc2\xb2 or more at some time",
+             JOX_FIELD_OFTEN, false}};
 enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 
 /* Returns whether a map shows anything. */
@@ -183,6 +193,6 @@ void jox_seeds_put_maps(FILE *out, const JoxSide *side, const JoxSideDrawn *draw
     jox_maps_panels(out, &drawn->subject);
     for (int m = 0; m < MAP_COUNT; m++)
         if (has_map(side, m))
-            jox_html_figure(out, drawn->subject.folder, MAPS[m].file, MAPS[m].title, false);
+            jox_html_figure(out, drawn->subject.folder, MAPS[m].file, MAPS[m].caption, false);
     jox_html_panels_end(out);
 }

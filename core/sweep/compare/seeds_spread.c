@@ -1,4 +1,4 @@
-/* Computes how the figures of a side spread over its runs, and writes spreads as text and cells. */
+/* Computes how the figures of a side spread over its runs, and writes spreads as text. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -73,20 +73,4 @@ void jox_spread_add_text(const JoxSpread *s, const char *unit, bool low, JoxText
     jox_text_add(out, low ? "; at least " : "; at most ");
     add_short_number(out, low ? s->least : s->most);
     jox_text_printf(out, ", seed %llu)", (unsigned long long)(low ? s->least_seed : s->most_seed));
-}
-
-void jox_spread_put_cell(FILE *out, const JoxSpread *s) {
-    JoxText text = {0};
-    if (s->runs) {
-        add_short_number(&text, s->median);
-        if (s->least != s->most) {
-            jox_text_add(&text, " (");
-            add_short_number(&text, s->p5);
-            jox_text_add(&text, " to ");
-            add_short_number(&text, s->p95);
-            jox_text_add(&text, ")");
-        }
-    }
-    fprintf(out, "<td class=n>%s", text.length ? text.data : "&ndash;");
-    jox_text_free(&text);
 }

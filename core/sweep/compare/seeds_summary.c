@@ -4,6 +4,7 @@
 #include "base/format/plurals.h"
 #include "picture/html.h"
 #include "record/danger/danger.h"
+#include "report/page_parts.h"
 #include "sweep/compare/compare.h"
 
 static void put_seeds_statement(FILE *out, const char *lead, JoxText *text) {
@@ -15,9 +16,9 @@ static void put_what_was_run(FILE *out, const JoxSide *side, const JoxSideDrawn 
     const char *settings = side->settings ? side->settings : "";
     const JoxSpread people = jox_spread_of(side, "events.spawned");
     JoxText text = {0};
-    char runs[JOX_NOUN];
+    char runs[JOX_NOUN], path[JOX_LONGEST_PATH];
     jox_text_printf(&text, "The scene %s (%s)", drawn->subject.title,
-                    jox_side_find_note(side, "scene"));
+                    jox_page_path(jox_side_find_note(side, "scene"), NULL, path));
     if (people.runs) {
         jox_text_add(&text, ", in which ");
         if (people.least == people.most)

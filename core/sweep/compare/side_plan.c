@@ -143,12 +143,31 @@ static void read_part(Reading *r, const JoxJsonItem *item) {
     }
 }
 
+/* Reads a text of the title block. */
+static void read_plan_report(JoxSceneReport *report, const JoxJsonItem *item) {
+    const struct {
+        const char *key;
+        char **text;
+    } texts[] = {{"author", &report->author},
+                 {"organisation", &report->organisation},
+                 {"project", &report->project},
+                 {"reference", &report->reference},
+                 {"checked_by", &report->checked_by},
+                 {"approved_by", &report->approved_by},
+                 {"date", &report->date}};
+    for (size_t t = 0; item->key && t < sizeof texts / sizeof *texts; t++)
+        if (strcmp(item->key, texts[t].key) == 0 && !*texts[t].text)
+            *texts[t].text = jox_strdup(item->text);
+}
+
 /* Takes an item of the JSON: the area, the beginning of a part, or a value of the part. */
 static bool read_item(void *context, const JoxJsonItem *item) {
     Reading *r = context;
     if (item->depth == 2 && item->kind == JOX_JSON_NUMBER && r->corners < 4 &&
         strncmp(item->path, "area.", 5) == 0)
         r->area[r->corners++] = (float)item->number;
+    if (item->depth == 2 && item->kind == JOX_JSON_TEXT && strncmp(item->path, "report.", 7) == 0)
+        read_plan_report(&r->plan->report, item);
     if (item->depth == 2 && item->kind == JOX_JSON_OBJECT) {
         finish_part(r);
         for (int of = 0; of < NOTHING; of++)
@@ -176,6 +195,13 @@ void jox_side_plan_free(JoxSidePlan *plan) {
         jox_place_free(&plan->places[p]);
     for (uint32_t p = 0; p < plan->probe_count; p++)
         jox_probe_free(plan->probes[p]);
+    jox_free(plan->report.author);
+    jox_free(plan->report.organisation);
+    jox_free(plan->report.project);
+    jox_free(plan->report.reference);
+    jox_free(plan->report.checked_by);
+    jox_free(plan->report.approved_by);
+    jox_free(plan->report.date);
     jox_free(plan->places);
     jox_free(plan->probes);
     jox_free(plan->bodies.items);

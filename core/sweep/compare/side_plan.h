@@ -5,6 +5,7 @@
 
 #include "picture/draw.h"
 #include "record/probes/probe.h"
+#include "scene/scene.h"
 
 typedef struct JoxSidePlan {
     JoxV2 low, high; /* bounds of the picture, m */
@@ -14,6 +15,7 @@ typedef struct JoxSidePlan {
     JoxProbe **probes; /* probes with a place; for drawing only */
     uint32_t probe_count;
     JoxDrawnBodies bodies;
+    JoxSceneReport report; /* what the scene states for the title block; `notes` is not read */
 } JoxSidePlan;
 
 /* Reads the JSON; false if it is no plan. Free the plan even then. */
