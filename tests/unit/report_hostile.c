@@ -219,7 +219,7 @@ static void danger_plots_survive_hostile_names(void **state) {
             jox_danger_frame(measured, &frame, &exits);
         }
         expect_success(jox_danger_write(measured, folder, HOSTILE[h], &error), &error);
-        check_and_empty_folder(6);
+        check_and_empty_folder(4);
         jox_danger_free(measured);
         jox_exits_free(&exits);
         jox_text_free(&error);
