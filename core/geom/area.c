@@ -185,8 +185,8 @@ static bool is_clear_of_walls(const JoxAreaIndex *index, JoxV2 p) {
                 return false;
         if (p.x > jox_maxf(a.x, b.x) + clear + APART)
             continue;
-        JoxV2 d = jox_sub(p, jox_segment_nearest(a, b, p));
-        if (jox_length2(d) < clear * clear)
+        const bool near = p.x >= jox_minf(a.x, b.x) - clear - APART;
+        if (near && jox_length2(jox_sub(p, jox_segment_nearest(a, b, p))) < clear * clear)
             return false;
         if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
             odd = !odd;
@@ -232,6 +232,65 @@ double jox_area_sampling(JoxV2 low, JoxV2 high) {
     return fmax(0.1, sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / 1e6));
 }
 
+/* Where the edges of an area's polygons cross a horizontal line. */
+typedef struct Crossings {
+    float *x;        /* m: of all polygons, one after the other */
+    uint32_t *first; /* by place of the index; where they begin, and their number at the end */
+} Crossings;
+
+static Crossings make_crossings(const JoxAreaIndex *index) {
+    const JoxArea *area = index->area;
+    const uint32_t places = area->in_count + area->out_count;
+    size_t edges = 0;
+    for (uint32_t i = 0; i < places; i++)
+        edges +=
+            area->places[i < area->in_count ? area->in[i] : area->out[i - area->in_count]].count;
+    return (Crossings){.x = jox_alloc(edges + 1, sizeof(float)),
+                       .first = jox_alloc((size_t)places + 1, sizeof(uint32_t))};
+}
+
+/* Lists the crossings at height y, m, by the arithmetic of is_in_indexed_place. */
+static void list_crossings(const JoxAreaIndex *index, float y, Crossings *out) {
+    const JoxArea *area = index->area;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < area->in_count + area->out_count; i++) {
+        const Strips *s = &index->places[i];
+        const uint32_t place = i < area->in_count ? area->in[i] : area->out[i - area->in_count];
+        const uint32_t strip = s->count ? find_strip(s, y) : 0;
+        out->first[i] = count;
+        for (uint32_t k = s->count ? s->first[strip] : 0; s->count && k < s->first[strip + 1];
+             k++) {
+            JoxV2 a, b;
+            polygon_edge(&area->places[place], s->edges[k], &b, &a);
+            if ((a.y > y) != (b.y > y))
+                out->x[count++] = (b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x;
+        }
+    }
+    out->first[area->in_count + area->out_count] = count;
+}
+
+/* Returns what is_in_indexed_place would for a point at the height of the crossings. */
+static bool is_between_crossings(const JoxAreaIndex *index, const Crossings *c, uint32_t number,
+                                 uint32_t place, JoxV2 p) {
+    bool in = false;
+    if (index->places[number].count == 0)
+        return jox_place_contains(index->area->places, place, p);
+    for (uint32_t k = c->first[number]; k < c->first[number + 1]; k++)
+        in ^= p.x < c->x[k];
+    return in;
+}
+
+/* Returns what jox_area_contains would for a point at the height of the crossings. */
+static bool is_in_area(const JoxAreaIndex *index, const Crossings *c, JoxV2 p) {
+    const JoxArea *area = index->area;
+    bool in = false;
+    for (uint32_t i = 0; i < area->in_count && !in; i++)
+        in = is_between_crossings(index, c, i, area->in[i], p);
+    for (uint32_t i = 0; i < area->out_count && in; i++)
+        in = !is_between_crossings(index, c, area->in_count + i, area->out[i], p);
+    return in && is_clear_of_walls(index, p);
+}
+
 /* Returns the size of an area, m2, by samples `step` m apart; low, high: its extent. */
 static double sample_size(const JoxArea *area, JoxV2 low, JoxV2 high, double step) {
     const double w = (double)high.x - low.x, h = (double)high.y - low.y;
@@ -239,10 +298,15 @@ static double sample_size(const JoxArea *area, JoxV2 low, JoxV2 high, double ste
     if (!(nx * ny <= 4e6))
         return 0; /* too thin or too large to sample */
     JoxAreaIndex *index = jox_area_index(area);
-    for (double j = 0; j < ny; j++)
+    Crossings crossings = make_crossings(index);
+    for (double j = 0; j < ny; j++) {
+        const float y = (float)(low.y + (j + 0.5) * h / ny);
+        list_crossings(index, y, &crossings);
         for (double i = 0; i < nx; i++)
-            hits += jox_area_contains(index, (JoxV2){(float)(low.x + (i + 0.5) * w / nx),
-                                                     (float)(low.y + (j + 0.5) * h / ny)});
+            hits += is_in_area(index, &crossings, (JoxV2){(float)(low.x + (i + 0.5) * w / nx), y});
+    }
+    jox_free(crossings.x);
+    jox_free(crossings.first);
     jox_area_index_free(index);
     return hits / (nx * ny) * w * h;
 }

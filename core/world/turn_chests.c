@@ -21,10 +21,29 @@ typedef struct Pairs {
     uint32_t from, *first, *other;
 } Pairs;
 
-static int compare_x(const void *left, const void *right, const void *context) {
-    const float *x = ((const JoxAgents *)context)->x;
-    const float a = x[*(const uint32_t *)left], b = x[*(const uint32_t *)right];
-    return a < b ? -1 : a > b;
+/* The agents from some index on, in rows along x that are as high as two of them reach at most;
+   within a row by x. */
+typedef struct Rows {
+    const JoxAgents *agents;
+    uint32_t *order;   /* indices of agents */
+    uint32_t *first;   /* by row: where it begins in `order`, and the number of agents at the end */
+    uint32_t count;    /* of rows */
+    float low, height; /* m */
+    float widest;      /* m: greatest reach of any torso */
+} Rows;
+
+/* Returns the row of a height y, m; those beyond the last row are in it. */
+static uint32_t find_row(const Rows *rows, float y) {
+    const float row = floorf((y - rows->low) / rows->height);
+    return row > 0.0f ? (uint32_t)jox_minf(row, (float)(rows->count - 1)) : 0;
+}
+
+static int compare_in_rows(const void *left, const void *right, const void *context) {
+    const Rows *rows = context;
+    const uint32_t i = *(const uint32_t *)left, j = *(const uint32_t *)right;
+    const uint32_t a = find_row(rows, rows->agents->y[i]), b = find_row(rows, rows->agents->y[j]);
+    const float x = rows->agents->x[i], other = rows->agents->x[j];
+    return a != b ? (a < b ? -1 : 1) : x < other ? -1 : x > other;
 }
 
 /* Returns how far a torso reaches from its centre at most, m. */
@@ -32,13 +51,39 @@ static float find_outer_reach(const JoxTorsos *t, uint32_t i) {
     return t->radius[i] + jox_length((JoxV2){t->axis_x[i], t->axis_y[i]});
 }
 
-/* Returns the index of the first of `count` agents, ordered by x, that is not before x (m). */
-static uint32_t find_first_from(const JoxAgents *a, const uint32_t *order, uint32_t count,
-                                float x) {
-    uint32_t low = 0, high = count;
+/* Puts the agents from `from` on into rows. */
+static Rows lay_rows(const JoxAgents *a, uint32_t from) {
+    const uint32_t count = a->count - from;
+    Rows rows = {.agents = a,
+                 .order = jox_alloc((size_t)count + 1, sizeof *rows.order),
+                 .widest = jox_agents_widest(a, false)};
+    float low = INFINITY, high = -INFINITY;
+    for (uint32_t n = 0; n < count; n++) {
+        rows.order[n] = from + n;
+        low = jox_minf(low, a->y[from + n]);
+        high = jox_maxf(high, a->y[from + n]);
+    }
+    rows.low = low;
+    rows.height = jox_maxf(2.0f * rows.widest, (high - low) / (float)(count + 1));
+    rows.count = 1;
+    if (rows.height > 0.0f && high > low)
+        rows.count += (uint32_t)jox_minf((high - low) / rows.height, (float)count);
+    rows.height = rows.height > 0.0f ? rows.height : 1.0f;
+    jox_sort(rows.order, count, sizeof *rows.order, compare_in_rows, &rows, NULL);
+    rows.first = jox_alloc((size_t)rows.count + 1, sizeof *rows.first);
+    for (uint32_t n = 0; n < count; n++)
+        rows.first[find_row(&rows, a->y[rows.order[n]]) + 1]++;
+    for (uint32_t r = 0; r < rows.count; r++)
+        rows.first[r + 1] += rows.first[r];
+    return rows;
+}
+
+/* Returns where in `order` the first agent of a row is that is not before x (m). */
+static uint32_t find_first_from(const Rows *rows, uint32_t row, float x) {
+    uint32_t low = rows->first[row], high = rows->first[row + 1];
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        if (a->x[order[middle]] < x)
+        if (rows->agents->x[rows->order[middle]] < x)
             low = middle + 1;
         else
             high = middle;
@@ -46,47 +91,52 @@ static uint32_t find_first_from(const JoxAgents *a, const uint32_t *order, uint3
     return low;
 }
 
-/* Counts the pairs of each agent from `from` on in first[i - from + 1]; or, where `other` is there,
-   lists them from first[i - from] on, which it raises. `order`: those agents by x. */
-static void visit_pairs(const JoxAgents *a, const JoxTorsos *t, const uint32_t *order,
-                        Pairs *pairs) {
-    const uint32_t from = pairs->from, count = a->count - from;
-    const float widest = jox_agents_widest(a, false);
-    const int images = a->period.x > 0.0f; /* to either side */
-    for (uint32_t j = 0; j < a->count; j++) {
-        const float own = find_outer_reach(t, j);
-        for (int image = -images; image <= images; image++) {
-            const float x = a->x[j] + (float)image * a->period.x;
-            for (uint32_t n = find_first_from(a, order, count, x - own - widest);
-                 n < count && a->x[order[n]] < x + own + widest; n++) {
-                const uint32_t i = order[n];
-                const float reach = own + find_outer_reach(t, i);
-                if (i == j || jox_length2(jox_offset(a, i, j)) > reach * reach)
-                    continue;
-                if (pairs->other)
-                    pairs->other[pairs->first[i - from]++] = j;
-                else
-                    pairs->first[i - from + 1]++;
-            }
+/* Visits the agents of `rows` that are near agent j, whose place is seen as (x, y); see
+   visit_pairs. */
+static void visit_near(const Rows *rows, const JoxTorsos *t, Pairs *pairs, uint32_t j, float x,
+                       float y) {
+    const JoxAgents *a = rows->agents;
+    const float own = find_outer_reach(t, j), most = own + rows->widest;
+    const uint32_t last = find_row(rows, y + most);
+    for (uint32_t row = find_row(rows, y - most); row <= last; row++)
+        for (uint32_t n = find_first_from(rows, row, x - most);
+             n < rows->first[row + 1] && a->x[rows->order[n]] < x + most; n++) {
+            const uint32_t i = rows->order[n];
+            const float reach = own + find_outer_reach(t, i);
+            if (i == j || jox_length2(jox_offset(a, i, j)) > reach * reach)
+                continue;
+            if (pairs->other)
+                pairs->other[pairs->first[i - pairs->from]++] = j;
+            else
+                pairs->first[i - pairs->from + 1]++;
         }
-    }
+}
+
+/* Counts the pairs of each agent of `rows` in first[i - from + 1]; or, where `other` is there,
+   lists them from first[i - from] on, which it raises. Images are those over joined edges. */
+static void visit_pairs(const Rows *rows, const JoxTorsos *t, Pairs *pairs) {
+    const JoxAgents *a = rows->agents;
+    const int across = a->period.x > 0.0f, along = a->period.y > 0.0f; /* images to either side */
+    for (uint32_t j = 0; j < a->count; j++)
+        for (int right = -across; right <= across; right++)
+            for (int up = -along; up <= along; up++)
+                visit_near(rows, t, pairs, j, a->x[j] + (float)right * a->period.x,
+                           a->y[j] + (float)up * a->period.y);
 }
 
 static Pairs list_pairs(const JoxAgents *a, const JoxTorsos *t, uint32_t from) {
     const uint32_t count = a->count - from;
-    uint32_t *order = jox_alloc((size_t)count + 1, sizeof *order);
+    Rows rows = lay_rows(a, from);
     Pairs pairs = {.from = from, .first = jox_alloc((size_t)count + 2, sizeof *pairs.first)};
-    for (uint32_t n = 0; n < count; n++)
-        order[n] = from + n;
-    jox_sort(order, count, sizeof *order, compare_x, a, NULL);
-    visit_pairs(a, t, order, &pairs);
+    visit_pairs(&rows, t, &pairs);
     for (uint32_t n = 0; n < count; n++)
         pairs.first[n + 1] += pairs.first[n];
     pairs.other = jox_alloc((size_t)pairs.first[count] + 1, sizeof *pairs.other);
-    visit_pairs(a, t, order, &pairs);
+    visit_pairs(&rows, t, &pairs);
     memmove(pairs.first + 1, pairs.first, count * sizeof *pairs.first); /* as before listing */
     pairs.first[0] = 0;
-    jox_free(order);
+    jox_free(rows.order);
+    jox_free(rows.first);
     return pairs;
 }
 

@@ -213,6 +213,16 @@ static void area_index_agrees_with_all_edges(void **state) {
             outside += !is;
         }
     assert_true(inside > 5000 && outside > 5000);
+    JoxV2 low, high;
+    assert_true(jox_area_extent(&area, &low, &high));
+    const double step = jox_area_sampling(low, high), w = (double)high.x - low.x,
+                 h = (double)high.y - low.y, nx = floor(w / step) + 1, ny = floor(h / step) + 1;
+    double hits = 0; /* the size is counted row by row: at the same points, with the same answers */
+    for (double j = 0; j < ny; j++)
+        for (double i = 0; i < nx; i++)
+            hits += jox_area_contains(index, (JoxV2){(float)(low.x + (i + 0.5) * w / nx),
+                                                     (float)(low.y + (j + 0.5) * h / ny)});
+    assert_true(jox_area_size(&area) == hits / (nx * ny) * w * h);
     jox_area_index_free(index);
     jox_walls_free(&walls);
 }
