@@ -257,6 +257,7 @@ def inspects(browser):
         browser.canvas(), int(spot[0] - box["width"] / 2), int(spot[1] - box["height"] / 2)).click().perform()
     chosen = browser.wait("return page.person && [page.person.slot, page.person.id, page.person.state]", "nobody was chosen")
     expect(chosen[0] == slot, f"slot {chosen[0]} was chosen, not {slot}")
+    browser.wait("return page.view.coarse === 1 || page.view.whole", "what is told of a person keeps the picture coarse")
     panel = browser.find("#page-agent").text
     expect(f"Agent {chosen[1]}" in panel and chosen[2] in panel, f"the panel says {panel[:80]!r}")
     expect("tawaf.lua" in panel, "the panel does not say where parameters were set")

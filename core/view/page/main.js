@@ -146,7 +146,7 @@ class Page {
     /** Shows the name under the pointer, even if not all names are shown. */
     point() {
         const canvas = byId("picture");
-        const take = (at) => this.overlay.point(at) && this.redraw();
+        const take = (at) => { this.overlay.stale ||= this.overlay.point(at); };
         canvas.addEventListener("pointermove", (event) => {
             const box = canvas.getBoundingClientRect();
             take([event.clientX - box.left, event.clientY - box.top]);
@@ -285,7 +285,7 @@ class Page {
             this.overlay.forces = message.forces ?? null;
             this.machine.mark(agent.machine, agent.state);
         }
-        this.redraw();
+        this.overlay.stale = true;
     }
 
     takeBinary(buffer) {
@@ -480,7 +480,10 @@ class Page {
             this.about.seen();
             this.meter.add(performance.now() - begun, this.view.called);
             this.drawn = begun;
-        } else this.drawn = undefined;
+        } else {
+            if (this.overlay.stale) this.overlay.draw(share);
+            this.drawn = undefined;
+        }
         requestAnimationFrame(() => this.loop());
     }
 }

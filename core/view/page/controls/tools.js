@@ -56,7 +56,7 @@ export class Tools {
 
     showCross(on) {
         this.page.overlay.cross = on;
-        this.page.view.dirty = true;
+        this.page.overlay.stale = true;
     }
 
     spot(event) {
@@ -94,7 +94,7 @@ export class Tools {
         }
         this.gestureTimer = setInterval(() => this.repeat(), PERIOD);
         this.page.overlay.sketch = (pen, project) => this.sketch(pen, project);
-        view.dirty = true;
+        this.page.overlay.stale = true;
         return this.gesture !== null;
     }
 
@@ -106,7 +106,7 @@ export class Tools {
     aim(at) {
         const to = this.page.view.floorAt(...at, this.gesture.z ?? 0);
         if (to) this.gesture.to = to;
-        this.page.view.dirty = true;
+        this.page.overlay.stale = true;
     }
 
     /** Sends the repeated commands of a gesture. */

@@ -28,6 +28,7 @@ export class Overlay {
         this.chosen = null; // slot
         this.forces = null; // forces on the chosen person
         this.players = []; // slots
+        this.stale = false; // something changed that only this draws: it is drawn anew though the picture is not
         this.sketch = null; // drawing of the active tool: function(pen, project)
         this.marks = null; // drawing of a game's marks: function(pen)
         this.cross = false; // whether the cross in the middle is shown, for use by keys
@@ -63,6 +64,7 @@ export class Overlay {
     }
 
     draw(share) {
+        this.stale = false;
         const pen = this.pen, ratio = this.view.screenRatio;
         const still = this.players.length === 0 && this.chosen === null && !this.sketch && !this.cross && !this.marks;
         const blank = still && this.shownNames() === "none" && !this.pointer;
