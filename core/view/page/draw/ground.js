@@ -118,12 +118,13 @@ export class Ground {
         this.gates();
     }
 
-    /** Gives the floor a material of MATERIALS. */
+    /** Gives the floor, and what shows of it through paint, a material of MATERIALS. */
     cover(number) {
-        const { material } = this.floor;
-        if (material.defines.MATERIAL === number) return;
-        material.defines.MATERIAL = number;
-        material.needsUpdate = true;
+        for (const material of [this.floor.material, this.scenery.paintMaterial]) {
+            if (material.defines.MATERIAL === number) continue;
+            material.defines.MATERIAL = number;
+            material.needsUpdate = true;
+        }
     }
 
     /** Sets the camera's position; from above no wall hides anything. */

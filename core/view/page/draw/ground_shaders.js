@@ -152,14 +152,16 @@ void main() {
     gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
 }`;
 
-export const PAINT_FRAGMENT = ON_FLOOR + `
+export const PAINT_FRAGMENT = ON_FLOOR + FLOOR_COLOUR + `
 varying vec4 paint;
-/* How bright the floor is here, over its mean: boards, joints and grain show through the paint. */
+/* How bright the floor (MATERIAL) is here, over its mean: boards, joints and grain show through the paint. */
 float relief() {
-    if (material == 0) return 1.0 + 0.05 * grain(1.7) + 0.04 * grain(0.12);
-    float mean = material == 1 ? 0.87 : material == 2 ? 0.613 : material == 3 ? 0.782 : material == 4 ? 0.52 : material == 5 ? 0.667
-        : material == 6 ? 0.707 : material == 7 ? 0.787 : material == 8 ? 0.75 : 0.707;
-    return dot(floorColour(), vec3(0.3333)) / (dim * mean);
+#if MATERIAL == 0
+    return 1.0 + 0.05 * grain(1.7) + 0.04 * grain(0.12);
+#else
+    const float MEAN[10] = float[10](1.0, 0.87, 0.613, 0.782, 0.52, 0.667, 0.707, 0.787, 0.75, 0.707);
+    return dot(floorColour(), vec3(0.3333)) / (dim * MEAN[MATERIAL]);
+#endif
 }
 void main() {
     vec3 colour = paint.rgb;

@@ -61,7 +61,7 @@ function meshOf(attributes, material, order) {
 export class Scenery {
     /** `floor`: uniforms of the floor, `seen`: of walls that are lowered, `poses`: of bodies. */
     constructor(floor, seen, poses) {
-        this.paintMaterial = new THREE.ShaderMaterial({ uniforms: floor, vertexShader: PAINT_VERTEX, fragmentShader: PAINT_FRAGMENT, depthWrite: false, side: THREE.DoubleSide });
+        this.paintMaterial = new THREE.ShaderMaterial({ uniforms: floor, vertexShader: PAINT_VERTEX, fragmentShader: PAINT_FRAGMENT, depthWrite: false, side: THREE.DoubleSide, defines: { MATERIAL: 0 } });
         this.material = new THREE.RawShaderMaterial({
             uniforms: { ...seen, poses: poses.poses, size: poses.size, share: poses.share, sky: floor.sky, extent: floor.extent, dim: floor.dim },
             vertexShader: SCENERY_VERTEX, fragmentShader: SCENERY_FRAGMENT, side: THREE.DoubleSide,
