@@ -23,11 +23,33 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 JOSTLE = os.path.abspath(os.environ.get("JOSTLE", "build/release/jostle"))
 PICTURES = os.path.join(os.path.abspath(os.environ.get("B", "build/release")), "page")
 PATIENCE = 40  # s, for what should happen soon; much, as machines may be busy
-# A picture each 0.4 s: more would cost the processor, which draws them, and tell the tests nothing; tests that need more set
-# `window.between`, ms. While a picture is saved the page draws hardly any: on a busy machine the browser would wait for its
-# turn for minutes.
+# The loop goes round each 0.4 s, or each `window.between` ms. What it does is done, but of its pictures only the first
+# `window.pictures` are drawn, by a processor, which takes up to a second for one; what a test draws itself always is.
 BETWEEN = 400
-SELDOM = f"window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), window.between ?? {BETWEEN});"
+FIRST = 2 # pictures of a page that show a session not shown before
+SELDOM = """
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), window.between ?? %d);
+window.pictures = %d;
+Object.defineProperty(window, 'page', { configurable: true, set(page) {
+    Object.defineProperty(window, 'page', { value: page, writable: true, configurable: true });
+    const { view } = page, loop = page.loop.bind(page);
+    let looping = false, drawn = false;
+    page.loop = () => {
+        looping = true;
+        drawn = false;
+        try { loop(); } finally { looping = false; }
+        if (drawn && page.crowd.next) window.pictures--;
+    };
+    for (const [of, name] of [[view.renderer, 'render'], [view.people, 'bakeIfNeeded'], [view, 'compile']]) {
+        const does = of[name].bind(of);
+        of[name] = (...given) => {
+            if (looping && !(window.pictures > 0)) return;
+            drawn = true;
+            does(...given);
+        };
+    }
+} });
+"""
 
 
 # As browsers do without a graphics card. Drawn and put together by software graphics, too, the page itself costs more than its
@@ -60,6 +82,7 @@ class Session:
     """A run or a recording on its live page, in a process of its own."""
 
     def __init__(self, *arguments):
+        self.arguments = arguments
         self.process = subprocess.Popen([JOSTLE, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                         stdin=subprocess.DEVNULL, text=True, cwd=ROOT)
         self.said = []
@@ -102,7 +125,8 @@ class Browser:
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
         self.driver.set_script_timeout(30)
-        self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": SELDOM})
+        self.shown = set()  # arguments of sessions whose pages were drawn
+        self.script = None
         self.driver.set_page_load_timeout(150)
 
     def size(self, wide, high, ratio=1):
@@ -114,8 +138,16 @@ class Browser:
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
             "features": [{"name": "prefers-color-scheme", "value": "dark" if on else "light"}]})
 
+    def draw_few(self, pictures):
+        """Makes the loops of pages that are opened from now on draw so many pictures."""
+        if self.script:
+            self.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", {"identifier": self.script})
+        self.script = self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": SELDOM % (BETWEEN, pictures)})["identifier"]
+
     def open(self, session, people=True):
         """Opens the page of a session, and waits for its first frame: with somebody in it, where `people`."""
+        self.draw_few(0 if session.arguments in self.shown else FIRST)
+        self.shown.add(session.arguments)
         self.driver.get("about:blank")  # the page before would try the new server, with its old token
         self.driver.get_log("browser")
         self.driver.get(session.address)
@@ -156,14 +188,16 @@ class Browser:
         if not (os.environ.get("PICTURES") or name.startswith("failed-")):
             return
         os.makedirs(PICTURES, exist_ok=True)
-        self.run("window.between = 2000")
+        self.run("window.kept = window.pictures; window.pictures = 2; if (window.page) page.view.dirty = true")
+        time.sleep(3 * BETWEEN / 1000)
+        self.run("window.between = 2000")  # on a busy machine the browser would wait for its turn for minutes
         for attempt in range(3):  # software graphics on a busy machine may be late for one
             try:
                 self.driver.save_screenshot(os.path.join(PICTURES, f"{name}.png"))
                 break
             except TimeoutException:
                 print(f"  the picture {name}.png is late ({attempt + 1})", file=sys.stderr)
-        self.run("delete window.between")
+        self.run("delete window.between; window.pictures = window.kept")
 
     def close(self):
         self.driver.quit()

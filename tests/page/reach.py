@@ -172,7 +172,7 @@ def crowd_of_35000(browser):
     processor that draws here, twice that. What half of the pictures and 90 % take is told, not demanded.
     """
     browser.size(480, 320)  # software draws slowly, the script does not mind
-    browser.run("window.between = 100")
+    browser.run("window.between = 100; window.pictures = Infinity")
     browser.wait("return page.meter.pictures >= 2", "too few pictures", patience=40)
     browser.run("page.meter.spent.length = page.meter.calls.length = 0")
     browser.wait("return page.meter.spent.length >= 12", "too few pictures", patience=40)

@@ -11,6 +11,7 @@ def materials_stay(browser):
     materials = "return page.view.ground.group.children.map((child) => child.material.uuid)"
     programs = "return page.view.renderer.info.programs.map((program) => program.id)"
     again = "page.take({ ...page.scene, type: 'scene' }); page.view.dirty = true; page.view.draw(performance.now());"
+    browser.size(400, 300)  # in a small picture few people are meshes
     browser.run(again)
     before, compiled = browser.run(materials), browser.run(programs)
     expect(len(before) > 2, f"there are {len(before)} parts")

@@ -186,7 +186,7 @@ export class People {
 
     /** Takes how long pictures take, ms: fewer people are meshes where they are slow. */
     spare(took) {
-        if (took > 60) this.detail = Math.max(0.02, 0.9 * this.detail);
+        if (took > 60) this.detail = Math.max(0.02, Math.max(0.5, 60 / took) * this.detail);
         else if (took < 25) this.detail = Math.min(1, 1.02 * this.detail + 0.001);
         this.allow();
     }
