@@ -201,7 +201,7 @@ def pulls(browser):
 
 def breaks(browser):
     """a breakpoint pauses the page and shows the person, with the reason, also to a page that opens later"""
-    session = Session("run", "scenes/office.yaml", "--view", "--break", "agent 9 enters Wait", "--break", "anybody enters Press")
+    session = Session("run", "scenes/office.yaml", "--view", "--fast", "--break", "agent 9 enters Wait", "--break", "anybody enters Press")
     try:
         wait_for(lambda: any("breakpoint" in line for line in session.said), "no breakpoint is met")
         browser.open(session)
@@ -545,7 +545,7 @@ def plays(browser):
         browser.wait("return page.game.shown === 'pause' && page.bar.paused", "Escape does not pause")
         browser.button("Go on").click()
         browser.wait("return page.game.playing && !page.bar.paused", "it does not go on")
-        browser.run("page.connection.send({do: 'speed', factor: 8})")
+        browser.run(QUICK)
         browser.wait("return page.game.shown === 'over'", "the second round does not end")
         expect("You have lost" in card.text, f"the card says {card.text!r}")
         expect("won by red, 1 to 0" in " ".join(session.said) and "won by blue" in " ".join(session.said), f"the terminal says {session.said[-3:]}")
@@ -559,6 +559,9 @@ def plays(browser):
 
 # Held by keys while the camera of a game looks east: of tackle ahead, of catch to the ball until it is held, then thrown.
 GAMES = (("tackle", "page.crowd.position(arguments[0], 1)[0] > 12"), ("catch", "page.game.shown || page.crowd.bodyPosition(0)[2] > 0.5"))
+
+
+QUICK = "page.connection.send({do: 'speed', factor: 8})"
 
 
 def ball_games(browser):
@@ -579,6 +582,7 @@ def ball_games(browser):
             if name == "tackle":
                 ActionChains(browser.driver, duration=0).key_down("w").key_down(" ").perform()
                 browser.wait(f"return {until}", "the runner does not run", slot)
+                browser.run(QUICK)
                 browser.wait("return page.game.shown === 'over'", "nobody gets through or down")
                 ActionChains(browser.driver, duration=0).key_up("w").key_up(" ").perform()
             else:
@@ -586,6 +590,7 @@ def ball_games(browser):
                 ActionChains(browser.driver, duration=0).key_down(" ").perform()
                 browser.wait("return page.game.shown || page.crowd.bodyPosition(0)[0] > 0", "the ball is not thrown")
                 ActionChains(browser.driver, duration=0).key_up(" ").perform()
+                browser.run(QUICK)
                 browser.wait("return page.game.shown === 'over'", "the round does not end")
             won, lost = browser.run("return [page.game.state.winner === 'ours', page.game.state.winner === 'theirs']")
             said = "You have won" if won else "You have lost" if lost else "A draw"
@@ -725,7 +730,8 @@ return shown.map((spot, k) => Math.max(...spot.map((c, i) => Math.abs(c - withou
 
 def ends(browser):
     """The card at the end of a run, by keys alone: figures, a command to copy, the same run again."""
-    browser.run("document.activeElement.blur(); page.end.forget()")  # it may be there already
+    browser.run("""document.activeElement.blur(); page.end.forget(); // it may be there already
+        const take = page.takeStatus.bind(page); page.takeStatus = (status) => { if (status.end) window.ended = status; take(status); };""")
     text = browser.wait("const e = document.getElementById('end'); return !e.hidden && e.innerText", "no card at the end")
     for part in ("4 s are over", "2 people took part; nobody left.", "Greatest density: ", "1 person fell."):
         expect(part in text, f"the card lacks {part!r}: {text}")
@@ -737,8 +743,13 @@ def ends(browser):
     browser.picture("end")
     browser.press(Keys.ESCAPE)
     expect(browser.run("return document.getElementById('end').hidden && document.activeElement.id") == "picture", "Escape does not close the card")
-    browser.run("page.end.forget()")
+    # In a program's frame, which begins runs itself, nothing is offered that it refuses.
+    offered = "return [...document.querySelectorAll('#end button, #time button')].filter((b) => b.checkVisibility() && /Again|Another seed|Restart/.test(b.textContent)).length"
+    expect(browser.run("page.take({...page.scene, restarts: false}); page.end.forget(); page.takeStatus(window.ended); return !document.getElementById('end').hidden"), "no card in a frame")
+    expect(browser.run(offered) == 0, "a program that refuses it is asked to begin anew")
+    browser.run("page.take({...page.scene, restarts: true}); page.end.forget()")
     browser.wait("return document.activeElement.textContent === 'Again'", "the card does not come back")
+    expect(browser.run(offered) == 3, "a run cannot be begun anew")
     browser.press(Keys.ENTER)
     browser.wait("return page.crowd.next.time < 3 && document.getElementById('end').hidden", "it does not begin again")
 
