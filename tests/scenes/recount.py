@@ -1,7 +1,7 @@
 """Counts figures of a report again from the recording of the same run, by the standard library and numpy alone: who left
 when and where, who crossed each line and how fast, and the density at a spot by two kernels.
-`recount.py RECORDING REPORT-FOLDER [--drop PERSON]`; with --drop as if that person had not been recorded. The plan is that
-of scenes/evacuation.yaml."""
+`recount.py RECORDING REPORT-FOLDER [--drop PERSON] [--radius METRES]`; with --drop as if that person had not been recorded,
+with --radius by a Gaussian of another R than 1 m. The plan is that of scenes/evacuation.yaml."""
 import csv, math, os, sqlite3, sys
 import numpy as np
 
@@ -23,7 +23,8 @@ def rows(folder, file):
         return list(csv.DictReader(text))
 
 recording, folder = sys.argv[1:3]
-dropped = int(sys.argv[4]) if len(sys.argv) > 4 and sys.argv[3] == "--drop" else -1
+dropped = int(sys.argv[sys.argv.index("--drop") + 1]) if "--drop" in sys.argv else -1
+radius = float(sys.argv[sys.argv.index("--radius") + 1]) if "--radius" in sys.argv else 1.0  # m
 database = sqlite3.connect(recording)
 fps = float(database.execute("SELECT value FROM metadata WHERE key = 'fps'").fetchone()[0])
 table = np.array(database.execute("SELECT frame, id, pos_x, pos_y FROM trajectory_data ORDER BY id, frame").fetchall())
@@ -80,7 +81,7 @@ last = float(rows(folder, "danger.csv")[-1]["time [s]"])
 values = []
 for sample in rows(folder, "danger.csv"):
     people = by_frame.get(round(float(sample["time [s]"]) * fps), np.empty((0, 2)))
-    values.append(np.sum(np.exp(-np.sum((people - spot) ** 2, axis=1))) / math.pi if len(people) else 0.0)
+    values.append(np.sum(np.exp(-np.sum((people - spot) ** 2, axis=1) / radius**2)) / (math.pi * radius**2) if len(people) else 0.0)
 cell = min(rows(folder, "danger-map.csv"), key=lambda row: math.hypot(float(row["x [m]"]) - spot[0], float(row["y [m]"]) - spot[1]))
 near("greatest density at a spot, Gaussian, per m2", max(values), float(cell["density_max [1/m2]"]), 0.03 + 0.03 * max(values))
 near("mean density at a spot, Gaussian, per m2", float(np.mean(values)), float(cell["density_mean [1/m2]"]), 0.01 + 0.03 * np.mean(values))
