@@ -54,7 +54,7 @@ def page(browser, scene, seconds, name, script):
         session.pause()
         browser.open(session)
         browser.wait("return page.bar.paused", "no pause")
-        browser.run("page.about.close()")
+        browser.run("page.about.close(); window.pictures = Infinity")
         browser.run("page.connection.send({do: 'step', n: arguments[0]})", round(seconds / browser.run("return page.scene.dt")))
         browser.wait("return page.crowd.next.time >= arguments[0]", "the steps were not made", seconds - 0.06, patience=120)
         browser.run(LOOK + script)

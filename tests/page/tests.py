@@ -440,9 +440,16 @@ def given_colours(browser, folder):
         page.colourBy(by);
         return [[...page.view.people.uniforms.colours.value.image.data.slice(4 * i, 4 * i + 3)].join(),
             getComputedStyle(document.querySelectorAll('#legend .swatch')[i]).backgroundColor.replace(/[^0-9,]/g, '')];"""
-    write(folder, "walk.lua", WALKERS["walk.lua"].replace("Walk = {", 'Walk = { colour = "#10a0c0",'))
+    write(folder, "walk.lua", WALKERS["walk.lua"].replace("Walk = {", 'Walk = { colour = "#10a0c0", pose = "point",'))
     browser.wait("return page.scene.states.some((s) => s.colour === '#10a0c0')", "the colour of a state does not come")
     expect(browser.run(shown, "states", "Walk") == ["16,160,192"] * 2, f"the state is {browser.run(shown, 'states', 'Walk')}")
+    # The atlas of sprites has what a state says that people do, also one that was loaded again; what nobody does is left out.
+    covers = browser.run("""const { view } = page, { people } = view, { columns, phases } = people.atlas;
+        people.levels.pixels = [1e9, 1e9, 1e9];
+        view.dirty = true;
+        view.draw(performance.now());
+        return [1, 5, 6].map((action) => people.uniforms.boxes.value.image.data[4 * (3 * phases + action) * columns] !== 0);""")
+    expect(covers == [True, True, False], f"of brace, point and sit the atlas has {covers}")
     write(folder, "scene.yaml", WALKERS["scene.yaml"].replace("count: 60,", "count: 60, colour: vermilion,"))
     browser.wait("return page.scene.groups[0].colour === '#d55e00'", "the colour of a group does not come")
     expect(browser.run(shown, "groups", "walkers") == ["213,94,0"] * 2, f"the group is {browser.run(shown, 'groups', 'walkers')}")

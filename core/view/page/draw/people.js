@@ -18,6 +18,7 @@ const PIXELS = [150, 84, 40]; // least height of people on the screen in each me
 const MOST = [110, 450, 1500], LEAST = [4, 16, 60];
 const SPRITES = PIXELS.length; // list of those who are sprites; the next one is of all meshes
 const ABOVE = [0.82, 0.97]; // sine of the eye's elevation between which the simulated outlines appear on the floor
+const OWN_ACTS = ["brace", "carry", "lie"]; // what people do without a state that says so
 const JUMP = 5; // s between two frames from which on nobody is seen to walk
 
 export class People {
@@ -35,6 +36,7 @@ export class People {
         this.fresh = 0; // new frames since then
         this.stale = this.jumped = false; // whether any frame came since; whether time jumped
         this.baked = false; // whether the atlas is there
+        this.acts = new Set(OWN_ACTS.map((name) => ACTIONS.indexOf(name))); // actions that the atlas has
         this.personVersion = -1;
         this.group = new THREE.Group();
         this.makeLayers();
@@ -107,6 +109,9 @@ export class People {
         (scene.groups ?? []).slice(0, 256).forEach((group, i) => (this.kinds.image.data[4 * i] = Math.max(0, CLOTHES.indexOf(scene.clothes?.[group.name]))));
         (scene.states ?? []).slice(0, 255).forEach((state, i) => (this.kinds.image.data[4 * i + 1] = Math.max(0, ACTIONS.indexOf(state.pose))));
         this.kinds.needsUpdate = true;
+        const acts = (scene.states ?? []).map((state) => ACTIONS.indexOf(state.pose)).filter((action) => action > 0 && !this.acts.has(action));
+        for (const action of acts) this.acts.add(action);
+        if (acts.length > 0) this.baked = false;
     }
 
     /** Notes a frame, which the next picture takes over: of a new tick, or the newest once more. */
@@ -195,12 +200,21 @@ export class People {
         this.levels.most = MOST.map((most, level) => Math.max(LEAST[level], Math.round(this.detail * most)));
     }
 
+    /** Forgets the atlas, which went with the graphics card's memory. */
+    loseAtlas() {
+        this.baked = false;
+        this.target = this.uniforms.boxes.value = null;
+    }
+
     /** Bakes the atlas of sprites as soon as somebody is one: it takes a second of a processor that draws. */
     bakeIfNeeded(renderer) {
         if (this.baked || this.levels.counts[SPRITES] === 0) return;
         this.baked = true;
-        const { target, boxes } = bakeAtlas(renderer, this.atlas, makeBody(this.slow ? 2 : 1, true), !this.slow);
+        const { target, boxes } = bakeAtlas(renderer, this.atlas, makeBody(this.slow ? 2 : 1, true), !this.slow, this.acts);
         const [clothes, body, surface] = target.textures, u = this.uniforms;
+        this.target?.dispose();
+        u.boxes.value?.dispose();
+        this.target = target;
         u.boxes.value = boxes;
         u.atlasClothes.value = clothes;
         u.atlasBody.value = body;

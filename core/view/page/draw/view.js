@@ -42,7 +42,7 @@ export class View {
         this.called = 0; // ms that the calls of the last picture took; with software rendering they block
         this.useControls();
         canvas.addEventListener("webglcontextrestored", () => {
-            this.people.baked = false;
+            this.people.loseAtlas();
             this.compiled = false;
             this.dirty = true;
         });

@@ -117,9 +117,9 @@ function geometryOf(index, attributes, instances) {
 
 /**
  * Bakes an atlas by a renderer from a mesh without hat and bag: {target of three textures, boxes: what figures cover of cells};
- * `smooth`: whether texels are interpolated.
+ * `smooth`: whether texels are interpolated; `acts`: numbers of the actions that anybody may do, the others are left out.
  */
-export function bakeAtlas(renderer, atlas, mesh, smooth) {
+export function bakeAtlas(renderer, atlas, mesh, smooth, acts) {
     const { cell, columns, rows, poses } = atlas, scene = new THREE.Scene(), boxes = new Float32Array(4 * columns * rows);
     const material = new THREE.RawShaderMaterial({
         glslVersion: THREE.GLSL3, vertexShader: BAKE_VERTEX, fragmentShader: BAKE_FRAGMENT, blending: THREE.NoBlending,
@@ -129,6 +129,8 @@ export function bakeAtlas(renderer, atlas, mesh, smooth) {
     parts.gpuType = THREE.IntType;
     const outfits = [false, true].map((robe) => indexOf(mesh, robe)), [upright, lying] = [false, true].map((lies) => axisAttributes(columns, lies));
     listPoses(atlas).forEach(([of, frame], pose) => {
+        const action = pose - WALKS.length * atlas.phases;
+        if (action > 0 && !acts.has(action)) return;
         const moved = skinMesh(mesh, poseOf(of, frame)), lies = pose === poses - 1;
         const position = new THREE.BufferAttribute(moved.position, 3), normal = new THREE.BufferAttribute(moved.normal, 3);
         outfits.forEach((index, outfit) => {
