@@ -41,11 +41,11 @@ def tabs_keep_their_places(browser):
 
 
 def recordings_say_about(browser):
-    """the page of a recording with its scene says what that is about"""
+    """the page of a recording says what its scene is about"""
     folder = temporary_copy({})
     recording = os.path.join(folder, "run.sqlite")
     subprocess.run([JOSTLE, "run", "scenes/circle.yaml", "--for", "2", "--record", recording, "--quiet"], check=True)
-    session = Session("view", recording, "--scene", "scenes/circle.yaml")
+    session = Session("view", recording)
     try:
         browser.open(session)
         with open("scenes/circle.yaml", encoding="utf-8") as scene:
