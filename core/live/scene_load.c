@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/guard.h"
 #include "base/mem.h"
 #include "base/overlay.h"
 #include "live/scene_page.h"
@@ -79,14 +80,21 @@ bool jox_scene_page_add_files(const JoxScenePage *s, JoxText *out) {
     return any;
 }
 
+/* Tells the program which files the run that begins writes; either may be NULL. */
+static void tell_files(const JoViewDef *def, const char *record, const char *log) {
+    const JoxOutside outside = jox_guard_leave();
+    if (def->writes)
+        def->writes(def->begun_context, record, log);
+    jox_guard_return(outside);
+}
+
 /* Starts what `def` asks for: recording, input log, watch of files; then calls `begun`. */
 static bool begin_outputs(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
     number_files(s);
     char *record = jox_scene_page_path(s, def->record),
          *log = jox_scene_page_path(s, def->log_input);
-    if (def->writes)
-        def->writes(def->begun_context, record, log);
+    tell_files(def, record, log);
     const bool good = (!record || jo_scene_record(s->scene, record, def->record_every, error)) &&
                       (!log || jo_scene_log_input(s->scene, log, error)) &&
                       (!def->watch || jo_scene_watch(s->scene, error)) &&
