@@ -84,7 +84,7 @@ static bool has_path_series(const JoxPaths *paths, uint32_t series, bool body) {
    sets `set` to `set` + 2. */
 static void append_series_plot(JoxText *plot, uint32_t set, const char *colour, const char *width,
                                const char *name) {
-    jox_text_printf(plot, "%s'paths.csv' index %u using 3:4 with lines lw %s lc '%s' title ",
+    jox_text_printf(plot, "%s'paths.dat' index %u using 3:4 with lines lw %s lc '%s' title ",
                     plot->length ? ", \\\n  " : "", set, width, colour);
     jox_quote_gnuplot(plot, name);
     jox_text_printf(plot,
@@ -101,7 +101,6 @@ static void write_path_data(FILE *data, JoxText *plot, const JoxPaths *paths,
     uint32_t set = 0;
     JoxInk *inks = jox_alloc(name_count + 1, sizeof *inks);
     jox_palette_classes(colours, name_count, inks);
-    fputs("# id,t_s,x_m,y_m\n", data);
     for (uint32_t s = 0; s <= name_count; s++) { /* the last series is that of bodies */
         bool body = s == name_count;
         char colour[8];
@@ -117,15 +116,38 @@ static void write_path_data(FILE *data, JoxText *plot, const JoxPaths *paths,
     jox_free(inks);
 }
 
+/* Writes paths.csv: a row for each point, by group and id; bodies last. */
+static bool write_path_table(const char *folder, const JoxPaths *paths, const char *const *names,
+                             uint32_t name_count, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "paths.csv", error);
+    if (!out)
+        return false;
+    fputs("group,id,time [s],x [m],y [m]\n", out);
+    for (uint32_t s = 0; s <= name_count; s++)
+        for (uint32_t p = 0; p < paths->count; p++) {
+            const JoxWalkedPath *path = &paths->items[p];
+            if (s < name_count ? path->body || path->series != s : !path->body)
+                continue;
+            for (uint32_t i = 0; i < path->count; i++) {
+                jox_quote_put(out, jox_quote_csv, path->body ? "bodies" : names[s]);
+                fprintf(out, ",%u,%.2f,%.3f,%.3f\n", path->id, path->points[i].t, path->points[i].x,
+                        path->points[i].y);
+            }
+        }
+    return jox_plot_close(out, "paths.csv", error);
+}
+
 bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
                     const JoxColour *colours, uint32_t name_count, const JoxWalls *walls, JoxV2 low,
                     JoxV2 high, const char *title, JoxText *error) {
-    FILE *data = jox_plot_open(folder, "paths.csv", error), *script;
+    FILE *data = jox_plot_open(folder, "paths.dat", error), *script;
     JoxText plot = {0};
     if (!data)
         return false;
     write_path_data(data, &plot, paths, names, colours, name_count);
-    bool written = jox_plot_close(data, "paths.csv", error) && jox_plot_walls(folder, walls, error);
+    bool written = jox_plot_close(data, "paths.dat", error) &&
+                   write_path_table(folder, paths, names, name_count, error) &&
+                   jox_plot_walls(folder, walls, error);
     script = written ? jox_plot_open(folder, "paths.plt", error) : NULL;
     if (script) {
         float tall = jox_clampf((high.y - low.y) / (high.x - low.x), 0.3f, 1.6f);

@@ -24,7 +24,8 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
         return false;
     fputs("time [s],people", out);
     for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-        fprintf(out, ",%s_max [%s]", jox_danger_names[m], jox_danger_units[m]);
+        fprintf(out, *jox_danger_units[m] ? ",%s_max [%s]" : ",%s_max", jox_danger_names[m],
+                jox_danger_units[m]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         fprintf(out, ",over_%s", jox_danger_limits[l].key);
     for (int k = 0; k < JOX_LEVELS; k++)

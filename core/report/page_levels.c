@@ -26,7 +26,7 @@ static void put_queue_levels(FILE *out, const JoxSubject *s) {
         char area[32];
         snprintf(area, sizeof area, "%g", jox_levels[k].queue_area);
         jox_table_text(&table, jox_levels[k].name);
-        jox_table_text(&table, k + 1 < JOX_LEVELS ? area : "less");
+        jox_table_text(&table, area);
         jox_table_number(&table, danger->level_s[k]);
         jox_table_number(&table, all > 0.0 ? 100.0 * danger->level_s[k] / all : NAN);
         jox_table_text(&table, jox_levels[k].what);

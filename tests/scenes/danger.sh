@@ -137,7 +137,7 @@ done
 "$JOSTLE" report "$work/rooms.sqlite" --out "$work/rooms" --summary "$work/again.json" >/dev/null 2>&1
 alike "the greatest density of a run, and of its recording" "$(figure density_max <"$work/rooms.json")" "$(in_json density_max "$work/again.json")" 0.01
 alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
-alike "the greatest dose over time is that of the summary" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
+alike "the greatest dose over time is that of the summary" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max' "$work/door/danger.csv")" 1e-6
 for limit in density_5:"density of 5 per m² (Gaussian, R = 1 m)" density_7:"density of 7 per m² (Gaussian, R = 1 m)" voronoi_5:"Voronoi density of 5 per m²" voronoi_7:"Voronoi density of 7 per m²" pressure_002:"crowd pressure of 0.02 per s²" load_623:"load of 623 N" load_1112:"load of 1112 N" load_6227:"load of 6227 N" dose_1:"dose of load of 1"; do
     IFS=: read -r limit title <<<"$limit"
     object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")

@@ -23,3 +23,20 @@ awk 'BEGIN {print "# framerate: 4 fps"; srand(7); for (i = 0; i < 400; i++) {x[i
 printf 'jostle: 1\nprobes: {middle: {measure: [[4, 4], [8, 4], [8, 8], [4, 8]], every: 0.5, cutoff: 1}}\n' >"$work/even.yaml"
 "$JOSTLE" report "$work/even.txt" --unit m --scene "$work/even.yaml" --out "$work/even" >/dev/null 2>&1
 "$python" tests/scenes/recount_voronoi.py "$work/even.txt" "$work/even" middle 4,4,8,8 0,0,12,12 3 --even
+
+# Tables are rectangular, with a name for each column, and one type in each.
+cat >"$work/tables.py" <<'PYTHON'
+import csv, glob, re, sys
+wrong = []
+for path in sorted(glob.glob(sys.argv[1] + "/table-*.csv")):
+    with open(path, newline="", encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    if len(set(head)) != len(head) or "" in head or any(len(row) != len(head) for row in rows) or not rows:
+        wrong.append(path)
+    for name, column in zip(head, zip(*rows)):
+        numbers = [bool(re.fullmatch(r"-?[0-9.]+(e[-+]?[0-9]+)?", cell)) for cell in column if cell]
+        if numbers and any(numbers) != all(numbers):
+            wrong.append(path + ": " + name)
+print("ok tables as CSV" if not wrong else "not ok tables as CSV: %s" % wrong)
+PYTHON
+python3 "$work/tables.py" "$work/page"

@@ -145,7 +145,9 @@ static void put_limits_table(FILE *out, const JoxSide *side, const JoxSideDrawn 
     JoxPageTable table = jox_page_table(
         &drawn->subject, "limits",
         "limit|>runs with people over it|>people, median|>5 %|>95 %|>longest of one person, median "
-        "[s]|>5 % [s]|>95 % [s]|>first at, median [s]|>5 % [s]|>95 % [s]");
+        "[s]|>longest, 5 % [s]|>longest, 95 % [s]|>first at, median [s]|>first, 5 % [s]|>first, 95 "
+        "% "
+        "[s]");
     jox_html_subheading(out, "Published limits");
     table.zero_rows = "Limits that nobody was over in any run, or that were not measured";
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
@@ -189,7 +191,7 @@ static void put_levels_table(FILE *out, const JoxSide *side, const JoxSideDrawn 
         char area[32];
         snprintf(area, sizeof area, "%g", jox_levels[k].queue_area);
         jox_table_text(&table, jox_levels[k].name);
-        jox_table_text(&table, k + 1 < JOX_LEVELS ? area : "less");
+        jox_table_text(&table, area);
         add_spread_cells(&table, &levels[k]);
         jox_table_number(&table, 100.0 * levels[k].mean / all);
         jox_table_text(&table, jox_levels[k].what);
