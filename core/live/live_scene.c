@@ -328,7 +328,7 @@ JoxLiveColour jox_live_first_colour(const JoScene *scene) {
     for (uint32_t m = 0; m < machines->count; m++)
         states += machines->items[m]->state_count;
     return (JoxLiveColour)jox_live_colour(
-        jox_scene_choose_colouring(scene->spec, states, scene->spec->group_count));
+        jox_scene_choose_colouring(scene->spec->view.colour, states, scene->spec->group_count));
 }
 
 void jox_live_scene(JoScene *scene, bool restarts, JoxText *out) {

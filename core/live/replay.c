@@ -95,9 +95,8 @@ static void cover_recording(JoxReplay *r) {
 /* Takes what is shown besides people from the scene, else from the recording. */
 static void choose_look(JoxReplay *r, JoxDiagnostics *diagnostics) {
     const JoxPosition at = {r->path, 0, 0, 0};
-    if (r->spec)
-        r->look = jox_scene_look(r->spec);
-    else if (r->info.look && !jox_scene_read_look(r->info.look, &r->look))
+    r->look = jox_scene_look(r->spec);
+    if (!r->spec && r->info.look && !jox_scene_read_look(r->info.look, &r->look))
         jox_diag_warn(diagnostics, at, "bad-recording", "Give the scene by --scene",
                       "what it has of its scene's looks is damaged, and is not shown");
 }
@@ -340,12 +339,12 @@ void jox_replay_field(JoxReplay *r, JoxLiveField field, JoxLiveScales *scales, J
 
 JoxLiveColour jox_replay_colour(const JoxReplay *r) {
     const char *name =
-        jox_scene_choose_colouring(r->spec, r->names.state_count, r->info.group_count);
+        jox_scene_choose_colouring(r->look.colour, r->names.state_count, r->info.group_count);
     return (JoxLiveColour)jox_live_colour(name);
 }
 
 JoxLiveField jox_replay_first_field(const JoxReplay *r) {
-    return r->spec ? (JoxLiveField)r->spec->view.field : JOX_LIVE_FIELDS;
+    return (JoxLiveField)r->look.field;
 }
 
 void jox_replay_close(JoxReplay *r) {

@@ -137,8 +137,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     jox_scene_add_scenery(look, &json);
     add_recorded_clothes(&json, r);
     jox_live_add_colours(&json);
-    jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r),
-                      spec && spec->view.colour > 0, &json);
+    jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r), look->colour > 0, &json);
     jox_json_array(&json, "charts");
     jox_json_end(&json);
     jox_json_end(&json);

@@ -167,8 +167,8 @@ static JoxShow choose_default_colour(const JoxRender *r) {
     const JoxFrame *f = &r->frame;
     /* the first is "none" */
     const uint32_t states = f->state && f->state_count > 0 ? f->state_count - 1 : 0;
-    const char *name = jox_scene_choose_colouring(r->scene ? r->scene->spec : r->spec, states,
-                                                  f->group ? f->group_count : 0);
+    const char *name =
+        jox_scene_choose_colouring(r->look.colour, states, f->group ? f->group_count : 0);
     for (int s = 0; s < JOX_SHOWS; s++)
         if (strcmp(jox_shown[s].name, name) == 0 && has_shown_values(r, (JoxShow)s))
             return (JoxShow)s;
@@ -353,9 +353,8 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
 static void choose_recorded_look(JoxRender *r, JoxDiagnostics *diagnostics) {
     const char *text = r->reader ? jox_trajectory_reader_info(r->reader).look : NULL;
     const JoxPosition at = {r->def->recording, 0, 0, 0};
-    if (r->spec)
-        r->look = jox_scene_look(r->spec);
-    else if (text && !jox_scene_read_look(text, &r->look))
+    r->look = jox_scene_look(r->spec);
+    if (!r->spec && text && !jox_scene_read_look(text, &r->look))
         jox_diag_warn(diagnostics, at, "bad-recording", "Give the scene by --scene",
                       "what it has of its scene's looks is damaged, and is not shown");
 }

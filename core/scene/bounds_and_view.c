@@ -72,19 +72,20 @@ bool jox_finish_camera(const JoxReader *r, const JoxYaml *map, void *item, bool 
     return good;
 }
 
-const char *jox_scene_choose_colouring(const JoxSceneSpec *scene, uint32_t states,
-                                       uint32_t groups) {
-    static const char *const NAMES[] = {
+const char *const jox_scene_colours[] = {"auto",
 #define X(name) #name,
-        JOX_SCENE_COLOURS(X)
+                                         JOX_SCENE_COLOURS(X)
 #undef X
-    };
+};
+const char *const jox_scene_fields[] = {"density", "pressure", "none"};
+
+const char *jox_scene_choose_colouring(uint32_t choice, uint32_t states, uint32_t groups) {
     /* Two states, as "walks" and "is gone", tell little; more than eight colours are hard to tell
        apart. */
     enum { TELLING_STATES = 3, MOST_STATES = 8, MOST_GROUPS = 8 };
     const bool groups_tell = groups >= 2 && groups <= MOST_GROUPS;
-    if (scene && scene->view.colour > 0)
-        return NAMES[scene->view.colour - 1];
+    if (choice > 0)
+        return jox_scene_colours[choice];
     return states > MOST_STATES && groups_tell ? "group"
            : states >= TELLING_STATES          ? "state"
            : groups_tell                       ? "group"

@@ -74,6 +74,15 @@ typedef struct JoxSceneView {
     uint32_t tools;         /* bit set of JoxTool */
     uint32_t colour, field; /* index of the choice of each key */
 } JoxSceneView;
+/* Names of the choices of both keys. */
+extern const char *const jox_scene_colours[], *const jox_scene_fields[];
+enum {
+#define X(colour) +1
+    JOX_SCENE_COLOUR_COUNT = 1 JOX_SCENE_COLOURS(X),
+#undef X
+    JOX_SCENE_NO_FIELD = 2, /* index of "none" */
+    JOX_SCENE_FIELD_COUNT
+};
 
 /* A tally: a number computed from the agents that are there, as a score. It counts agents, or takes
    a statistic of a memory that behaviours write. */
@@ -219,9 +228,10 @@ void jox_scene_copy_behaviours(const JoxGroup *from, JoxSceneSpec *to, uint32_t 
 /* Appends the top-level keys that differ and that a reload cannot apply, each with the reason:
    "seed (...), ...". */
 void jox_scene_list_restart_keys(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);
-/* Returns the name of the quantity that agents are coloured by first: the scene's choice, else (or
-   for NULL) the most telling one for behaviours with `states` states in all and `groups` groups. */
-const char *jox_scene_choose_colouring(const JoxSceneSpec *scene, uint32_t states, uint32_t groups);
+/* Returns the name of the quantity that agents are coloured by first: the choice of the key
+   `colour`, or for 0 the most telling one for behaviours with `states` states in all and `groups`
+   groups. */
+const char *jox_scene_choose_colouring(uint32_t choice, uint32_t states, uint32_t groups);
 
 /* Where the value of a path ("groups.red.count"; items of lists by name or number) comes from, for
    `jostle mod why`: in the scene's own files, set for the run, by default. Each calls `visit` with

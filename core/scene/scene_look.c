@@ -16,10 +16,12 @@ JoxSceneLook jox_scene_look(const JoxSceneSpec *spec) {
     return spec ? (JoxSceneLook){.title = spec->title,
                                  .about = spec->about,
                                  .camera = spec->camera,
+                                 .colour = spec->view.colour,
+                                 .field = spec->view.field,
                                  .floor = spec->floor,
                                  .scenery = spec->scenery,
                                  .scenery_count = spec->scenery_count}
-                : (JoxSceneLook){0};
+                : (JoxSceneLook){.field = JOX_SCENE_NO_FIELD};
 }
 
 /* ---- writing ---- */
@@ -81,6 +83,10 @@ void jox_scene_write_look(const JoxSceneLook *look, JoxText *out) {
     jox_json_object(&json, NULL);
     jox_json_string(&json, "title", look->title);
     jox_json_string(&json, "about", look->about);
+    jox_json_object(&json, "view");
+    jox_json_string(&json, "colour", jox_scene_colours[look->colour]);
+    jox_json_string(&json, "field", jox_scene_fields[look->field]);
+    jox_json_end(&json);
     jox_scene_add_camera(look, &json);
     jox_scene_add_scenery(look, &json);
     jox_json_end(&json);
@@ -249,12 +255,17 @@ static bool read_look_value(void *context, const JoxJsonItem *item) {
         look->about = jox_arena_text(r->arena, item->text);
     else if (strcmp(item->path, "floor") == 0)
         look->floor = find_word(item->text, jox_floor_names, jox_floor_count);
-    return look->floor < jox_floor_count;
+    else if (strcmp(item->path, "view.colour") == 0)
+        look->colour = find_word(item->text, jox_scene_colours, JOX_SCENE_COLOUR_COUNT);
+    else if (strcmp(item->path, "view.field") == 0)
+        look->field = find_word(item->text, jox_scene_fields, JOX_SCENE_FIELD_COUNT);
+    return look->floor < jox_floor_count && look->colour < JOX_SCENE_COLOUR_COUNT &&
+           look->field < JOX_SCENE_FIELD_COUNT;
 }
 
 bool jox_scene_read_look(const char *text, JoxSceneLook *look) {
     LookReader reader = {.arena = jox_arena_create(), .look = look};
-    *look = (JoxSceneLook){.memory = reader.arena};
+    *look = (JoxSceneLook){.field = JOX_SCENE_NO_FIELD, .memory = reader.arena};
     if (jox_json_read(text, LIMITS, read_look_value, &reader) && is_item_whole(&reader) &&
         looks_somewhere(&look->camera))
         return true;
@@ -265,5 +276,5 @@ bool jox_scene_read_look(const char *text, JoxSceneLook *look) {
 void jox_scene_free_look(JoxSceneLook *look) {
     if (look->memory)
         jox_arena_free(look->memory);
-    *look = (JoxSceneLook){0};
+    *look = jox_scene_look(NULL);
 }

@@ -1,6 +1,6 @@
-/* What a scene shows besides people, bodies and walls: title, camera, floor, scenery. The live page
-   and pictures draw it, and recordings hold it as JSON, so that they show it without the scene's
-   file. */
+/* What a scene shows besides people, bodies and walls: title, camera, colouring, floor, scenery.
+   The live page and pictures draw it, and recordings hold it as JSON, so that they show it without
+   the scene's file. */
 #ifndef JOX_SCENE_SCENE_LOOK_H
 #define JOX_SCENE_SCENE_LOOK_H
 
@@ -10,13 +10,15 @@
 typedef struct JoxSceneLook {
     char *title, *about; /* NULL: none */
     JoxSceneCamera camera;
-    uint32_t floor; /* index of jox_floor_names */
+    uint32_t colour, field; /* indices of jox_scene_colours and jox_scene_fields */
+    uint32_t floor;         /* index of jox_floor_names */
     JoxScenery *scenery;
     uint32_t scenery_count;
     void *memory; /* JoxArena: owns the look that was read; NULL: its specification does */
 } JoxSceneLook;
 
-/* Returns the look of a specification, valid as long as that. NULL: a plain floor. */
+/* Returns the look of a specification, valid as long as that; for NULL a plain floor, on which no
+   field is shown. */
 JoxSceneLook jox_scene_look(const JoxSceneSpec *spec);
 /* Add "camera", which may be null; "floor" and "scenery": to an open object. */
 void jox_scene_add_camera(const JoxSceneLook *look, JoxJson *json);

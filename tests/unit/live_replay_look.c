@@ -8,6 +8,7 @@
     "title: Dressed\n"                                                                             \
     "about: It has scenery.\n"                                                                     \
     "floor: marble\n"                                                                              \
+    "view: {colour: speed, field: density}\n"                                                      \
     "camera: {position: [1.5, -9, 7], target: [0, 2, 0.5]}\n"                                      \
     "walls: [{line: [[8, 0], [8, 6]], name: gate, drawn: 0.4}, {line: [[9, 0], [9, 6]]}]\n"        \
     "bodies:\n"                                                                                    \
@@ -33,14 +34,15 @@ static char *cut_message(const JoxText *text, const char *from, const char *to) 
     return jox_strndup(begin, (size_t)(end - begin));
 }
 
-/* Asserts that two scene messages agree on walls, states, and all from the camera to the colours.
- */
+/* Asserts that two scene messages agree on title, walls, states, colouring, and all from the camera
+   to the colours. */
 static void check_same_looks(const JoxText *a, const JoxText *b) {
     static const char *const PARTS[][2] = {{"\"title\"", "\"file\""},
                                            {"\"walls\"", "\"places\""},
                                            {"\"states\"", "\"machines\""},
-                                           {"\"camera\"", "\"colours\""}};
-    for (int p = 0; p < 4; p++) {
+                                           {"\"camera\"", "\"colours\""},
+                                           {"\"view\"", "}"}};
+    for (int p = 0; p < 5; p++) {
         char *one = cut_message(a, PARTS[p][0], PARTS[p][1]);
         char *other = cut_message(b, PARTS[p][0], PARTS[p][1]);
         assert_string_equal(one, other);
@@ -117,6 +119,8 @@ static void looks_of_recordings_are_checked(void **state) {
     static const char *const WRONG[] = {
         "marble",
         "{\"floor\": \"lava\"}",
+        "{\"view\": {\"colour\": \"taste\"}}",
+        "{\"view\": {\"field\": \"meadow\"}}",
         "{\"camera\": {\"at\": [1, 2, 3], \"look\": [1, 2, 3]}}",
         "{\"camera\": {\"at\": [1, 2, 3, 4], \"look\": [1, 2, 2]}}",
         "{\"camera\": {\"at\": [1e9, 2, 3], \"look\": [1, 2, 2]}}",
