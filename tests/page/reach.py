@@ -150,7 +150,9 @@ def hides_its_token(browser):
     browser.wait("return page.person?.slot === 1", "the first page is told of nobody")
     first = browser.driver.current_window_handle
     browser.driver.switch_to.new_window("tab")
+    script, browser.script = browser.script, None  # each tab has its own
     try:
+        browser.draw_few(0)
         browser.driver.get(f"{shown}?token={token}")
         browser.wait(connected, "no frame reaches the second page")
         expect("token" not in browser.run("return location.href"), "the second page shows the token")
@@ -159,6 +161,7 @@ def hides_its_token(browser):
     finally:
         browser.driver.close()
         browser.driver.switch_to.window(first)
+        browser.script = script
     browser.wait(connected, "the first page is no longer connected")
     browser.run("window.seen = 0; const take = page.takePerson.bind(page); page.takePerson = (m) => { window.seen += m.agent?.slot === 1; take(m); }")
     browser.wait("return window.seen > 1 && page.person?.slot === 1", "another page took away the person of the first")
