@@ -151,8 +151,9 @@ class Browser:
         self.driver.get("about:blank")  # the page before would try the new server, with its old token
         self.driver.get_log("browser")
         self.driver.get(session.address)
-        self.wait("return window.page && page.scene && page.crowd.next && page.crowd.next.slots >= arguments[0]",
-                  "no frame reached the page", int(people))
+        # Until the loop has gone round with a frame, only the loading note is shown.
+        self.wait("return window.page && page.scene && page.crowd.next && page.crowd.next.slots >= arguments[0]"
+                  " && !document.getElementById('stage').classList.contains('empty')", "no frame reached the page", int(people))
 
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
