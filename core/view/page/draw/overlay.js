@@ -78,7 +78,7 @@ export class Overlay {
         pen.textAlign = "center";
         pen.textBaseline = "middle";
         if (this.shownNames() !== "none" || this.pointer) this.drawLabels();
-        for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", "player");
+        for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", this.playing ? null : "player");
         if (this.chosen !== null) this.drawChosen(share);
         this.marks?.(pen);
         this.sketch?.(pen, (x, y, z) => this.view.project(x, y, z));
