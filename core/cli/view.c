@@ -12,7 +12,8 @@ static bool read_view_unit(void *options, const char *text, char why[160]) {
 
 static const CliOption OPTIONS[] = {
     {"scene", "SCENE",
-     "draw its places and scenery, and the walls and bodies that the recording lacks",
+     "draw its places and scenery as they are now, and the walls and bodies that the recording "
+     "lacks",
      "what the recording has", CLI_TO(View, def.scene)},
     {"port", "N", "serve at this port", "8730, or the next that is free", CLI_TO(View, def.port),
      CLI_RANGE(1, 65535)},

@@ -85,9 +85,9 @@ static void cover_recording(JoxReplay *r) {
         jox_live_cover(&all, r->info.low, r->info.high);
     for (uint32_t v = 0; v < walls->count; v++)
         jox_live_cover(&all, walls->vertices[v].point, walls->vertices[v].point);
-    for (uint32_t p = 0; r->spec && p < r->spec->place_count; p++)
-        for (uint32_t i = 0; i < r->spec->places[p].count; i++)
-            jox_live_cover(&all, r->spec->places[p].points[i], r->spec->places[p].points[i]);
+    for (uint32_t p = 0; p < r->look.place_count; p++)
+        for (uint32_t i = 0; i < r->look.places[p].count; i++)
+            jox_live_cover(&all, r->look.places[p].points[i], r->look.places[p].points[i]);
     JoxV2 edge = {MARGIN, MARGIN};
     jox_live_cover(&r->area, jox_sub(all.low, edge), jox_add(all.high, edge));
 }

@@ -127,7 +127,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
     jox_live_add_walls(jox_replay_walls(r), &json);
-    jox_live_add_places(spec ? spec->places : NULL, spec ? spec->place_count : 0, &json);
+    jox_live_add_places(look->places, look->place_count, &json);
     jox_live_add_regions(spec ? spec->regions : NULL, spec ? spec->region_count : 0, &json);
     jox_json_bool(&json, "periodic", r->period.x > 0.0f || r->period.y > 0.0f);
     add_recorded_names(&json, r);

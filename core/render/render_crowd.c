@@ -410,7 +410,6 @@ bool jox_render_load(JoxRender *r, JoError *error) {
     const JoRenderDef *def = r->def;
     if (!(def->scene ? load_scene(r, error) : load_recording(r, error)))
         return false;
-    const JoxSceneSpec *spec = r->scene ? r->scene->spec : r->spec;
     const char *path = def->scene ? def->scene->path : def->recording;
     snprintf(r->title, sizeof r->title, "%.250s",
              r->look.title && *r->look.title ? r->look.title : jox_path_name(path));
@@ -419,10 +418,8 @@ bool jox_render_load(JoxRender *r, JoError *error) {
     r->picture.scenery_count = r->look.scenery_count;
     r->picture.title = r->title;
     r->picture.radius = RADIUS;
-    if (spec) {
-        r->picture.places = spec->places;
-        r->picture.place_count = spec->place_count;
-    }
+    r->picture.places = r->look.places;
+    r->picture.place_count = r->look.place_count;
     choose_map_area(r);
     take_frame(r);
     if (!choose_colours(r, error))

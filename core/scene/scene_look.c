@@ -18,6 +18,8 @@ JoxSceneLook jox_scene_look(const JoxSceneSpec *spec) {
                                  .camera = spec->camera,
                                  .colour = spec->view.colour,
                                  .field = spec->view.field,
+                                 .places = spec->places,
+                                 .place_count = spec->place_count,
                                  .floor = spec->floor,
                                  .scenery = spec->scenery,
                                  .scenery_count = spec->scenery_count}
@@ -37,8 +39,7 @@ void jox_scene_add_camera(const JoxSceneLook *look, JoxJson *json) {
     jox_json_end(json);
 }
 
-static void add_scenery_points(JoxJson *json, const char *key, const JoxV2 *points,
-                               uint32_t count) {
+static void add_points(JoxJson *json, const char *key, const JoxV2 *points, uint32_t count) {
     jox_json_array(json, key);
     for (uint32_t i = 0; i < count; i++)
         jox_json_numbers_of(json, NULL, (double[]){(double)points[i].x, (double)points[i].y}, 2,
@@ -51,9 +52,9 @@ static void add_scenery_item(JoxJson *json, const JoxScenery *scenery) {
     jox_json_object(json, NULL);
     jox_json_string(json, "kind", jox_scenery_kinds[scenery->kind].name);
     if (scenery->at_count)
-        add_scenery_points(json, "at", scenery->at, scenery->at_count);
+        add_points(json, "at", scenery->at, scenery->at_count);
     if (scenery->through_count)
-        add_scenery_points(json, "through", scenery->through, scenery->through_count);
+        add_points(json, "through", scenery->through, scenery->through_count);
     jox_json_array(json, "turns"); /* degrees, of each copy */
     for (uint32_t k = 0; k < scenery->at_count; k++)
         jox_json_digits(json, NULL, jox_scenery_turn(scenery, k), DIGITS);
@@ -78,6 +79,20 @@ void jox_scene_add_scenery(const JoxSceneLook *look, JoxJson *json) {
     jox_json_end(json);
 }
 
+static void add_places(const JoxSceneLook *look, JoxJson *json) {
+    jox_json_array(json, "places");
+    for (uint32_t p = 0; p < look->place_count; p++) {
+        const JoxPlace *place = &look->places[p];
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", place->name);
+        jox_json_string(json, "kind", jox_place_kinds[place->kind].name);
+        jox_json_digits(json, "radius", (double)jox_place_radius(place), DIGITS);
+        add_points(json, "points", place->points, place->count);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
 void jox_scene_write_look(const JoxSceneLook *look, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
@@ -88,6 +103,7 @@ void jox_scene_write_look(const JoxSceneLook *look, JoxText *out) {
     jox_json_string(&json, "field", jox_scene_fields[look->field]);
     jox_json_end(&json);
     jox_scene_add_camera(look, &json);
+    add_places(look, &json);
     jox_scene_add_scenery(look, &json);
     jox_json_end(&json);
 }
@@ -225,6 +241,64 @@ static bool read_scenery_value(LookReader *r, const char *rest, const JoxJsonIte
                                          : item->kind == JOX_JSON_ARRAY;
 }
 
+/* Returns whether the last place has a name and the points of its kind, and computes its centre. */
+static bool finish_last_place(const LookReader *r) {
+    JoxPlace *place = r->look->place_count ? &r->look->places[r->look->place_count - 1] : NULL;
+    if (!place)
+        return true;
+    if (!place->name || (uint32_t)place->kind >= jox_place_kind_count ||
+        place->count < jox_place_kinds[place->kind].least_points)
+        return false;
+    jox_place_finish(place);
+    return isfinite(place->centre.x) && isfinite(place->centre.y);
+}
+
+static bool read_place_kind(JoxPlace *place, const char *word) {
+    uint32_t kind = 0;
+    while (kind < jox_place_kind_count &&
+           (!jox_place_kinds[kind].name || strcmp(word, jox_place_kinds[kind].name) != 0))
+        kind++;
+    place->kind = (JoxPlaceKind)kind;
+    return kind < jox_place_kind_count;
+}
+
+/* Reads a member of a place, but for its points. */
+static bool read_place_member(LookReader *r, JoxPlace *place, const char *member,
+                              const JoxJsonItem *item) {
+    const bool is_text = item->kind == JOX_JSON_TEXT;
+    if (is_text && strcmp(member, "name") == 0)
+        return (place->name = jox_arena_text(r->arena, item->text)) != NULL;
+    if (is_text && strcmp(member, "kind") == 0)
+        return read_place_kind(place, item->text);
+    if (item->kind != JOX_JSON_NUMBER || strcmp(member, "radius") != 0)
+        return item->kind == JOX_JSON_ARRAY;
+    place->radius = (float)item->number;
+    return item->number >= 0.0 && item->number <= LARGEST;
+}
+
+/* Reads a value of the list "places", as read_scenery_value does. */
+static bool read_place_value(LookReader *r, const char *rest, const JoxJsonItem *item) {
+    char *member, more;
+    unsigned row, axis;
+    const unsigned long index = strtoul(rest, &member, 10);
+    JoxSceneLook *look = r->look;
+    if (!*member) {
+        if (item->kind != JOX_JSON_OBJECT || index != look->place_count || !finish_last_place(r))
+            return false;
+        look->places = make_room(r->arena, look->places, look->place_count, sizeof *look->places);
+        look->places[look->place_count++] =
+            (JoxPlace){.kind = (JoxPlaceKind)jox_place_kind_count, .start = -1};
+        return true;
+    }
+    if (*member != '.' || index + 1 != look->place_count)
+        return false;
+    JoxPlace *place = &look->places[index];
+    return sscanf(member, ".points.%u.%u%c", &row, &axis, &more) == 2
+               ? item->kind == JOX_JSON_NUMBER &&
+                     add_coordinate(r, &place->points, &place->count, row, axis, item->number)
+               : read_place_member(r, place, member + 1, item);
+}
+
 static bool read_camera_value(JoxSceneCamera *camera, const char *rest, const JoxJsonItem *item) {
     unsigned axis;
     char more;
@@ -243,6 +317,8 @@ static bool read_look_value(void *context, const JoxJsonItem *item) {
     JoxSceneLook *look = r->look;
     if (strncmp(item->path, "scenery.", 8) == 0)
         return read_scenery_value(r, item->path + 8, item);
+    if (strncmp(item->path, "places.", 7) == 0)
+        return read_place_value(r, item->path + 7, item);
     if (strncmp(item->path, "camera.", 7) == 0)
         return read_camera_value(&look->camera, item->path + 7, item);
     if (strcmp(item->path, "camera") == 0)
@@ -267,7 +343,7 @@ bool jox_scene_read_look(const char *text, JoxSceneLook *look) {
     LookReader reader = {.arena = jox_arena_create(), .look = look};
     *look = (JoxSceneLook){.field = JOX_SCENE_NO_FIELD, .memory = reader.arena};
     if (jox_json_read(text, LIMITS, read_look_value, &reader) && is_item_whole(&reader) &&
-        looks_somewhere(&look->camera))
+        finish_last_place(&reader) && looks_somewhere(&look->camera))
         return true;
     jox_scene_free_look(look);
     return false;

@@ -1,6 +1,6 @@
-/* What a scene shows besides people, bodies and walls: title, camera, colouring, floor, scenery.
-   The live page and pictures draw it, and recordings hold it as JSON, so that they show it without
-   the scene's file. */
+/* What a scene shows besides people, bodies and walls: title, camera, colouring, places, floor and
+   scenery. The live page and pictures draw it, and recordings hold it as JSON, so that they show it
+   without the scene's file. */
 #ifndef JOX_SCENE_SCENE_LOOK_H
 #define JOX_SCENE_SCENE_LOOK_H
 
@@ -11,7 +11,9 @@ typedef struct JoxSceneLook {
     char *title, *about; /* NULL: none */
     JoxSceneCamera camera;
     uint32_t colour, field; /* indices of jox_scene_colours and jox_scene_fields */
-    uint32_t floor;         /* index of jox_floor_names */
+    JoxPlace *places;
+    uint32_t place_count;
+    uint32_t floor; /* index of jox_floor_names */
     JoxScenery *scenery;
     uint32_t scenery_count;
     void *memory; /* JoxArena: owns the look that was read; NULL: its specification does */

@@ -10,6 +10,7 @@
     "floor: marble\n"                                                                              \
     "view: {colour: speed, field: density}\n"                                                      \
     "camera: {position: [1.5, -9, 7], target: [0, 2, 0.5]}\n"                                      \
+    "places: {spot: {point: [2, 3], radius: 1}, hall: {polygon: [[0, 0], [7, 0], [7, 6]]}}\n"      \
     "walls: [{line: [[8, 0], [8, 6]], name: gate, drawn: 0.4}, {line: [[9, 0], [9, 6]]}]\n"        \
     "bodies:\n"                                                                                    \
     "  - {shape: {box: {size: [1, 1, 1]}}, mass: 9, at: [40, 6, 0.5]}\n"                           \
@@ -38,7 +39,7 @@ static char *cut_message(const JoxText *text, const char *from, const char *to) 
    to the colours. */
 static void check_same_looks(const JoxText *a, const JoxText *b) {
     static const char *const PARTS[][2] = {{"\"title\"", "\"file\""},
-                                           {"\"walls\"", "\"places\""},
+                                           {"\"walls\"", "\"regions\""},
                                            {"\"states\"", "\"machines\""},
                                            {"\"camera\"", "\"colours\""},
                                            {"\"view\"", "}"}};
@@ -120,6 +121,14 @@ static void looks_of_recordings_are_checked(void **state) {
         "marble",
         "{\"floor\": \"lava\"}",
         "{\"view\": {\"colour\": \"taste\"}}",
+        "{\"places\": [{\"name\": \"a\", \"kind\": \"polygon\", \"radius\": 0, \"points\": [[0, "
+        "0], [1, "
+        "0]]}]}",
+        "{\"places\": [{\"kind\": \"point\", \"radius\": 1, \"points\": [[0, 0]]}]}",
+        "{\"places\": [{\"name\": \"a\", \"kind\": \"swamp\", \"radius\": 1, \"points\": [[0, "
+        "0]]}]}",
+        "{\"places\": [{\"name\": \"a\", \"kind\": \"point\", \"radius\": -1, \"points\": [[0, "
+        "0]]}]}",
         "{\"view\": {\"field\": \"meadow\"}}",
         "{\"camera\": {\"at\": [1, 2, 3], \"look\": [1, 2, 3]}}",
         "{\"camera\": {\"at\": [1, 2, 3, 4], \"look\": [1, 2, 2]}}",
