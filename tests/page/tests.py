@@ -752,7 +752,7 @@ def ends(browser):
     expect(browser.run("return document.getElementById('end').hidden && document.activeElement.id") == "picture", "Escape does not close the card")
     # In a program's frame, which begins runs itself, nothing is offered that it refuses.
     offered = "return [...document.querySelectorAll('#end button, #time button')].filter((b) => b.checkVisibility() && /Again|Another seed|Restart/.test(b.textContent)).length"
-    expect(browser.run("page.take({...page.scene, restarts: false}); page.end.forget(); page.takeStatus(window.ended); return !document.getElementById('end').hidden"), "no card in a frame")
+    expect(browser.run("page.about.show(true); page.about.asked = false; page.take({...page.scene, restarts: false}); page.end.forget(); page.takeStatus(window.ended); return page.about.node.hidden && !document.getElementById('end').hidden"), "no card in a frame")
     expect(browser.run(offered) == 0, "a program that refuses it is asked to begin anew")
     browser.run("page.take({...page.scene, restarts: true}); page.end.forget()")
     browser.wait("return document.activeElement.textContent === 'Again'", "the card does not come back")

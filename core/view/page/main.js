@@ -242,6 +242,7 @@ class Page {
 
     takeStatus(status) {
         if (!this.recorded()) this.end.take(status);
+        if (!this.end.node.hidden && !this.about.asked) this.about.close(); // two cards cover each other in a small window
         this.messages.stand("break", status.broke && status.paused ? status.broke.trim() : "");
         this.bar.take(status);
         this.game.take(status);
