@@ -42,14 +42,14 @@ static const char STYLE[] =
     "figure "
     "img{max-height:70mm;width:auto}figcaption{font-size:8.5pt;line-height:1.3}figure.wide,.panels "
     "figure{margin:0 0 .5rem}"
-    "figure.wide img{max-height:70mm;width:auto}.plan figure.wide img{max-height:76mm}"
+    "figure.wide img{max-height:60mm;width:auto}.plan figure.wide img{max-height:76mm}"
     "figure.strips{break-inside:auto}figure.strips .strip img{max-height:none;width:100%}"
     "figure.strips figcaption{break-before:avoid}figure.strips.half{max-width:125mm}"
     ".csv{break-before:avoid;font-size:7.5pt;margin:-.3rem 0 "
     ".5rem}.panels{display:block;orphans:1;widows:1}.panels "
     "figure{display:inline-block;width:48.5%;margin-right:1%}"
     ".panels.whole figure{display:block;width:100%;margin-right:0}.panels img{max-height:62mm;"
-    "width:auto}.panels.whole img{max-height:54mm}"
+    "width:auto}.panels.whole img{max-height:50mm}"
     ".summary{font-size:9.5pt;-webkit-print-color-adjust:exact;print-color-adjust:exact}"
     "a{color:inherit;text-decoration:none}}";
 

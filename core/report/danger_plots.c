@@ -46,9 +46,14 @@ int jox_danger_count_level_strips(const JoxDanger *d) {
 }
 
 int jox_danger_level_strip_height(const JoxDanger *d) {
-    enum { ROOM = 90, ROW = 17, MOST = 500 }; /* px: for title and axis, for the name of an area */
+    enum {
+        ROOM = 90,
+        ROW = 17,
+        LEAST = 250,
+        MOST = 500
+    }; /* px: for title and axis, for the name of an area */
     const int height = ROOM + ROW * (int)d->areas.count;
-    return height < JOX_DANGER_STRIP ? JOX_DANGER_STRIP : height > MOST ? MOST : height;
+    return height < LEAST ? LEAST : height > MOST ? MOST : height;
 }
 
 /* Begins a script: size and output file for PNG or SVG, separator, and the variable `heading`, with
@@ -242,7 +247,7 @@ static void write_level_colour(int level, FILE *script) {
 static void write_level_strips(const JoxDanger *d, FILE *script) {
     const int first = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS;
     fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1.05 left top Left reverse "
-          "invert maxcols 1 spacing 0.8 font ',10'\nset style fill solid 1 noborder\n",
+          "invert maxcols 1 spacing 0.9 font ',10'\nset style fill solid 1 noborder\n",
           script);
     set_strip_title(script, "People at each level of service (A: most room, F: least)");
     fputs("plot ", script);

@@ -171,6 +171,19 @@ void jox_page_release(JoxPageFigures *f) {
     jox_free(f->items);
 }
 
+void jox_page_add_file(JoxPageTable *table, const char *scene, const char *what, const char *path,
+                       const char *sha256) {
+    char shown[JOX_LONGEST_PATH];
+    jox_page_path(path, scene, shown);
+    for (uint32_t k = 0; k + 2 < table->count; k += table->columns)
+        if (strcmp(table->cells[k].text, shown) == 0 &&
+            strcmp(table->cells[k + 2].text, sha256) == 0)
+            return;
+    jox_table_text(table, shown);
+    jox_table_text(table, what);
+    jox_table_text(table, sha256);
+}
+
 JoxPageTable jox_page_table(const JoxSubject *s, const char *name, const char *heads) {
     return (JoxPageTable){.name = name, .folder = s->folder, .error = s->error, .heads = heads};
 }

@@ -53,6 +53,11 @@ void jox_page_put_signatures(FILE *out, const JoxSceneReport *given);
    scene (or NULL), or its name alone. Returns `out`. */
 const char *jox_page_path(const char *path, const char *scene, char out[JOX_LONGEST_PATH]);
 
+/* Adds a row with a file, what it is and its hash, unless the table has it: behaviours share
+   modules. `scene` is as for jox_page_path. */
+void jox_page_add_file(JoxPageTable *table, const char *scene, const char *what, const char *path,
+                       const char *sha256);
+
 /* Appends how many criteria are met, and names the others. */
 void jox_page_say_criteria(const JoxVerdict *verdicts, uint32_t count, JoxText *out);
 /* Writes the section on criteria; nothing if there are none. */

@@ -83,14 +83,6 @@ static void hash_file(const char *path, char out[65]) {
         close(file);
 }
 
-static void add_recorded_file(JoxPageTable *table, const JoxReport *r, const char *what,
-                              const char *path, const char *sha256) {
-    char shown[JOX_LONGEST_PATH];
-    jox_table_text(table, jox_page_path(path, r->def->scene, shown));
-    jox_table_text(table, what);
-    jox_table_text(table, sha256);
-}
-
 /* Writes the command that repeats the report, and its input files with their hashes. */
 static void put_recording_inputs(FILE *out, const JoxReport *r, const JoxSubject *s,
                                  const char hash[65]) {
@@ -108,10 +100,10 @@ static void put_recording_inputs(FILE *out, const JoxReport *r, const JoxSubject
     if (r->def->unit > 0.0)
         fprintf(out, " --unit %s", r->def->unit == 1.0 ? "m" : "cm");
     fputs(" --out DIR</code></p>\n", out);
-    add_recorded_file(&table, r, "recording", r->def->recording, hash);
+    jox_page_add_file(&table, r->def->scene, "recording", r->def->recording, hash);
     for (uint32_t f = 0; r->spec && f < r->spec->file_count; f++)
-        add_recorded_file(&table, r, f ? "part of the scene" : "scene", r->spec->files[f].path,
-                          r->spec->files[f].sha256);
+        jox_page_add_file(&table, r->def->scene, f ? "part of the scene" : "scene",
+                          r->spec->files[f].path, r->spec->files[f].sha256);
     jox_table_put(out, &table);
 }
 

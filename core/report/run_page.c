@@ -223,20 +223,6 @@ static void put_model_notes(FILE *out, const JoScene *scene) {
     jox_diag_free(&notes);
 }
 
-/* Adds a file with its hash, unless it is in the table: behaviours share modules. */
-static void add_input_file(JoxPageTable *table, const JoScene *scene, const char *what,
-                           const char *path, const char *sha256) {
-    char shown[JOX_LONGEST_PATH];
-    jox_page_path(path, scene->spec->path, shown);
-    for (uint32_t k = 0; k + 2 < table->count; k += table->columns)
-        if (strcmp(table->cells[k].text, shown) == 0 &&
-            strcmp(table->cells[k + 2].text, sha256) == 0)
-            return;
-    jox_table_text(table, shown);
-    jox_table_text(table, what);
-    jox_table_text(table, sha256);
-}
-
 /* Writes the command that repeats the run, and its input files with their hashes. */
 static void put_run_inputs(FILE *out, const JoScene *scene, const JoxSubject *s) {
     const JoSceneDef *def = &scene->def;
@@ -255,17 +241,18 @@ static void put_run_inputs(FILE *out, const JoScene *scene, const JoxSubject *s)
     fprintf(out, "</code>: state hash %016llx, whatever the number of threads.</p>\n",
             (unsigned long long)jox_world_hash(world));
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
-        add_input_file(&table, scene, f ? "part of the scene" : "scene", scene->spec->files[f].path,
-                       scene->spec->files[f].sha256);
+        jox_page_add_file(&table, scene->spec->path, f ? "part of the scene" : "scene",
+                          scene->spec->files[f].path, scene->spec->files[f].sha256);
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            add_input_file(&table, scene, f ? "module" : "behaviour", files[f].path,
-                           files[f].sha256);
+            jox_page_add_file(&table, scene->spec->path, f ? "module" : "behaviour", files[f].path,
+                              files[f].sha256);
     }
     if (scene->input_path)
-        add_input_file(&table, scene, "input log", scene->input_path, scene->input_sha256);
+        jox_page_add_file(&table, scene->spec->path, "input log", scene->input_path,
+                          scene->input_sha256);
     jox_table_put(out, &table);
     for (uint32_t m = 0; m < scene->mods->count; m++) {
         char mod[300];

@@ -287,8 +287,8 @@ static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxT
     if (isnan(m->pressure_most))
         jox_text_printf(
             out,
-            "set title 'crowd pressure was measured nowhere:\\nless than %g per m\xc2\xb2, "
-            "or no steady flow for %g s'\nunset colorbox\nplot NaN notitle\n"
+            "set title 'crowd pressure: not measured'\nunset colorbox\nset label 1 'nowhere %g per "
+            "m\xc2\xb2 for %g s' at graph 0.5,0.5 center\nplot NaN notitle\nunset label 1\n"
             "set colorbox\n",
             (double)JOX_PRESSURE_LEAST, JOX_PRESSURE_SPAN);
     else
