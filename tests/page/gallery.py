@@ -44,7 +44,9 @@ page.resize();
 SHOOT = """
 page.crowd.snap = true;
 page.redraw();
-page.view.sharpen(true); // a slow processor draws fewer pixels while things move
+page.view.sharpen(true); // a slow processor draws fewer pixels while things move, and fewer people as meshes
+page.view.people.detail = 1;
+page.view.people.allow();
 page.view.render(performance.now(), performance.now(), 1);
 const c = document.createElement('canvas'), p = c.getContext('2d');
 [c.width, c.height] = [page.view.canvas.width, page.view.canvas.height];

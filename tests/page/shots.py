@@ -2,12 +2,13 @@
 
     shots.py OUT [SCENE...]    scenes by name; without: all of the folder scenes
 
-OUT/NAME-3.jpg, -10.jpg and -near.jpg; OUT/sheet-1.png and so on show all that OUT holds, a scene a row. `near` looks from 6 m
-and at head height at the spot where most people stand within 1.5 m."""
+OUT/NAME-3.jpg, -10.jpg and -near.jpg; OUT/sheet-1.png and so on show all that OUT holds, a scene a row. `near` looks from 7 m
+and over heads at the spot where most people stand within 1.5 m."""
 import glob
 import os
 import re
 import sys
+import time
 
 from gallery import Shown, make_all, scenes_named
 from harness import Browser
@@ -28,8 +29,8 @@ for (const p of people.filter((_, i) => i % Math.ceil(people.length / 4000) === 
     const n = count(p);
     if (n > most) [best, most] = [p, n];
 }
-const eye = view.perspective.position, first = Math.atan2(eye.y - best[1], eye.x - best[0]), head = [...best, 1.2];
-const place = (turn) => [best[0] + 6 * Math.cos(turn), best[1] + 6 * Math.sin(turn), 1.8];
+const eye = view.perspective.position, first = Math.atan2(eye.y - best[1], eye.x - best[0]), head = [...best, 1];
+const place = (turn) => [best[0] + 7 * Math.cos(turn), best[1] + 7 * Math.sin(turn), 3];
 const turns = Array.from({length: 16}, (_, i) => first + (i % 2 ? -1 : 1) * Math.ceil(i / 2) * Math.PI / 8);
 const turn = turns.find((t) => !view.ground.between(head, place(t)) && !view.bodies.between(head, place(t))) ?? first;
 view.perspective.position.set(...place(turn));
@@ -50,6 +51,7 @@ def shoot(browser, name, out):
         for moment in MOMENTS:
             shown.advance(moment - begun)
             begun = moment
+            time.sleep(1)  # until the field of this moment is there
             shown.shoot(os.path.join(out, f"{name}-{moment}.jpg"))
         browser.run(APPROACH)
         shown.shoot(os.path.join(out, f"{name}-near.jpg"))
