@@ -128,7 +128,9 @@ static bool read_section_head(JoxSections *s, const char *name, size_t size, uin
     s->at += sizeof head;
     size_t left = (size_t)(s->end - s->at);
     if (head.size != size || (size && head.count > left / size)) {
-        jox_sections_fail(s, name, "the section has cells of another size");
+        jox_sections_fail(
+            s, name,
+            "the state has cells of another size here: it is of another version, or damaged");
         return false;
     }
     *count = head.count;

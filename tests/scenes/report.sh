@@ -194,6 +194,16 @@ grep -q '^speed,people,"normal(1.3, 0.2, 0.8, 1.8) (scene)",12,1.[0-9]*,0.[0-9]*
 "$JOSTLE" run "$work/held.yaml" --seeds 3 --quiet --report "$work/held-seeds" --summary "$work/held-seeds.json" >/dev/null 2>&1
 grep -q '"criteria.out at once.met": {"mean": 0,' "$work/held-seeds.json" && grep -q '<td>out in time<td class=n>3<td class=n>0' "$work/held-seeds/index.html" && grep -q '^out at once,0,3,0,0,' "$work/held-seeds/table-criteria.csv"; verdict "with seeds, the share that meets each" $?
 grep -q '^field,not decided,,9,1/m2,not measured: no part of field lies in the measured area$' "$work/held/table-criteria.csv"; verdict "a place that is not measured decides nothing" $?
+# People may come after the end, so nobody knows how long the room takes to clear; half of a place is outside the measured area.
+cat >"$work/late.yaml" <<'SCENE'
+include: made-run.yaml
+jostle: 1
+places: {half: {polygon: [[14, 0], [18, 0], [18, 4], [14, 4]]}}
+sources: [{at: hall, like: people, from: 100, every: 5, people: 1}]
+criteria: {in time: {cleared: 30}, half: {density: 9, at: half}}
+SCENE
+"$JOSTLE" run "$work/late.yaml" --quiet --for 30 --summary "$work/late.json" >/dev/null 2>&1
+[ "$(verdicts "$work/late.json" | tr '\n' ' ')" = 'in time null half null ' ]; verdict "people to come, and a place that is measured in part, decide nothing" $?
 wrong() { # TEXT CRITERION: check must refuse the criterion
     printf 'include: made-run.yaml\njostle: 1\ncriteria:\n  it: {%s}\n' "$2" >"$work/wrong.yaml"
     expect "a criterion {$2}" 3 "$1" "$JOSTLE" check "$work/wrong.yaml"
