@@ -210,6 +210,7 @@ static const char *get_key_type(const JoxTableKey *key) {
         {"true or false", "boolean"},
         {"name", "string"},
         {"name of a state", "string"},
+        {"name of a pose", "\"brace\"|\"raise\"|\"carry\"|\"throw\"|\"point\"|\"sit\"|\"kneel\""},
         {"name of a state, or back", "string|jostle.Back"},
         {"name of a behaviour", "string"},
         {"name, or table", "string|jostle.Signal"},

@@ -275,7 +275,7 @@ function Target:contains(item) end
 ---@field lasts? jostle.Value|jostle.Drawn duration of the state, drawn on entering it; see `lasted`, s
 ---@field removes? boolean the agent leaves the world on entering
 ---@field lies? boolean the live page shows the agent as lying down; nothing else changes
----@field pose? any how the live page draws the agent: "brace", "raise", "carry", "throw" or "point" with its arms, "sit" or "kneel" with its whole body; nothing else changes
+---@field pose? "brace"|"raise"|"carry"|"throw"|"point"|"sit"|"kneel" how the live page draws the agent: "brace", "raise", "carry", "throw" or "point" with its arms, "sit" or "kneel" with its whole body; nothing else changes
 ---@field become? string on entering, the agent changes to another machine, at its start; it keeps its body, the values that the scene gave it, and memory of the same name
 ---@field push_when? jostle.Condition the agent pushes only while this holds
 ---@field push_toward? jostle.AnyTarget direction in which the agent pushes; without it the direction in which it wants to go
