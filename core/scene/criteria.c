@@ -1,4 +1,5 @@
 /* Reads the criteria that a scene is held against. */
+#include <math.h>
 #include <string.h>
 
 #include "scene/scene_draft.h"
@@ -42,12 +43,18 @@ bool jox_finish_criterion(const JoxReader *r, const JoxYaml *map, void *item, bo
         jox_scene_error(r, map, "bad-criterion", "of: NAME, the name of a probe",
                         "the criterion '%.60s' needs a probe", criterion->name);
     if (probed && criterion->probe >= 0) {
-        const JoxProbeKind kind = r->draft->scene->probes[criterion->probe].kind;
+        const JoxProbeDef *probe = &r->draft->scene->probes[criterion->probe];
+        const JoxProbeKind kind = probe->kind;
         const bool fits =
             waiting ? kind == JOX_PROBE_TRANSIT || kind == JOX_PROBE_VISIT : kind == JOX_PROBE_FLOW;
         if (!fits)
             jox_scene_error(r, of, "bad-criterion", NULL, "%s takes its figure from a probe of %s",
                             waiting ? "waiting" : "flow", waiting ? "transit or visit" : "flow");
+        else if (!waiting && (probe->from > 0.0 || isfinite(probe->until) || probe->group_count))
+            jox_scene_error(r, of, "bad-criterion", "Name a probe of this line without these keys",
+                            "a flow is held against its limit over the whole run and of everybody, "
+                            "but the probe '%.60s' has from, until or group",
+                            probe->name);
     }
     return true;
 }

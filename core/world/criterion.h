@@ -14,7 +14,7 @@
     X(DENSITY, density, "1/m2", 20, "density: 4",                                                   \
       "density (Gaussian, R = 1 m) that is exceeded anywhere in the place `at` for no longer than `lasting`") \
     X(FLOW, flow, "", 10, "flow: 1.3",                                                       \
-      "greatest flow over the line of the probe `of`, in any ten seconds: people per second and metre of clear width") \
+      "greatest flow over the line of the probe `of`, in any ten seconds of the run, of everybody: people per second and metre of clear width") \
     X(WAITING, waiting, "s", 1e6, "waiting: 300",                                                   \
       "longest time of a person in the probe `of`, a transit or a visit")                           \
     X(LOAD, load, "N", 1e5, "load: 623",                                                            \
