@@ -4,6 +4,8 @@
 
 #include "base/format/quote.h"
 #include "live/live_parts.h"
+#include "record/danger/criteria.h"
+#include "run/criteria_listener.h"
 #include "run/figure_listeners.h"
 
 static const char *const REASONS[] = {[JOX_LIVE_GOES_ON] = NULL,
@@ -65,6 +67,22 @@ static void add_exits(JoxJson *json, const JoxExits *exits) {
     jox_json_end(json);
 }
 
+/* Adds "criteria": those that the scene is held against, with their verdicts up to now. */
+static void add_verdicts(JoxJson *json, const JoScene *scene) {
+    jox_json_array(json, "criteria");
+    for (uint32_t k = 0; k < jox_run_count_criteria(scene); k++) {
+        const JoxVerdict v = jox_run_judge(scene, k);
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", v.criterion->name);
+        jox_json_string(json, "verdict", jox_verdict_names[v.kind]);
+        jox_json_number(json, "figure", v.figure);
+        jox_json_number(json, "limit", v.limit);
+        jox_json_string(json, "unit", v.unit);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
 /* Appends " --NAME VALUE", quoted for a shell. */
 static void append_option(JoxText *out, const char *name, const char *value) {
     jox_text_printf(out, " --%s ", name);
@@ -120,6 +138,7 @@ void jox_live_add_end(const JoScene *scene, const JoxLiveSession *session, JoxJs
     jox_json_bool(json, "acted", scene->acted_on);
     add_exits(json, &world->state.exits);
     add_greatest_density(json, scene);
+    add_verdicts(json, scene);
     add_commands(json, scene);
     jox_json_end(json);
 }

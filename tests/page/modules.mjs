@@ -143,6 +143,10 @@ const TESTS = {
         const failed = { ...end, why: "failed", failure: "a number is not finite", falls: 2, density: { most: 6.14, at: [16.94, 0.5], time: 28, where: ", in hall" } };
         assert.deepEqual(endSentences(failed), ["a number is not finite", "97 left by south, the last at 53 s; 3 are still inside.",
             "Greatest density: 6.14 people per m² (Gaussian, R = 1 m) at 28 s, at (16.9, 0.50) m, in hall – level of service F (Fruin).", "2 falls."]);
+        const criteria = [{ name: "time", verdict: "met", figure: 38.456, limit: 45, unit: "s" }, { name: "hall", verdict: "not decided", figure: null, limit: 4, unit: "1/m2" },
+            { name: "door", verdict: "not met", figure: 1.5, limit: 1.3, unit: "1/(m s)" }];
+        assert.deepEqual(endSentences({ ...end, criteria }).slice(1),
+            ["Criterion time: met (38.456, at most 45 s).", "Criterion hall: not decided.", "Criterion door: not met (1.5, at most 1.3 per m and s)."]);
     },
     "a reload is told by counts before and after": () => {
         const before = [{ state: "Wait", people: 0 }, { state: "Walk", people: 120 }, { state: "Old", people: 2 }];

@@ -740,7 +740,7 @@ def ends(browser):
     browser.run("""document.activeElement.blur(); page.end.forget(); // it may be there already
         const take = page.takeStatus.bind(page); page.takeStatus = (status) => { if (status.end) window.ended = status; take(status); };""")
     text = browser.wait("const e = document.getElementById('end'); return !e.hidden && e.innerText", "no card at the end")
-    for part in ("4 s are over", "2 people took part; nobody left.", "Greatest density: ", "1 person fell."):
+    for part in ("4 s are over", "2 people took part; nobody left.", "Greatest density: ", "1 person fell.", "Criterion in time: not met."):
         expect(part in text, f"the card lacks {part!r}: {text}")
     expect(browser.run("return document.activeElement.textContent") == "Again", "the card has not the focus")
     browser.press(Keys.TAB, Keys.TAB)
@@ -770,6 +770,7 @@ places: {edge: {polygon: [[-1, -1], [1, -1], [1, 1], [-1, 1]]}}
 groups:
   people: {behaviour: stander.lua, at: [[0, 0], [0, 3]], facing: 0, set: {balance: 0.3, rise: 1000, step_back: 0}}
 events: [{at: 0.2, push: edge, force: [2000, 0], lasts: 0.1}]
+criteria: {in time: {cleared: 3}}
 """})
     session = Session("run", os.path.join(folder, "scene.yaml"), "--view")
     try:

@@ -33,7 +33,16 @@ export function endSentences(end) {
     out.push(leavingSentence(end));
     if (end.density) out.push(densitySentence(end.density));
     if (end.falls) out.push(end.falls === 1 ? "1 person fell." : `${figure(end.falls)} falls.`);
+    for (const { name, verdict, figure: value, limit, unit } of end.criteria ?? []) {
+        const compared = value === null ? "" : ` (${Number(value.toPrecision(5))}, at most ${Number(limit.toPrecision(5))} ${unitText(unit)})`;
+        out.push(`Criterion ${name}: ${verdict}${compared}.`);
+    }
     return out;
+}
+
+/** A unit as people write it: "1/m2" becomes "per m²". */
+function unitText(unit) {
+    return { "1/m2": "per m²", "1/(m s)": "per m and s" }[unit] ?? unit;
 }
 
 export class EndCard {
