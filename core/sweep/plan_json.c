@@ -2,6 +2,7 @@
    scene. compare/side_plan.c reads it. */
 
 #include "base/format/json_writer.h"
+#include "base/format/path.h"
 #include "base/mem.h"
 #include "picture/draw.h"
 #include "run/present_frame.h"
@@ -95,7 +96,7 @@ void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
     jox_run_find_shown_area(scene, &low, &high);
     jox_json_object(&json, NULL);
-    jox_json_string(&json, "title", spec->title ? spec->title : "");
+    jox_json_string(&json, "title", spec->title ? spec->title : jox_path_name(spec->path));
     put_plan_report(&json, &spec->report);
     jox_json_numbers_of(
         &json, "area",
