@@ -195,6 +195,8 @@ typedef struct JoxLiveCrowd {
     JoxV2 period;                 /* m, size of a periodic world; 0 along an axis without edges */
     const JoxWalls *walls;        /* that stand (gates closed); or NULL */
 } JoxLiveCrowd;
+/* Sets the corners of the box of all people, m; false if there is nobody. */
+bool jox_live_find_crowd_box(const JoxLiveCrowd *crowd, JoxV2 *low, JoxV2 *high);
 /* Extends the area to hold all people. */
 void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd);
 /* Mean speed, m/s; 0 for an empty crowd. */
@@ -214,15 +216,16 @@ bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out);
    jox_live_free_grid. */
 typedef struct JoxLiveGrid {
     struct JoxDensity *grid;
-    JoxV2 low, high; /* m, the area that the grid was made for */
+    JoxV2 low, high; /* m, the box that people may be in before the grid is made again */
 } JoxLiveGrid;
-/* Extends the area to hold the crowd, and computes the crowd's density on the grid. */
+/* Extends the area to hold the crowd, and computes the crowd's density on a grid about the people:
+   how far the area extends where nobody is does not change it. */
 void jox_live_spread(JoxLiveGrid *grid, JoxLiveArea *area, const JoxLiveCrowd *crowd);
 /* Density at a point (0 outside the grid), and the greatest, 1/m2. */
 float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
 float jox_live_density_max(const JoxLiveGrid *grid);
-/* R of the Gaussian, m: 1, more where the cells are wider than that; NAN before the first
-   spread. */
+/* R of the Gaussian, m: 1, more while people are spread so far that cells have to be wider; NAN
+   before the first spread. */
 float jox_live_density_r(const JoxLiveGrid *grid);
 /* Writes a field message (kind 3) of values by cell of the grid; `scales` as for jox_live_field. */
 void jox_live_pack_field(const struct JoxDensity *grid, const float *values, JoxLiveField field,

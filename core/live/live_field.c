@@ -1,5 +1,6 @@
 /* Fields that the page draws on the floor: density by record/fields/density.h on cells of 0.5 m,
-   wider on large areas; and the packing of any field, crowd pressure too, into bytes. */
+   wider while people are far apart; and the packing of any field, crowd pressure too, into bytes.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@
 /* Cells of the density's grid; cells of a message; bytes of its head; its kind. */
 enum { MOST_CELLS = 65536, MOST_SHOWN = 78000, HEAD = 32, FIELD = 3 };
 static const float KERNEL = JOX_DENSITY_KERNEL, CELL = 0.5f; /* m */
+static const float LEAST_ROOM = 2.0f; /* m about people, for their next steps */
 
 static const char *const NAMES[] = {"density", "pressure", "none"};
 
@@ -31,24 +33,46 @@ void jox_live_free_grid(JoxLiveGrid *g) {
     *g = (JoxLiveGrid){0};
 }
 
-/* Makes the grid over the area, again if the area has grown. */
-static void make_density_grid(JoxLiveGrid *g, const JoxLiveArea *area) {
-    if (g->grid && jox_length(jox_sub(g->low, area->low)) == 0.0f &&
-        jox_length(jox_sub(g->high, area->high)) == 0.0f)
+/* Returns the side of the cells, m, of a box with room for a crowd of this size, m. */
+static float choose_cell(JoxV2 size, float room) {
+    return jox_maxf(CELL, sqrtf((size.x + 2.0f * room) * (size.y + 2.0f * room) / MOST_CELLS));
+}
+
+/* Whether the grid does for people from `low` to `high`: they are all in it, and cells that are
+   wide for others who have left could not be much finer. */
+static bool is_grid_kept(const JoxLiveGrid *g, JoxV2 low, JoxV2 high) {
+    return g->grid && g->low.x <= low.x && g->low.y <= low.y && high.x <= g->high.x &&
+           high.y <= g->high.y &&
+           (g->grid->cell <= CELL ||
+            choose_cell(jox_sub(high, low), LEAST_ROOM) > 0.8f * g->grid->cell);
+}
+
+/* Makes the grid for people from `low` to `high`, unless it does for them. Its cells lie on
+   multiples of their side, so that values do not depend on who was where before. */
+static void make_density_grid(JoxLiveGrid *g, JoxV2 low, JoxV2 high) {
+    if (is_grid_kept(g, low, high))
         return;
     jox_live_free_grid(g);
-    g->low = area->low;
-    g->high = area->high;
-    JoxV2 size = jox_sub(area->high, area->low);
-    float cell = jox_maxf(CELL, sqrtf(size.x * size.y / MOST_CELLS));
-    float kernel = jox_maxf(KERNEL, cell);
-    JoxV2 edge = {3.5f * kernel, 3.5f * kernel}; /* so that no kernel is cut at the border */
-    g->grid = jox_density_create(jox_sub(area->low, edge), jox_add(area->high, edge), cell, kernel);
+    const JoxV2 size = jox_sub(high, low);
+    float room = LEAST_ROOM + 0.25f * jox_maxf(size.x, size.y); /* not made again at each step */
+    if (choose_cell(size, room) > CELL)
+        room = LEAST_ROOM;
+    const float cell = choose_cell(size, room), kernel = jox_maxf(KERNEL, cell);
+    const float edge = 3.5f * kernel; /* so that no kernel is cut at the border */
+    g->low = jox_sub(low, (JoxV2){room, room});
+    g->high = jox_add(high, (JoxV2){room, room});
+    const JoxV2 first = {cell * floorf((g->low.x - edge) / cell),
+                         cell * floorf((g->low.y - edge) / cell)};
+    g->grid = jox_density_create(first, jox_add(g->high, (JoxV2){edge, edge}), cell, kernel);
 }
 
 void jox_live_spread(JoxLiveGrid *g, JoxLiveArea *area, const JoxLiveCrowd *crowd) {
+    JoxV2 low, high;
     jox_live_cover_crowd(area, crowd);
-    make_density_grid(g, area);
+    if (jox_live_find_crowd_box(crowd, &low, &high))
+        make_density_grid(g, low, high);
+    else if (!g->grid)
+        make_density_grid(g, area->low, area->low);
     g->grid->most = 0.0f;
     jox_density_walls(g->grid, crowd->walls);
     jox_density_add(g->grid, crowd->period, crowd->x, crowd->y, crowd->count, 0.0);

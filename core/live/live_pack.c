@@ -84,13 +84,20 @@ void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high) {
                           STEPS / jox_maxf(area->high.y - area->low.y, 1.0f)};
 }
 
-void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd) {
-    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+bool jox_live_find_crowd_box(const JoxLiveCrowd *crowd, JoxV2 *low, JoxV2 *high) {
+    *low = (JoxV2){INFINITY, INFINITY};
+    *high = (JoxV2){-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < crowd->count; i++) {
-        low = jox_v2(jox_minf(low.x, crowd->x[i]), jox_minf(low.y, crowd->y[i]));
-        high = jox_v2(jox_maxf(high.x, crowd->x[i]), jox_maxf(high.y, crowd->y[i]));
+        *low = jox_v2(jox_minf(low->x, crowd->x[i]), jox_minf(low->y, crowd->y[i]));
+        *high = jox_v2(jox_maxf(high->x, crowd->x[i]), jox_maxf(high->y, crowd->y[i]));
     }
-    jox_live_cover(area, low, high);
+    return low->x <= high->x && low->y <= high->y;
+}
+
+void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd) {
+    JoxV2 low, high;
+    if (jox_live_find_crowd_box(crowd, &low, &high))
+        jox_live_cover(area, low, high);
 }
 
 /* ---- frames ---- */

@@ -322,6 +322,39 @@ static void frames_fill_the_range_of_their_scene(void **state) {
     jo_scene_free(scene);
 }
 
+/* Returns the greatest density of a crowd of 60 in 25 m2, 1/m2, and R of the Gaussian, m. */
+static double find_greatest_density(const char *places, const char *groups, double *r) {
+    JoxText yaml = {0}, status = {0};
+    jox_text_printf(&yaml,
+                    "jostle: 1\nplaces: {yard: {polygon: [[0, 0], [5, 0], [5, 5], [0, 5]]}%s}\n"
+                    "groups: {people: {behaviour: own.lua, count: 60, fill: random, in: yard}%s}\n",
+                    places, groups);
+    JoScene *scene = load_scene_text(yaml.data, MACHINE_START "\"A\", states = { A = {} } }\n");
+    step_scene(scene, 4);
+    jox_live_status(scene, &(JoxLiveSession){0}, &status);
+    parse_numbers(&status);
+    const double most = number_at("density_max", 0, 0, 0);
+    *r = number_at("density_r", 0, 0, 0);
+    jox_text_free(&yaml);
+    jox_text_free(&status);
+    jo_scene_free(scene);
+    return most;
+}
+
+static void density_does_not_depend_on_empty_places(void **state) {
+    (void)state;
+    double r, far_r, wide_r;
+    const double most = find_greatest_density("", "", &r);
+    assert_true(most > 1.5);
+    assert_near(r, 1, 1e-3);
+    assert_near(find_greatest_density(", afar: {point: [300, 300]}", "", &far_r), most, 0);
+    assert_near(far_r, r, 0);
+    const double wide = find_greatest_density(
+        ", far: {polygon: [[300, 300], [302, 300], [302, 302], [300, 302]]}",
+        ", one: {behaviour: own.lua, count: 1, fill: random, in: far}", &wide_r);
+    assert_true(wide < most && wide_r > 1.6); /* somebody is there */
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_message_has_all_parts_of_tawaf),
@@ -333,6 +366,7 @@ int main(void) {
         cmocka_unit_test(scene_message_has_states_that_run_machines),
         cmocka_unit_test(ranges_follow_the_values_without_flicker),
         cmocka_unit_test(frames_fill_the_range_of_their_scene),
+        cmocka_unit_test(density_does_not_depend_on_empty_places),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

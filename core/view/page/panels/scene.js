@@ -5,6 +5,15 @@ import { TOOLS } from "../controls/tools.js";
 
 const TRIES = { throw: "Throw a box", drag: "Drag a body", push: "Push somebody" };
 
+const COARSE = 1.1; // m, R of a kernel beyond which a density is too smooth for a level of service
+
+/** The row of a greatest density, 1/m², of a Gaussian with R = `r`, m. A level of service only where R is about 1 m. */
+export function densityText(dense, r) {
+    const level = SERVICE.find(([, up]) => dense < up)?.[0];
+    return `${figure(dense)} per m² (Gaussian, R = ${figure(r)} m), ${r > COARSE
+        ? "coarse, as people are far apart: no level of service" : `level of service ${level}`}`;
+}
+
 export class ScenePage {
     /** `page`: {tool(name), show(tab)} */
     constructor(node, page) {
@@ -37,9 +46,9 @@ export class ScenePage {
     }
 
     take(status) {
-        const dense = status.density_max, level = SERVICE.find(([, up]) => dense < up)?.[0];
+        const dense = status.density_max;
         const rows = { "time": clock(status.time), "people": figure(status.agents), "mean speed": `${figure(status.mean_speed)} m/s` };
-        if (Number.isFinite(dense)) rows["greatest density now"] = `${figure(dense)} per m² (Gaussian, R = ${figure(status.density_r)} m), level of service ${level}`;
+        if (Number.isFinite(dense)) rows["greatest density now"] = densityText(dense, status.density_r);
         if (status.bodies) rows["bodies"] = figure(status.bodies);
         this.show(this.figures, rows);
         this.showHints(status.hints ?? []);
