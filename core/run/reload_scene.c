@@ -209,6 +209,16 @@ static void check_new_sources(const SceneReload *r) {
     jox_run_report_diagnostics(r->scene->message, r->scene->message_context, &blocked, NULL);
 }
 
+/* Lists the keys that nothing above compares: what is drawn, as the floor and the camera, and what
+   a report says. */
+static void note_other_keys(SceneReload *r, bool taken) {
+    static const char *const COMPARED[] = {"places", "walls",  "groups", "sources",
+                                           "sinks",  "events", "tally",  NULL};
+    jox_scene_list_live_keys(r->old, r->new, COMPARED, taken ? &r->done : &r->later);
+    if (r->done.length + r->later.length == 0) /* as clothes of groups */
+        jox_scene_list_live_keys(r->old, r->new, &COMPARED[7], &r->done);
+}
+
 void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
     SceneReload r = {.scene = scene, .old = scene->spec, .new = *spec};
     double begun = jox_clock_wall();
@@ -225,6 +235,7 @@ void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
         add_to_list(groups ? &r.done : &r.later, "events");
     if (jox_scene_differs(r.old, r.new, "tally"))
         add_to_list(groups ? &r.done : &r.later, "tally");
+    note_other_keys(&r, groups);
     jox_scene_list_restart_keys(r.old, r.new, &r.later);
     const double age = jox_clock_date() - written;
     char ago[40] = "";

@@ -92,3 +92,15 @@ void jox_scene_list_restart_keys(const JoxSceneSpec *a, const JoxSceneSpec *b, J
                             key->restart_reason);
     }
 }
+
+void jox_scene_list_live_keys(const JoxSceneSpec *a, const JoxSceneSpec *b,
+                              const char *const *apart, JoxText *out) {
+    for (size_t k = 0; k < jox_scene_format.key_count; k++) {
+        const JoxKey *key = &jox_scene_format.keys[k];
+        bool listed = !key->restart_reason && !strcmp(key->owner, "scene");
+        for (const char *const *name = apart; listed && *name; name++)
+            listed = strcmp(*name, key->name) != 0;
+        if (listed && jox_scene_differs(a, b, key->name))
+            jox_text_printf(out, "%s%s", out->length ? ", " : "", key->name);
+    }
+}

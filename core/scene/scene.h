@@ -228,6 +228,10 @@ void jox_scene_copy_behaviours(const JoxGroup *from, JoxSceneSpec *to, uint32_t 
 /* Appends the top-level keys that differ and that a reload cannot apply, each with the reason:
    "seed (...), ...". */
 void jox_scene_list_restart_keys(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);
+/* Appends the other top-level keys that differ, "floor, camera", but for those of `apart` (ends
+   with NULL). */
+void jox_scene_list_live_keys(const JoxSceneSpec *a, const JoxSceneSpec *b,
+                              const char *const *apart, JoxText *out);
 /* Returns the name of the quantity that agents are coloured by first: the choice of the key
    `colour`, or for 0 the most telling one for behaviours with `states` states in all and `groups`
    groups. */

@@ -8,7 +8,8 @@ import { roundDown } from "../../core/view/page/controls/compass.js";
 import { classColour, outerStates, valueColour, wayColour } from "../../core/view/page/draw/palette.js";
 import { endSentences } from "../../core/view/page/panels/end.js";
 import { KEYS } from "../../core/view/page/panels/help.js";
-import { censusText, newsLines } from "../../core/view/page/panels/news.js";
+import { censusText, hasNewError, newsLines } from "../../core/view/page/panels/news.js";
+import { densityText } from "../../core/view/page/panels/scene.js";
 
 // What people who lack one kind of cone see, of linear sRGB (Machado, Oliveira and Fernandes 2009).
 const EYES = {
@@ -155,6 +156,15 @@ const TESTS = {
         const lines = newsLines({ machine: "m", before, after, notes: " memory 'seen' of 120 people is kept\n" });
         assert.deepEqual(lines.slice(1), ["Moved, because their state is gone: 2 from Old.", "Memory 'seen' of 120 people is kept."]);
         assert.deepEqual(newsLines({ done: "places, walls", later: "" }), ["Changed: places, walls."]);
+    },
+    "notes go when another error is saved, not when one is mended": () => {
+        const a = { file: "walk.lua", line: 3, text: "no state 'Wlak'" }, b = { ...a, line: 4 };
+        assert.deepEqual([[[], [a]], [[a], [a, b]], [[a], [b]]].map(([was, is]) => hasNewError(was, is)), [true, true, true]);
+        assert.deepEqual([[[], []], [[a], []], [[a, b], [a]], [[a], [{ ...a }]]].map(([was, is]) => hasNewError(was, is)), [false, false, false, false]);
+    },
+    "a coarse density has no level of service": () => {
+        assert.equal(densityText(0.9, 1), "0.90 per m² (Gaussian, R = 1 m), level of service D");
+        assert.equal(densityText(0.6, 1.68), "0.60 per m² (Gaussian, R = 1.68 m), coarse, as people are far apart: no level of service");
     },
 };
 

@@ -216,6 +216,10 @@ static void reload_is_told_as_data(void **state) {
     write_test_file("scene.yaml", text.data);
     wait_for_json("\"type\": \"reloaded\"", "scene.yaml\", \"time\": ");
     assert_non_null(strstr(last, "\"done\": \"places\", \"later\": \"where people start"));
+    jox_text_add(&text, "floor: grass\nscenery: [{kind: tree, at: [2, 3]}]\n");
+    write_test_file("scene.yaml", text.data);
+    wait_for_json("\"type\": \"reloaded\"", "scene.yaml\", \"time\": ");
+    assert_non_null(strstr(last, "\"done\": \"floor, scenery\", \"later\": \"\""));
     end_session();
     jox_text_free(&text);
     jo_free(session.summary);

@@ -30,9 +30,22 @@ export function newsLines(item) {
             .map((line) => `${line[0].toUpperCase()}${line.slice(1)}.`)].filter(Boolean);
 }
 
+/** Whether a list of errors has one that the list before lacked: something was saved that does not go live. */
+export function hasNewError(before, errors) {
+    const known = new Set(before.map((e) => JSON.stringify(e)));
+    return errors.some((e) => !known.has(JSON.stringify(e)));
+}
+
 export class News {
     constructor() {
         this.node = byId("news");
+        this.errors = [];
+    }
+
+    /** Takes the list of an `errors` message: with a new error, notes on what was saved before go. */
+    fail(errors) {
+        if (hasNewError(this.errors, errors)) for (const old of this.node.querySelectorAll(".note:not(.pinned)")) old.remove();
+        this.errors = errors;
     }
 
     /** Takes a `reloaded` message. */
