@@ -6,6 +6,8 @@ import process from "node:process";
 import { amount } from "../../core/view/page/dom.js";
 import { roundDown } from "../../core/view/page/controls/compass.js";
 import { classColour, outerStates, valueColour, wayColour } from "../../core/view/page/draw/palette.js";
+import { ALONG, STANDING } from "../../core/view/page/draw/scenery_kinds.js";
+import { MOST_TRIANGLES, buildScenery } from "../../core/view/page/draw/scenery_mesh.js";
 import { endSentences } from "../../core/view/page/panels/end.js";
 import { KEYS } from "../../core/view/page/panels/help.js";
 import { censusText, hasNewError, newsLines } from "../../core/view/page/panels/news.js";
@@ -165,6 +167,32 @@ const TESTS = {
     "a coarse density has no level of service": () => {
         assert.equal(densityText(0.9, 1), "0.90 per m² (Gaussian, R = 1 m), level of service D");
         assert.equal(densityText(0.6, 1.68), "0.60 per m² (Gaussian, R = 1.68 m), coarse, as people are far apart: no level of service");
+    },
+    "scenery of any size has finite triangles, and not too many": () => {
+        const most = 400000, ends = [0.001, 1000], all = [[1, 1, 1], ...ends.flatMap((x) => ends.flatMap((y) => ends.map((z) => [x, y, z])))];
+        for (const kind of [...Object.keys(STANDING), ...Object.keys(ALONG), "line", "ring", "area"]) {
+            const corners = [[-3, -3], [-3, -3], [-2.999, -3], [2000, -3], [2000, 2000]];
+            for (const size of all) {
+                const { pile, paint, text } = buildScenery([{ kind, at: [[5, 2]], through: corners, turns: [30], size }], [], 1), what = `${kind} of ${size} m`;
+                const bad = [pile.position, pile.normal, pile.where, pile.part, paint.position].some((rows) => !Number.isFinite(rows.values().reduce((sum, v) => sum + v, 0)));
+                assert(!bad, `${what} has numbers that are not finite`);
+                assert(pile.triangles + paint.triangles > 0, `${what} has no triangles`);
+                assert(pile.triangles + paint.triangles < most && text === "", `${what} has ${pile.triangles} triangles`);
+            }
+        }
+        assert.equal(buildScenery([{ kind: "fence", through: [[-3, -3], [-3, -3]], size: [0, 0.06, 1.1] }], [], 1).pile.triangles, 0);
+    },
+    "scenery beyond the limit is left out, counted and told": () => {
+        const at = Array.from({ length: 60000 }, (_, i) => [i % 250, Math.floor(i / 250)]), turns = at.map(() => 0);
+        const tree = { kind: "tree", at, turns, size: [4, 4, 6] }, items = [tree, { kind: "ring", at: [[0, 0]], size: [3, 3, 0] }];
+        const one = buildScenery([{ ...tree, at: [[0, 0]] }], [], 1).pile.triangles, limit = 50000, fit = Math.floor(limit / one);
+        const { pile, paint, left, text } = buildScenery(items, [], 1, limit);
+        assert(limit < MOST_TRIANGLES);
+        assert.equal(pile.triangles, fit * one);
+        assert.equal(pile.rings.length, fit);
+        assert.equal(paint.triangles, 0);
+        assert.deepEqual([...left], [["tree", 60000 - fit], ["ring", 1]]);
+        assert(text.startsWith("Scenery has more than 0.05 million triangles.") && text.includes(`Not drawn: ${60001 - fit} of its things (tree: ${60000 - fit}, ring: 1).`), text);
     },
 };
 

@@ -223,13 +223,13 @@ def check_dressed(browser):
     kinds = json.loads(read("scripts", "scene.schema.json"))["definitions"]["scenery"]["properties"]["kind"]["enum"]
     wrong = browser.run("""return arguments[0].filter((kind) => {
         const item = {kind, at: [[1, 2]], turns: [30], through: [[0, 0], [4, 0], [4, 3]], size: [4, 3, 3], doors: [1]};
-        const {pile, paint} = page.view.ground.scenery.shape([item]), numbers = [...pile.position, ...pile.normal, ...paint.position];
+        const {pile, paint} = page.view.ground.scenery.shape([item]), numbers = [pile.position, pile.normal, paint.position].flatMap((rows) => [...rows.values()]);
         return !numbers.length || !numbers.every(Number.isFinite);
     })""", kinds)
     expect(len(kinds) > 20 and not wrong, f"these kinds have no shape: {wrong}")
     rows, lost = browser.run("""const train = {kind: "train", at: [[0, 0]], turns: [0], size: [4, 3, 3], body: "train"}, {scenery} = page.view.ground;
         const {pile} = scenery.shape([train], [{name: null}, {name: "train"}]);
-        return [[...new Set(pile.part.filter((_, i) => i % 3 === 2))], scenery.shape([train], [{name: null}]).pile.position.length]""")
+        return [[...new Set(pile.part.values().filter((_, i) => i % 3 === 2))], scenery.shape([train], [{name: null}]).pile.position.length]""")
     expect(rows == [1] and lost == 0, f"scenery of body 1 takes the poses of {rows}; without its body it has {lost} numbers")
     meshes, triangles, material = browser.run("""const ground = page.view.ground;
         const made = ground.group.children.filter((n) => [ground.scenery.material, ground.scenery.paintMaterial].includes(n.material));

@@ -228,6 +228,7 @@ class Page {
         byId("title").title = byId("title").textContent;
         document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
         for (const part of [this.end, this.about, this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
+        if (this.view.ground.scenery.left) this.messages.say(this.view.ground.scenery.left, "warning");
         this.enablePerson(this.slot !== null);
         this.panel.offer("act", this.act.set(scene));
         const live = scene.session !== "replay";

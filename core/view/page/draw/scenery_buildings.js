@@ -1,13 +1,14 @@
 // Buildings of the scenery: arcades, minarets, houses. Called by scenery_kinds.js.
-import { draw, rgb, tone } from "./shapes.js";
+import { divide, draw, rgb, tone } from "./shapes.js";
 
+const MOST_WINDOWS = 48; // of a face, along each axis
 const CREAM = rgb(0xe6dfd0), GOLD = rgb(0xc9a24a), PANE = rgb(0x54687a), FRAME = rgb(0xf0ece2);
 const PLASTERS = [0xe3c9a0, 0xd9b28a, 0xe8dcc0, 0xcfa07c, 0xdcc6b6, 0xe6d3b1].map(rgb), TILES = [0xa8573c, 0xb4634a, 0x9c4f38].map(rgb);
 const SHUTTERS = [0x4d6b57, 0x6b4f3a, 0x3f5f78, 0x7a3f35].map(rgb);
 
 /** Arches between piers, in one storey or two, before a wall; small domes on the roof. */
 function arcade(pile, [x, y, z], { colour = CREAM }) {
-    const bays = Math.max(1, Math.round(x / 4.6)), wide = x / bays, f = -y / 2, b = y / 2, roof = z - 0.7, storeys = z > 7 ? 2 : 1, high = roof / storeys;
+    const bays = divide(x, 4.6).count, wide = x / bays, f = -y / 2, b = y / 2, roof = z - 0.7, storeys = z > 7 ? 2 : 1, high = roof / storeys;
     pile.block(-x / 2, f, x / 2, b, 0);
     for (let s = 0; s < storeys; s++) {
         const z0 = s * high;
@@ -39,26 +40,26 @@ function minaret(pile, [x, y, z], { colour = CREAM }) {
 }
 
 /** Windows of one face of a house: on y, between x0 and x1. */
-function windows(pile, x0, x1, y, way, storeys, high, seed, shutter) {
-    const columns = Math.max(1, Math.round((x1 - x0) / 2.7)), wide = (x1 - x0) / columns;
+function windows(pile, x0, x1, y, way, { count: storeys, grow: v }, high, seed, shutter) {
+    const { count: columns, grow: u } = divide(x1 - x0, 2.7, { most: MOST_WINDOWS }), wide = (x1 - x0) / columns;
     const pane = (a, b, low, top, out, colour) => pile.box(a, y + (way < 0 ? -out : 0), low, b, y + (way < 0 ? 0 : out), top, colour, { foot: high });
     const door = Math.floor(columns * draw(seed, 7));
     for (let s = 0; s < storeys; s++) {
         for (let k = 0; k < columns; k++) {
-            const mid = x0 + (k + 0.5) * wide, low = s * high + 0.9, top = s * high + Math.min(high - 0.5, 2.4);
+            const mid = x0 + (k + 0.5) * wide, low = s * high + 0.9 * v, top = s * high + Math.min(high - 0.5 * v, 2.4 * v);
             if (s === 0 && way < 0 && k === door) {
-                pane(mid - 0.65, mid + 0.65, 0.02, 2.35, 0.05, FRAME);
-                pane(mid - 0.52, mid + 0.52, 0, 2.2, 0.08, tone(shutter, 0.8));
+                pane(mid - 0.65 * u, mid + 0.65 * u, 0.02 * v, 2.35 * v, 0.05, FRAME);
+                pane(mid - 0.52 * u, mid + 0.52 * u, 0, 2.2 * v, 0.08, tone(shutter, 0.8));
                 continue;
             }
-            pane(mid - 0.52, mid + 0.52, low - 0.08, top + 0.08, 0.05, FRAME);
-            pane(mid - 0.42, mid + 0.42, low, top, 0.07, PANE);
-            pane(mid - 0.03, mid + 0.03, low, top, 0.085, FRAME);
-            if (way < 0) for (const side of [-1, 1]) pane(mid + side * 0.74 - 0.18, mid + side * 0.74 + 0.18, low - 0.05, top + 0.05, 0.06, shutter);
+            pane(mid - 0.52 * u, mid + 0.52 * u, low - 0.08 * v, top + 0.08 * v, 0.05, FRAME);
+            pane(mid - 0.42 * u, mid + 0.42 * u, low, top, 0.07, PANE);
+            pane(mid - 0.03 * u, mid + 0.03 * u, low, top, 0.085, FRAME);
+            if (way < 0) for (const side of [-0.74, 0.74]) pane(mid + (side - 0.18) * u, mid + (side + 0.18) * u, low - 0.05 * v, top + 0.05 * v, 0.06, shutter);
             if (way < 0 && s > 0 && draw(seed, s, k) < 0.25) { // a balcony
-                pile.box(mid - 0.95, y - 0.6, s * high + 0.1, mid + 0.95, y, s * high + 0.22, tone(FRAME, 0.8));
-                for (let n = 0; n <= 8; n++) pile.box(mid - 0.93 + 0.23 * n, y - 0.58, s * high + 0.22, mid - 0.9 + 0.23 * n, y - 0.55, s * high + 1.05, tone(PANE, 0.5));
-                pile.box(mid - 0.95, y - 0.6, s * high + 1.02, mid + 0.95, y - 0.53, s * high + 1.08, tone(PANE, 0.5));
+                pile.box(mid - 0.95 * u, y - 0.6, s * high + 0.1 * v, mid + 0.95 * u, y, s * high + 0.22 * v, tone(FRAME, 0.8));
+                for (let n = 0; n <= 8; n++) pile.box(mid + (0.23 * n - 0.93) * u, y - 0.58, s * high + 0.22 * v, mid + (0.23 * n - 0.9) * u, y - 0.55, s * high + 1.05 * v, tone(PANE, 0.5));
+                pile.box(mid - 0.95 * u, y - 0.6, s * high + 1.02 * v, mid + 0.95 * u, y - 0.53, s * high + 1.08 * v, tone(PANE, 0.5));
             }
         }
     }
@@ -66,7 +67,7 @@ function windows(pile, x0, x1, y, way, storeys, high, seed, shutter) {
 
 function house(pile, [x, y, z], { colour, seed }) {
     const a = x / 2, b = y / 2, wall = colour ?? PLASTERS[Math.floor(6 * draw(seed))], tile = TILES[Math.floor(3 * draw(seed, 2))], eaves = 0.82 * z;
-    const storeys = Math.max(1, Math.round(eaves / 3)), high = eaves / storeys, shutter = SHUTTERS[Math.floor(4 * draw(seed, 3))], foot = eaves;
+    const storeys = divide(eaves, 3, { most: MOST_WINDOWS }), high = eaves / storeys.count, shutter = SHUTTERS[Math.floor(4 * draw(seed, 3))], foot = eaves;
     pile.block(-a, -b, a, b, z);
     pile.box(-a, -b, 0, a, b, eaves, wall);
     pile.box(-a - 0.03, -b - 0.03, 0, a + 0.03, b + 0.03, 0.5, tone(wall, 0.8), { foot });

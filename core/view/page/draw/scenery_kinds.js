@@ -1,10 +1,11 @@
 // What the kinds of scenery look like, in shapes of shapes.js. Each kind is drawn about its own origin, on the floor; x is to
 // the right, y to the back, its front looks towards -y. `size`: its lengths along x, y and z, m.
 import { HOUSES, drawBuilding } from "./scenery_buildings.js";
-import { draw, rgb, tone } from "./shapes.js";
+import { MOST_PIECES, divide, draw, rgb, tone } from "./shapes.js";
 
 const WOOD = rgb(0xa9825a), METAL = rgb(0x6d747c), DARK = rgb(0x2e333a), WHITE = rgb(0xf2f1ec), STONE = rgb(0xcfc8ba), GLASS = rgb(0x7d97a8);
 const LEAVES = [0x5f8f4a, 0x6f9d4f, 0x4f8048, 0x7fa657].map(rgb), BARK = rgb(0x6f5640), GREEN = rgb(0x00855a), LIGHT = rgb(0xfff0c8);
+const MOST_ROWS = 64; // of seats
 const SEATS = [0x3c6fa8, 0x4a7db5, 0x35659c].map(rgb);
 
 /** A crown of leaves: balls around a middle. */
@@ -51,22 +52,23 @@ function bench(pile, [x, y, z], { colour = WOOD }) {
 }
 
 function seats(pile, [x, y, z], { colour, seed }) {
-    const rows = Math.max(1, Math.round(y / 0.85)), deep = y / rows, rise = z / rows, places = Math.max(1, Math.floor(x / 0.55));
+    const { count: rows } = divide(y, 0.85, { most: MOST_ROWS }), { count: places, grow } = divide(x, 0.55, { round: Math.floor });
+    const deep = y / rows, rise = z / rows, half = 0.21 * grow;
     for (let row = 0; row < rows; row++) {
         const front = -y / 2 + row * deep, top = row * rise + 0.02;
         pile.block(-x / 2, front, x / 2, front + deep, top + 0.4);
         pile.box(-x / 2, front, 0, x / 2, front + deep, top, rgb(0xb9bcc0), { top: rgb(0xc8cace) });
         for (let k = 0; k < places; k++) {
             const at = -x / 2 + ((k + 0.5) * x) / places, own = colour ? tone(colour, 0.92 + 0.16 * draw(seed, row, k)) : SEATS[Math.floor(3 * draw(seed, row, k))];
-            pile.box(at - 0.21, front + 0.38 * deep, top + 0.34, at + 0.21, front + 0.82 * deep, top + 0.42, own, { foot: 0.3 });
-            pile.box(at - 0.21, front + 0.78 * deep, top + 0.42, at + 0.21, front + 0.86 * deep, top + 0.78, own, { foot: 0.3 });
+            pile.box(at - half, front + 0.38 * deep, top + 0.34, at + half, front + 0.82 * deep, top + 0.42, own, { foot: 0.3 });
+            pile.box(at - half, front + 0.78 * deep, top + 0.42, at + half, front + 0.86 * deep, top + 0.78, own, { foot: 0.3 });
         }
     }
 }
 
 /** Stripes of an awning, which slopes towards the front. */
 function awning(pile, x0, x1, front, back, low, high, colour, foot) {
-    const stripes = Math.max(3, Math.round((x1 - x0) / 0.35));
+    const stripes = divide(x1 - x0, 0.35, { least: 3 }).count;
     for (let k = 0; k < stripes; k++) {
         const a = x0 + ((x1 - x0) * k) / stripes, b = x0 + ((x1 - x0) * (k + 1)) / stripes, own = k % 2 ? WHITE : colour;
         pile.face([[a, front, low], [b, front, low], [b, back, high], [a, back, high]], own, foot);
@@ -82,12 +84,12 @@ function stall(pile, [x, y, z], { colour, seed }) {
     for (const [px, py] of [[-1, -1], [1, -1], [-1, 1], [1, 1]]) {
         pile.box(px * (x / 2 - 0.05) - 0.04, py * (y / 2 - 0.05) - 0.04, 0, px * (x / 2 - 0.05) + 0.04, py * (y / 2 - 0.05) + 0.04, py > 0 ? z : z - 0.35, tone(WOOD, 0.8));
     }
-    const goods = [0xd9534a, 0xe9b949, 0x7fae4d, 0xe08a3c, 0x8a5a9e, 0xf0e2b8].map(rgb), crates = Math.max(2, Math.round(x / 0.55));
+    const goods = [0xd9534a, 0xe9b949, 0x7fae4d, 0xe08a3c, 0x8a5a9e, 0xf0e2b8].map(rgb), { count: crates, grow } = divide(x, 0.55, { least: 2 }), r = 0.1 * grow;
     for (let k = 0; k < crates; k++) {
         const at = -x / 2 + ((k + 0.5) * x) / crates, half = 0.42 * (x / crates);
         pile.box(at - half, -y / 2 + 0.08, top, at + half, -0.08, top + 0.1, tone(WOOD, 0.85), { foot: 0.5 });
         for (let n = 0; n < 6; n++) {
-            pile.ball(at + half * (1.3 * draw(seed, k, n) - 0.65), -y / 4 + (y / 2 - 0.4) * (draw(seed, n, k, 1) - 0.5), top + 0.13, [0.1, 0.1, 0.08], goods[Math.floor(6 * draw(seed, k))], { half: true, foot: 0.5 });
+            pile.ball(at + half * (1.3 * draw(seed, k, n) - 0.65), -y / 4 + (y / 2 - 0.4) * (draw(seed, n, k, 1) - 0.5), top + 0.13, [r, Math.min(r, y / 8 + 0.1), 0.08], goods[Math.floor(6 * draw(seed, k))], { half: true, foot: 0.5 });
         }
     }
     awning(pile, -x / 2 - 0.1, x / 2 + 0.1, -y / 2 - 0.35, y / 2, z - 0.35, z, cloth, 1.5);
@@ -98,6 +100,7 @@ function stage(pile, [x, y, z]) {
     pile.block(-a, -b, a, b, z);
     pile.box(-a, -b, 0, a, b, deck, rgb(0x24262b), { top: rgb(0x4a3f38) });
     pile.box(-a, b - 0.15, deck, a, b, z - 0.6, rgb(0x17181c));
+    const up = 0.6 * divide(z, 0.6).grow, on = 0.7 * divide(x, 0.7).grow; // between the bars of the truss, m
     const wide = 0.62 * a, low = deck + 0.28 * (z - deck), high = z - 1;
     for (let k = 0; k < 12; k++) { // the screen: bands of colour
         const p = -wide + (2 * wide * k) / 12, q = -wide + (2 * wide * (k + 1)) / 12, own = [0x2a1f6f, 0x5b2a86, 0xa6317f, 0xe0524f, 0xf0924a, 0xf7cf62][Math.min(k, 11 - k)];
@@ -106,7 +109,7 @@ function stage(pile, [x, y, z]) {
     for (const px of [-1, 1]) {
         for (const py of [-1, 1]) {
             for (const [i, j] of [[-1, -1], [1, -1], [1, 1], [-1, 1]]) pile.box(px * (a - 0.25) + 0.15 * i - 0.03, py * (b - 0.25) + 0.15 * j - 0.03, 0, px * (a - 0.25) + 0.15 * i + 0.03, py * (b - 0.25) + 0.15 * j + 0.03, z, truss);
-            for (let k = 0; k + 0.6 < z; k += 0.6) pile.bar([px * (a - 0.25) - 0.15, py * (b - 0.25) - 0.15, k], [px * (a - 0.25) + 0.15, py * (b - 0.25) - 0.15, k + 0.6], 0.04, truss, 0);
+            for (let k = 0; k + up < z; k += up) pile.bar([px * (a - 0.25) - 0.15, py * (b - 0.25) - 0.15, k], [px * (a - 0.25) + 0.15, py * (b - 0.25) - 0.15, k + up], 0.04, truss, 0);
         }
         for (let k = 0; k < 3; k++) { // loudspeakers beside the deck
             const at = px * (a - 1.1);
@@ -116,9 +119,9 @@ function stage(pile, [x, y, z]) {
     }
     for (const [py, lift] of [[-b + 0.25, 0], [b - 0.25, 0]]) {
         for (const i of [-0.15, 0.15]) pile.bar([-a, py + i, z + lift], [a, py + i, z + lift], 0.06, truss, 1);
-        for (let k = -a; k + 0.7 <= a; k += 0.7) pile.bar([k, py - 0.15, z], [k + 0.7, py + 0.15, z], 0.04, truss, 1);
+        for (let k = -a; k + on <= a; k += on) pile.bar([k, py - 0.15, z], [k + on, py + 0.15, z], 0.04, truss, 1);
     }
-    const lights = Math.max(4, Math.round(x / 1.3)), inks = [0xff5fa2, 0x5fc8ff, 0xffd35f, 0x8f7bff].map(rgb);
+    const lights = divide(x, 1.3, { least: 4 }).count, inks = [0xff5fa2, 0x5fc8ff, 0xffd35f, 0x8f7bff].map(rgb);
     for (let k = 0; k < lights; k++) {
         const at = -a + 0.6 + ((x - 1.2) * (k + 0.5)) / lights;
         pile.post(at, -b + 0.25, z - 0.45, z - 0.08, 0.16, DARK, { sides: 8, taper: 0.7, foot: 1 });
@@ -142,7 +145,7 @@ function goal(pile, [x, y, z], { colour = WHITE }) {
     }
     pile.bar([-a, f, z], [a, f, z], 0.1, colour, 0.5);
     pile.bar([-a, g, 0.04], [a, g, 0.04], 0.03, METAL, 0);
-    net(pile, [[-a, f, z], [a, f, z], [a, g, 0.04], [-a, g, 0.04]], Math.round(3 * x), 8);
+    net(pile, [[-a, f, z], [a, f, z], [a, g, 0.04], [-a, g, 0.04]], divide(x, 1 / 3).count, 8);
 }
 
 function posts(pile, [x, , z], { colour = WHITE }) {
@@ -190,7 +193,7 @@ function side(pile, x, y, z, way, gaps, colour) {
         pile.box(p, y - thick, 0, q, y + thick, 0.95, rgb(0xe3e6e9));
         pile.box(p, y + way * thick - 0.012, 0.45, q, y + way * thick + 0.012, 0.72, colour);
         pile.box(p, y - thick, 2.05, q, y + thick, z - 0.3, rgb(0xe3e6e9));
-        const panes = Math.max(1, Math.round((q - p) / 1.6)), wide = (q - p) / panes;
+        const panes = divide(q - p, 1.6).count, wide = (q - p) / panes;
         for (let n = 0; n < panes; n++) {
             pile.box(p + n * wide, y - thick, 0.95, p + n * wide + 0.12, y + thick, 2.05, rgb(0xe3e6e9));
             pile.box(p + n * wide + 0.12, y - 0.02, 0.95, p + (n + 1) * wide, y + 0.02, 2.05, GLASS);
@@ -214,8 +217,9 @@ function train(pile, [x, y, z], { colour = rgb(0xc8452f), doors }) {
         for (const edge of [-1, 1]) pile.box(end * a + 0.05 * end - 0.02, edge * 0.72 * b - 0.12, 0.55, end * a + 0.05 * end + 0.02, edge * 0.72 * b + 0.12, 0.75, LIGHT, { glow: 1 });
     }
     pile.block(-a, -b, a, b, 0, true);
-    for (let k = 0; k + 1 < Math.round(x / 1.1); k++) { // seats along the far side
-        pile.box(-a + 0.4 + 1.1 * k, b - 0.55, 0.4, -a + 1.35 + 1.1 * k, b - 0.1, 0.48, rgb(0x3d5f8f));
+    const { count: seated, grow } = divide(x, 1.1, { least: 0 });
+    for (let k = 0; k + 1 < seated; k++) { // seats along the far side
+        pile.box(-a + 0.4 + 1.1 * grow * k, b - 0.55, 0.4, -a + 0.4 + (1.1 * k + 0.95) * grow, b - 0.1, 0.48, rgb(0x3d5f8f));
     }
     pile.roof = z - 0.3; // whoever looks from above sees into it
     pile.box(-a, -b, z - 0.3, a, b, z, rgb(0xc2c7cc), { taper: 0.97 });
@@ -231,14 +235,14 @@ function kaaba(pile, [x, y, z]) {
         pile.box(-a - out, -b - out, from * z + (from ? 0 : 0.3), a + out, b + out, to * z, own, { top: to === 1 ? rgb(0xd8d3c6) : own });
     }
     for (const [w, n] of [[x, 0], [y, 1]]) { // ornaments of the band, and lamps of gold thread under it
-        const count = Math.round(w / 1.1);
+        const { count, grow } = divide(w, 1.1, { least: 0 });
         for (let k = 0; k < count; k++) {
             const at = -w / 2 + ((k + 0.5) * w) / count;
             for (const way of [-1, 1]) {
-                const [h, k0, k1] = n ? [way * (a + 0.045), at - 0.32, at + 0.32] : [way * (b + 0.045), at - 0.32, at + 0.32];
+                const [h, k0, k1] = n ? [way * (a + 0.045), at - 0.32 * grow, at + 0.32 * grow] : [way * (b + 0.045), at - 0.32 * grow, at + 0.32 * grow];
                 const spot = (z0, z1, c0, c1) => (n ? pile.box(h - 0.012, c0, z0, h + 0.012, c1, z1, gold) : pile.box(c0, h - 0.012, z0, c1, h + 0.012, z1, gold));
                 spot(0.683 * z, 0.722 * z, k0, k1);
-                if (k % 3 === 1) spot(0.585 * z, 0.635 * z, at - 0.28, at + 0.28);
+                if (k % 3 === 1) spot(0.585 * z, 0.635 * z, at - 0.28 * grow, at + 0.28 * grow);
             }
         }
     }
@@ -289,15 +293,16 @@ export const ALONG = {
     },
     fence(pile, length, wide, high, { colour = METAL }) {
         pile.block(0, -wide / 2, length, wide / 2, 0);
-        const pieces = Math.max(1, Math.round(length / 1.6));
+        const pieces = divide(length, 1.6).count;
         for (let k = 0; k <= pieces; k++) pile.box((length * k) / pieces - wide / 2, -wide / 2, 0, (length * k) / pieces + wide / 2, wide / 2, high, colour);
         for (const z of [0.35 * high, 0.67 * high, high]) pile.bar([0, 0, z], [length, 0, z], 0.6 * wide, colour, 0);
     },
     hedge(pile, length, wide, high, { colour = LEAVES[2], seed }) {
         pile.block(0, -wide / 2, length, wide / 2, high);
         pile.box(0, -0.42 * wide, 0, length, 0.42 * wide, 0.8 * high, tone(colour, 0.9));
-        for (let k = 0; k <= length / (0.8 * wide); k++) {
-            pile.ball(Math.min(length, 0.8 * wide * k), 0, 0.62 * high, [0.62 * wide, 0.55 * wide, 0.4 * high * (0.9 + 0.2 * draw(seed, k))], tone(colour, 0.9 + 0.2 * draw(seed, k, 1)));
+        const step = Math.max(0.8 * wide, length / MOST_PIECES);
+        for (let k = 0; k <= length / step; k++) {
+            pile.ball(Math.min(length, step * k), 0, 0.62 * high, [0.775 * step, 0.55 * wide, 0.4 * high * (0.9 + 0.2 * draw(seed, k))], tone(colour, 0.9 + 0.2 * draw(seed, k, 1)));
         }
     },
 };

@@ -24,6 +24,17 @@ export function draw(...of) {
     return ((h ^ (h >>> 13)) >>> 0) / 4294967296;
 }
 
+export const MOST_PIECES = 128; // that repeat along an axis of a thing
+
+/**
+ * Divides a length into equal pieces of about `each` m: {count, grow}. There are `most` at most: a longer thing has larger
+ * pieces, `grow` times as large; else `grow` is 1.
+ */
+export function divide(length, each, { least = 1, most = MOST_PIECES, round = Math.round } = {}) {
+    const wanted = Math.max(least, round(length / each));
+    return wanted > most ? { count: most, grow: length / (each * most) } : { count: wanted, grow: 1 };
+}
+
 /** Returns the vector across a block's longest edge that ends `beside` m beside the block, m. */
 export function acrossOf(points, [mx, my], beside) {
     let longest = 0, x = 1, y = 0;
@@ -70,6 +81,32 @@ const BALL = (() => {
     });
 })();
 
+/** Rows of 3 or 4 numbers, as the graphics processor takes them. Lists of JavaScript need twice the memory. */
+class Rows {
+    constructor(width) {
+        this.width = width;
+        this.list = new Float32Array(0);
+        this.length = 0; // numbers
+    }
+
+    add(a, b, c, d) {
+        if (this.length + this.width > this.list.length) {
+            const more = new Float32Array(Math.max(3072, Math.ceil(1.5 * this.list.length)));
+            more.set(this.list);
+            this.list = more;
+        }
+        this.list[this.length] = a;
+        this.list[this.length + 1] = b;
+        this.list[this.length + 2] = c;
+        if (this.width > 3) this.list[this.length + 3] = d;
+        this.length += this.width;
+    }
+
+    values() {
+        return this.list.subarray(0, this.length);
+    }
+}
+
 /**
  * Triangles of things that stand. A thing is placed by `place`; `block` says which part of the floor the shapes after it
  * stand on, as they are lowered together where they hide the crowd.
@@ -77,13 +114,23 @@ const BALL = (() => {
 export class Pile {
     constructor(beside = 1.2) {
         this.beside = beside;
-        this.position = [];
-        this.normal = [];
-        this.colour = []; // red, green, blue; and glow, 0 to 1, which needs no light
-        this.where = []; // middle and extent across of the block, as walls have them
-        this.part = []; // height of the shape's foot, m; height above which no eye sees it, m, 0: none; row of its body, -1: none
+        this.position = new Rows(3);
+        this.normal = new Rows(3);
+        this.colour = new Rows(4); // red, green, blue; and glow, 0 to 1, which needs no light
+        this.where = new Rows(4); // middle and extent across of the block, as walls have them
+        this.part = new Rows(3); // height of the shape's foot, m; height above which no eye sees it, m, 0: none; row of its body, -1: none
         this.rings = []; // footprints {ring, high} for the shade on the floor, m
         this.place(0, 0, 0);
+    }
+
+    get triangles() {
+        return this.position.length / 9;
+    }
+
+    /** Takes away the triangles after the first `triangles` and the footprints after the first `rings`. */
+    cut(triangles, rings) {
+        for (const rows of [this.position, this.normal, this.colour, this.where, this.part]) rows.length = 3 * rows.width * triangles;
+        this.rings.length = rings;
     }
 
     /** The shapes that follow stand at [x, y], turned by `turn` rad; on the body of row `row`. */
@@ -114,15 +161,15 @@ export class Pile {
     face(points, colour, foot, glow = 0, normals = null) {
         const [a, b, c] = points, u = b.map((v, k) => v - a[k]), v = c.map((w, k) => w - a[k]);
         const flat = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-        const length = Math.hypot(...flat) || 1, [, , cos, sin] = this.at;
+        const length = Math.hypot(...flat) || 1, [ox, oy, cos, sin] = this.at, even = flat.map((w) => w / length);
         for (let i = 1; i + 1 < points.length; i++) {
-            for (const k of [0, i, i + 1]) {
-                const n = normals ? normals[k] : flat.map((w) => w / length);
-                this.position.push(...this.out(points[k]), points[k][2]);
-                this.normal.push(cos * n[0] - sin * n[1], sin * n[0] + cos * n[1], n[2]);
-                this.colour.push(...colour, glow);
-                this.where.push(...this.middle, ...this.across);
-                this.part.push(foot, this.roof, this.row);
+            for (let corner = 0; corner < 3; corner++) {
+                const k = corner ? i + corner - 1 : 0, n = normals ? normals[k] : even, [x, y, z] = points[k];
+                this.position.add(ox + cos * x - sin * y, oy + sin * x + cos * y, z);
+                this.normal.add(cos * n[0] - sin * n[1], sin * n[0] + cos * n[1], n[2]);
+                this.colour.add(colour[0], colour[1], colour[2], glow);
+                this.where.add(this.middle[0], this.middle[1], this.across[0], this.across[1]);
+                this.part.add(foot, this.roof, this.row);
             }
         }
     }
@@ -172,7 +219,8 @@ export class Pile {
 
     /** A straight bar between two points, `thick` m. */
     bar([ax, ay, az], [bx, by, bz], thick, colour, foot = Math.min(az, bz)) {
-        const h = thick / 2, along = [bx - ax, by - ay, bz - az], length = Math.hypot(...along) || 1;
+        const h = thick / 2, along = [bx - ax, by - ay, bz - az], length = Math.hypot(...along);
+        if (!(length > 0)) return;
         const d = along.map((v) => v / length), side = Math.abs(d[2]) > 0.9 ? [1, 0, 0] : [-d[1] / Math.hypot(d[0], d[1]), d[0] / Math.hypot(d[0], d[1]), 0];
         const up = [side[1] * d[2] - side[2] * d[1], side[2] * d[0] - side[0] * d[2], side[0] * d[1] - side[1] * d[0]];
         const corner = (p, i, j) => p.map((v, k) => v + h * (i * side[k] + j * up[k]));
@@ -210,16 +258,26 @@ export class Pile {
 /** Triangles of what is painted on the floor: lines, circles, areas; in the order in which they are added. */
 export class Paint {
     constructor() {
-        this.position = [];
-        this.colour = [];
+        this.position = new Rows(3);
+        this.colour = new Rows(4);
+    }
+
+    get triangles() {
+        return this.position.length / 9;
+    }
+
+    /** Takes away the triangles after the first `triangles`. */
+    cut(triangles) {
+        this.position.length = 9 * triangles;
+        this.colour.length = 12 * triangles;
     }
 
     /** Adds triangles; `grain`: GRAIN of the shader. */
     add(points, faces, colour, grain = 0) {
         for (const face of faces) {
             for (const k of face) {
-                this.position.push(points[k][0], points[k][1], 0.004);
-                this.colour.push(colour[0], colour[1], colour[2], grain);
+                this.position.add(points[k][0], points[k][1], 0.004);
+                this.colour.add(colour[0], colour[1], colour[2], grain);
             }
         }
     }
