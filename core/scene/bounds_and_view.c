@@ -84,7 +84,7 @@ const char *jox_scene_choose_colouring(uint32_t choice, uint32_t states, uint32_
        apart. */
     enum { TELLING_STATES = 3, MOST_STATES = 8, MOST_GROUPS = 8 };
     const bool groups_tell = groups >= 2 && groups <= MOST_GROUPS;
-    if (choice > 0)
+    if (choice != 0)
         return jox_scene_colours[choice];
     return states > MOST_STATES && groups_tell ? "group"
            : states >= TELLING_STATES          ? "state"
