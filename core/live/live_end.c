@@ -13,24 +13,12 @@ static const char *const REASONS[] = {[JOX_LIVE_GOES_ON] = NULL,
                                       [JOX_LIVE_ALL_HAVE_LEFT] = "left",
                                       [JOX_LIVE_FAILED_RUN] = "failed"};
 
-/* Returns whether people may still come in: at a start time, or by a source that has not ended. */
-static bool can_people_come(const JoWorld *world) {
-    const double time = jo_world_time(world);
-    bool can = false;
-    for (uint32_t s = 0; s < world->model.start_count && !can; s++)
-        can = world->model.starts[s].time >= time;
-    for (uint32_t g = 0; g < world->model.group_count && !can; g++)
-        can = jox_world_starts_waiting(world, g) > 0;
-    for (uint32_t s = 0; s < world->model.source_count && !can; s++)
-        can = jox_source_can_bring(world, s);
-    return can;
-}
-
 JoxLiveEnd jox_live_find_end(const JoScene *scene, const JoxLiveSession *session) {
     const JoWorld *world = scene->world;
     if (session->end != JOX_LIVE_GOES_ON)
         return session->end;
-    return world->state.agents.count == 0 && world->state.exits.left > 0 && !can_people_come(world)
+    return world->state.agents.count == 0 && world->state.exits.left > 0 &&
+                   !jox_world_expects_people(world)
                ? JOX_LIVE_ALL_HAVE_LEFT
                : JOX_LIVE_GOES_ON;
 }

@@ -27,7 +27,7 @@ struct JoxReplay {
     JoxTrajectoryReader *reader;
     JoxTrajectoryReaderInfo info;
     JoxSceneSpec *spec; /* the scene file that was given, or NULL */
-    JoxSceneLook look;  /* what that scene shows, else what the recording has of its scene */
+    JoxSceneLook look;  /* that of this scene, else the recorded one */
     JoxBodies *bodies;  /* bodies of that scene, or NULL */
     JoxReplayNames names;
     JoxV2 period; /* m, size of a periodic world; 0 along an axis without periodic edges */

@@ -54,18 +54,6 @@ uint32_t jox_run_count_criteria(const JoScene *scene) {
     return jox_criteria_count(find_criteria(scene));
 }
 
-/* Returns whether a source or a start time would still have let people in after this time. */
-static bool are_people_to_come(const JoScene *scene) {
-    const JoWorld *world = scene->world;
-    for (uint32_t s = 0; s < world->model.source_count; s++)
-        if (jox_source_can_bring(world, s))
-            return true;
-    for (uint32_t g = 0; g < world->model.group_count; g++)
-        if (jox_world_starts_waiting(world, g))
-            return true;
-    return false;
-}
-
 /* Returns the evidence of a run; the caller frees its list of probes. */
 static JoxCriterionEvidence collect_evidence(const JoScene *scene) {
     uint32_t count = 0;
@@ -77,7 +65,7 @@ static JoxCriterionEvidence collect_evidence(const JoScene *scene) {
     return (JoxCriterionEvidence){.danger = jox_run_danger(scene),
                                   .exits = &scene->world->state.exits,
                                   .inside = scene->world->state.agents.count,
-                                  .to_come = are_people_to_come(scene),
+                                  .to_come = jox_world_expects_people(scene->world),
                                   .until = jo_world_time(scene->world),
                                   .probes = probes,
                                   .probe_count = count};

@@ -79,11 +79,11 @@ static void record_look(const Recording *r, const JoScene *scene) {
 static void record_reload(void *self, JoScene *scene, const JoxReloadNews *news) {
     const Recording *r = self;
     const JoxMachineSet *machines = &scene->world->model.machines;
-    if (!news || !r->recorder)
+    if (!r->recorder)
         return;
-    if (!news->next)
+    if (!news) /* all is told, and the new specification in place */
         record_look(r, scene);
-    for (uint32_t m = 0; news->next && m < machines->count; m++)
+    for (uint32_t m = 0; news && news->next && m < machines->count; m++)
         if (machines->items[m] == news->next)
             name_machine_states(r, scene, m);
 }

@@ -251,7 +251,6 @@ void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
     if (r.later.length)
         jox_run_say(scene, "%s: %s: takes effect at the next start\n", scene->spec->path,
                     r.later.data);
-    jox_run_tell_reloaded(scene, NULL);
     if (groups) { /* the old specification goes where the new one came from */
         *spec = scene->spec;
         scene->spec = r.new;
@@ -260,6 +259,7 @@ void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
         jox_run_number_event_signals(scene, NULL);
         check_new_sources(&r);
     }
+    jox_run_tell_reloaded(scene, NULL);
     jox_text_free(&r.done);
     jox_text_free(&r.later);
 }

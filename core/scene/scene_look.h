@@ -1,4 +1,4 @@
-/* What a scene shows besides people, bodies and walls: title, camera, colouring, places, floor and
+/* The look of a scene besides people, bodies and walls: title, camera, colouring, places, floor and
    scenery. The live page and pictures draw it, and recordings hold it as JSON, so that they show it
    without the scene's file. */
 #ifndef JOX_SCENE_SCENE_LOOK_H

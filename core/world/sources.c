@@ -338,3 +338,16 @@ void jox_sources_sections(JoWorld *world, JoxSections *s) {
     jox_section(s, "figures", state->figures, sizeof *state->figures, world->model.source_count);
     jox_sections_unhashed(s, false);
 }
+
+bool jox_world_expects_people(const JoWorld *world) {
+    const JoxWorldModel *model = &world->model;
+    const double time = (double)world->state.tick * model->def.dt;
+    bool expects = false;
+    for (uint32_t s = 0; s < model->start_count && !expects; s++)
+        expects = model->starts[s].time >= time;
+    for (uint32_t g = 0; g < model->group_count && !expects; g++)
+        expects = jox_world_starts_waiting(world, g) > 0;
+    for (uint32_t s = 0; s < model->source_count && !expects; s++)
+        expects = jox_source_can_bring(world, s);
+    return expects;
+}

@@ -69,6 +69,9 @@ double jox_source_waiting(const JoWorld *world, uint32_t source);
 bool jox_source_is_over(const JoWorld *world, uint32_t source);
 /* Returns whether anybody may still enter by a source. */
 bool jox_source_can_bring(const JoWorld *world, uint32_t source);
+/* Returns whether people may still come in: at a start time, late for want of room, or by a source.
+ */
+bool jox_world_expects_people(const JoWorld *world);
 /* Appends the name of a source: that of its place, with its group if others have the same place. */
 void jox_source_append_name(const JoWorld *world, uint32_t source, JoxText *out);
 /* Lists counts as state. */

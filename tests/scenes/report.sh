@@ -194,6 +194,14 @@ grep -q '^speed,people,"normal(1.3, 0.2, 0.8, 1.8) (scene)",12,1.[0-9]*,0.[0-9]*
 "$JOSTLE" run "$work/held.yaml" --seeds 3 --quiet --report "$work/held-seeds" --summary "$work/held-seeds.json" >/dev/null 2>&1
 grep -q '"criteria.out at once.met": {"mean": 0,' "$work/held-seeds.json" && grep -q '<td>out in time<td class=n>3<td class=n>0' "$work/held-seeds/index.html" && grep -q '^out at once,0,3,0,0,' "$work/held-seeds/table-criteria.csv"; verdict "with seeds, the share that meets each" $?
 grep -q '^field,not decided,,9,1/m2,not measured: no part of field lies in the measured area$' "$work/held/table-criteria.csv"; verdict "a place that is not measured decides nothing" $?
+cat >"$work/later.yaml" <<'SCENE'
+include: made-run.yaml
+jostle: 1
+groups: {later: {behaviour: walker.lua, starts: [[100, 2, 3]], set: {goal: exit}}}
+criteria: {in time: {cleared: 30}}
+SCENE
+"$JOSTLE" run "$work/later.yaml" --quiet --for 30 --summary "$work/later.json" >/dev/null 2>&1
+[ "$(verdicts "$work/later.json")" = 'in time null' ]; verdict "somebody who starts after the end leaves the time to clear undecided" $?
 # People may come after the end, so nobody knows how long the room takes to clear; half of a place is outside the measured area.
 cat >"$work/late.yaml" <<'SCENE'
 include: made-run.yaml

@@ -1,5 +1,4 @@
-/* What a recording shows of its scene besides people: walls, floor, scenery, clothes, poses,
- * camera. */
+/* Looks of recordings besides people: walls, floor, scenery, clothes, poses and camera. */
 #include "live_recording.h"
 
 /* A scene with all that is drawn besides people; a train that moves carries scenery. */
@@ -113,7 +112,7 @@ static void recording_shows_what_its_scene_shows(void **state) {
     jox_replay_close(with);
 }
 
-/* What a recording has of its scene's looks may be anything, or missing as in older ones. */
+/* The look in a recording may be any text, and older ones have none. */
 static void looks_of_recordings_are_checked(void **state) {
     (void)state;
     if (!jox_bodies_available()) /* there is no recording to damage */

@@ -1,5 +1,6 @@
 /* Tests of edits of a scene's groups while it runs: their behaviours, and the types of the values
  * that they set. */
+#include "record/trajectory_reader.h"
 #include "run/criteria_listener.h"
 #include "run/reload.h"
 #include "unit/scene_loader.h"
@@ -165,8 +166,32 @@ static void criteria_hold_after_a_reload(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- recordings ---- */
+
+static void recording_has_the_look_of_the_last_reload(void **state) {
+    (void)state;
+    char grass[1000], file[320];
+    JoError error = {0};
+    snprintf(grass, sizeof grass, "%sfloor: grass\n", GROUPS("behaviour: second.lua, count: 0"));
+    JoScene *scene = load_groups(GROUPS("behaviour: second.lua, count: 0"));
+    snprintf(file, sizeof file, "%s", test_path("look.sqlite"));
+    assert_true(jo_scene_record(scene, file, 0.1, &error));
+    step_scene(scene, 5);
+    edit_scene(scene, grass);
+    step_scene(scene, 5);
+    jo_scene_free(scene);
+    static const JoxTrajectoryOptions OPTIONS = {0};
+    JoxDiagnostics diagnostics = {0};
+    JoxTrajectoryReader *reader = jox_trajectory_reader_open(file, &OPTIONS, &diagnostics);
+    assert_non_null(reader);
+    const JoxTrajectoryReaderInfo info = jox_trajectory_reader_info(reader);
+    assert_non_null(strstr(info.look, "\"grass\""));
+    jox_trajectory_reader_close(reader);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(recording_has_the_look_of_the_last_reload),
         cmocka_unit_test(edited_behaviours_of_groups_wait_for_the_next_start),
         cmocka_unit_test(criteria_hold_after_a_reload),
         cmocka_unit_test(edited_weights_of_a_mix_are_live),

@@ -206,10 +206,7 @@ class Page {
     take(message) {
         const taken = {
             scene: () => this.takeScene(message), status: () => this.takeStatus(message),
-            errors: () => {
-                this.messages.showErrors(message.errors ?? []);
-                this.news.fail(message.errors ?? []);
-            },
+            errors: () => [this.messages, this.news].forEach((part) => part.showErrors(message.errors ?? [])),
             say: () => this.messages.say(message.text, message.level),
             inspect: () => this.takePerson(message), who: () => this.agentPage.takeWho(message), lua: () => this.parameters.takeLua(message.text),
             refused: () => this.messages.say(message.text, "warning"), time: () => this.takeTime(message),

@@ -43,7 +43,7 @@ export class News {
     }
 
     /** Takes the list of an `errors` message: with a new error, notes on what was saved before go. */
-    fail(errors) {
+    showErrors(errors) {
         if (hasNewError(this.errors, errors)) for (const old of this.node.querySelectorAll(".note:not(.pinned)")) old.remove();
         this.errors = errors;
     }
