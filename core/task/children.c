@@ -77,8 +77,8 @@ uint32_t jox_children_count(const JoxChildren *c) {
     return c->count;
 }
 
-/* Runs the work in the forked child, without SIGINT and SIGHUP, with standard input and output
-   closed. Does not return. */
+/* Runs the work in the forked child, without SIGINT, SIGHUP and SIGTERM, with standard input and
+   output closed. Does not return. */
 static void run_child(const Child *child, size_t memory, pid_t parent, JoxChildWork *work,
                       void *context) {
     JoxRecovery recovery;
@@ -86,9 +86,11 @@ static void run_child(const Child *child, size_t memory, pid_t parent, JoxChildW
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) /* the parent ended before prctl took effect */
         _exit(1);
-    signal(SIGINT, SIG_IGN); /* Ctrl-C also reaches the parent, which kills its children */
+    /* Ctrl-C, and batch systems that cancel a job, also reach the parent, which kills its children:
+       a run that they end is no run that failed */
+    signal(SIGINT, SIG_IGN);
     signal(SIGHUP, SIG_IGN);
-    signal(SIGTERM, SIG_DFL);
+    signal(SIGTERM, SIG_IGN);
     signal(SIGXCPU, SIG_DFL); /* the parent's handler finishes files; a child has none */
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nothing, 0);
@@ -172,6 +174,7 @@ bool jox_children_wait(JoxChildren *c, JoxChildEnd *end) {
                 continue;
             *end = (JoxChildEnd){.job = child->job};
             end->good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+            end->killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
             if (end->good)
                 read_file_end(child->result, SIZE_MAX >> 1, &end->result);
             else

@@ -33,6 +33,7 @@ bool jox_children_start(JoxChildren *children, uint64_t job, JoxChildWork *work,
 typedef struct JoxChildEnd {
     uint64_t job;
     bool good;      /* exited with status 0, after its whole result was written */
+    bool killed;    /* ended by SIGKILL, as by a system that runs out of memory */
     JoxText result; /* owned by the caller; empty unless good */
     char why[400];  /* if not good: signal or status, and the end of its standard error */
 } JoxChildEnd;
