@@ -1,22 +1,16 @@
-/* The command `sweep`: runs the variants of a scene by jo_sweep, lists a command for each run, or
-   merges files. */
+/* The command `sweep`: runs the variants of a scene by jo_sweep, or merges files. sweep_list.c
+   lists the runs. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include "base/format/quote.h"
+#include "base/file.h"
+#include "base/mem.h"
 #include "cli/cli.h"
+#include "cli/sweep_list.h"
 
-typedef struct Sweep {
-    JoSweepDef def;
-    CliList sets, mods;
-    uint64_t seeds, only;
-    const char *csv;
-    JoxOverlay files; /* files that were vetted */
-    bool of_scene, has_seconds, list, merge, trusted;
-} Sweep;
+typedef CliSweep Sweep;
 
 static bool read_sweep_isa(void *options, const char *text, char why[160]) {
     return cli_read_isa(&((Sweep *)options)->def.scene.isa, text, why);
@@ -44,10 +38,29 @@ static const CliOption OPTIONS[] = {
     {"again", NULL, "repeat runs that failed", CLI_TO(Sweep, def.again)},
     {"list", NULL,
      "run nothing; print a command for each run, which writes a file of its own into a folder "
-     "beside --out, for GNU parallel, Slurm and the like",
+     "beside --out, for GNU parallel, Slurm and the like. Such a file appears once the run has "
+     "ended, as a whole",
      CLI_TO(Sweep, list)},
-    {"merge", NULL, "copy the runs of such files into --out", CLI_TO(Sweep, merge)},
-    {"only", "N", "do only the N-th run, as such a command does", CLI_TO(Sweep, only),
+    {"missing", NULL,
+     "with --list: only commands of runs that neither --out nor a file of that folder has; with "
+     "--again also of runs that failed",
+     CLI_TO(Sweep, missing)},
+    {"status", NULL,
+     "run nothing; print a line for each run: its number, its state (done, troubled, failed, "
+     "missing), settings and seed, and the file of --list, separated by tabs. The exit status is "
+     "1 if a run is missing",
+     CLI_TO(Sweep, status)},
+    {"merge", NULL,
+     "copy the runs of such files, or of all files of a folder whose names end in .sqlite, into "
+     "--out. If runs of the sweep are in none of them, these are named and nothing is copied",
+     CLI_TO(Sweep, merge)},
+    {"partial", NULL, "with --merge: also if runs are missing", CLI_TO(Sweep, partial)},
+    {"canonical", NULL,
+     "at the end write --out anew in the order of its plan, without times of computation, "
+     "instruction set and number of threads: the same runs give the same bytes, on one machine "
+     "or many",
+     CLI_TO(Sweep, canonical)},
+    {"only", "N", "do only the N-th run, as a command of --list does", CLI_TO(Sweep, only),
      CLI_RANGE(1, 100000)},
     {"for", "S", "simulate S seconds", "the scene's duration", CLI_TO(Sweep, def.seconds),
      CLI_GIVEN(Sweep, has_seconds), CLI_RANGE(0, 1e7)},
@@ -69,80 +82,6 @@ static bool vet_variant(void *context, const JoSceneDef *scene, JoError *error) 
     return cli_vet(&cli_sweep, scene, &sweep->files, error) == JO_OK;
 }
 
-/* ---- a list of commands ---- */
-
-static void print_option(const char *name, const char *value) {
-    JoxText quoted = {0};
-    jox_quote_shell(&quoted, value);
-    printf(" --%s %s", name, quoted.data);
-    jox_text_free(&quoted);
-}
-
-/* Prints the options that all runs share. */
-static void print_shared_options(const Sweep *sweep, const char *program) {
-    const JoSweepDef *def = &sweep->def;
-    JoxText quoted = {0};
-    jox_quote_shell(&quoted, program);
-    jox_text_add(&quoted, " sweep ");
-    jox_quote_shell(&quoted, def->scene.path);
-    fputs(quoted.data, stdout);
-    jox_text_free(&quoted);
-    for (size_t s = 0; s < def->set_count; s++)
-        print_option("set", def->sets[s]);
-    for (size_t m = 0; m < def->scene.mod_count; m++)
-        print_option("mod", def->scene.mods[m]);
-    printf(" --seeds %u", def->seeds);
-    if (def->scene.has_seed)
-        printf(" --seed %llu", (unsigned long long)def->scene.seed);
-    if (sweep->has_seconds)
-        printf(" --for %.9g", def->seconds);
-    if (def->steps)
-        printf(" --steps %llu", (unsigned long long)def->steps);
-    if (def->scene.has_dt)
-        printf(" --dt %.9g", def->scene.dt);
-    if (def->scene.threads)
-        printf(" --threads %u", def->scene.threads);
-    if (def->scene.input_log)
-        print_option("input", def->scene.input_log);
-    printf("%s%s", def->scene.named_mods_only ? " --no-mods" : "",
-           sweep->trusted ? " --trusted" : "");
-}
-
-/* Prints a command for each run, which writes a file of its own; returns an exit status. */
-static int print_commands(const Sweep *sweep) {
-    static const char ENDING[] = ".sqlite";
-    const char *out = sweep->def.out;
-    const size_t n = strlen(out), e = sizeof ENDING - 1;
-    const size_t stem = n > e && !strcmp(out + n - e, ENDING) ? n - e : n;
-    char program[1024];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    JoError error = {0};
-    const uint32_t runs = jo_sweep_runs(&sweep->def, &error);
-    if (!runs)
-        return cli_report_error(&cli_sweep, &error, false);
-    cli_output_is_data();
-    program[length > 0 ? length : 0] = 0;
-    JoxText folder = {0};
-    jox_text_printf(&folder, "%.*s-parts", (int)stem, out);
-    if (mkdir(folder.data, 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "jostle sweep: cannot make the folder '%s': %s\n", folder.data,
-                strerror(errno));
-        jox_text_free(&folder);
-        return JO_FAILED;
-    }
-    for (uint32_t r = 1; r <= runs; r++) {
-        JoxText part = {0};
-        jox_text_printf(&part, "%s/run-%06u.sqlite", folder.data, r);
-        print_shared_options(sweep, program);
-        printf(" --only %u", r);
-        print_option("out", part.data);
-        puts(" --quiet");
-        jox_text_free(&part);
-    }
-    jox_text_free(&folder);
-    return JO_OK;
-}
-
 /* ---- running and merging ---- */
 
 static void print_counts(const Sweep *sweep, const JoSweepCounts *c) {
@@ -154,6 +93,8 @@ static void print_counts(const Sweep *sweep, const JoSweepCounts *c) {
         fprintf(stderr, ", %u of them did not go as written", c->troubled);
     if (c->failed)
         fprintf(stderr, ", %u failed", c->failed);
+    if (c->missing)
+        fprintf(stderr, ", %u missing", c->missing);
     fputs("\n", stderr);
 }
 
@@ -161,17 +102,64 @@ static void print_counts(const Sweep *sweep, const JoSweepCounts *c) {
 static int finish_sweep(const Sweep *sweep, const JoSweepCounts *counts) {
     JoError error = {0};
     print_counts(sweep, counts);
+    if (sweep->canonical && !jo_sweep_make_canonical(sweep->def.out, &error))
+        return cli_report_error(&cli_sweep, &error, false);
     if (sweep->csv && !jo_sweep_csv(sweep->def.out, sweep->csv, &error))
         return cli_report_error(&cli_sweep, &error, false);
-    return counts->failed || counts->troubled ? JO_FAILED : JO_OK;
+    return counts->failed || counts->troubled || counts->missing ? JO_FAILED : JO_OK;
 }
 
-static int merge_files(const Sweep *sweep, const CliList *parts) {
+/* Adds a file to the parts of a merge, or all files of a folder; an exit status. */
+static int add_parts(const char *path, JoxText **parts, size_t *count, size_t *capacity) {
+    char **names = jox_is_folder(path) ? jox_folder_names(path, false) : NULL;
+    size_t before = *count;
+    if (!names) {
+        JOX_RESERVE(*parts, *capacity, *count + 1);
+        (*parts)[*count] = (JoxText){0};
+        jox_text_add(&(*parts)[(*count)++], path);
+        return JO_OK;
+    }
+    for (size_t n = 0; names[n]; n++) {
+        const size_t length = strlen(names[n]);
+        if (length < 7 || strcmp(names[n] + length - 7, ".sqlite") != 0)
+            continue;
+        JOX_RESERVE(*parts, *capacity, *count + 1);
+        (*parts)[*count] = (JoxText){0};
+        jox_text_printf(&(*parts)[(*count)++], "%s/%s", path, names[n]);
+    }
+    jox_free(names);
+    if (*count > before)
+        return JO_OK;
+    fprintf(stderr, "jostle sweep: the folder '%s' has no file whose name ends in .sqlite\n", path);
+    return JO_INPUT;
+}
+
+static int merge_files(const Sweep *sweep, const CliList *given) {
     JoSweepCounts counts;
     JoError error = {0};
-    if (!jo_sweep_merge(sweep->def.out, parts->items, parts->count, &counts, &error))
-        return cli_report_error(&cli_sweep, &error, false);
-    return finish_sweep(sweep, &counts);
+    JoxText *parts = NULL;
+    size_t count = 0, capacity = 0;
+    int status = JO_OK;
+    for (size_t g = 0; status == JO_OK && g < given->count; g++)
+        status = add_parts(given->items[g], &parts, &count, &capacity);
+    const char **paths = jox_alloc(count + 1, sizeof *paths);
+    for (size_t p = 0; p < count; p++)
+        paths[p] = parts[p].data;
+    if (status == JO_OK) {
+        JoSweepMergeDef def = jo_default_sweep_merge_def();
+        def.out = sweep->def.out;
+        def.parts = paths;
+        def.part_count = count;
+        def.partial = sweep->partial;
+        status = jo_sweep_merge(&def, &counts, &error)
+                     ? finish_sweep(sweep, &counts)
+                     : cli_report_error(&cli_sweep, &error, false);
+    }
+    for (size_t p = 0; p < count; p++)
+        jox_text_free(&parts[p]);
+    jox_free(parts);
+    jox_free((void *)(uintptr_t)paths);
+    return status;
 }
 
 static int run_variants(Sweep *sweep) {
@@ -196,14 +184,18 @@ static int run_variants(Sweep *sweep) {
 static const char *find_sweep_misuse(const Sweep *sweep, const CliList *plain) {
     const bool of_runs = sweep->of_scene || sweep->has_seconds || sweep->def.steps ||
                          sweep->def.scene.has_seed || sweep->def.scene.has_dt || sweep->only ||
-                         sweep->list;
+                         sweep->list || sweep->status;
+    const bool lists = sweep->list || sweep->status;
     return !sweep->def.out                          ? "--out FILE says where the runs are kept"
            : sweep->merge && of_runs                ? "--merge goes with files and --out alone"
            : sweep->merge                           ? NULL
            : plain->count > 1                       ? "one scene at a time"
            : sweep->has_seconds && sweep->def.steps ? "--for and --steps exclude each other"
-           : sweep->list && (sweep->only || sweep->csv)
-               ? "--list runs nothing: it goes without --only and --csv"
+           : sweep->list && sweep->status           ? "--list and --status exclude each other"
+           : sweep->missing && !sweep->list         ? "--missing goes with --list"
+           : sweep->partial                         ? "--partial goes with --merge"
+           : lists && (sweep->only || sweep->csv || sweep->canonical)
+               ? "--list and --status run nothing: they go without --only, --csv and --canonical"
                : NULL;
 }
 
@@ -226,9 +218,9 @@ static int run_sweep_command(int argc, char **argv) {
         status = why                     ? cli_report_misuse(&cli_sweep, why)
                  : !path && !sweep.merge ? JO_INPUT
                  : cli_check_apart(&cli_sweep, outputs, 2, inputs, 1, NULL) != JO_OK ? JO_USAGE
-                 : sweep.merge ? merge_files(&sweep, &plain)
-                 : sweep.list  ? print_commands(&sweep)
-                               : run_variants(&sweep);
+                 : sweep.merge                ? merge_files(&sweep, &plain)
+                 : sweep.list || sweep.status ? cli_list_runs(&sweep)
+                                              : run_variants(&sweep);
     }
     jox_overlay_free(&sweep.files);
     cli_free(&cli_sweep, &sweep, &plain);
@@ -239,19 +231,21 @@ const CliCommand cli_sweep = {
     .name = "sweep",
     .what = "run variants of a scene with many seeds",
     .usage = "SCENE --set PATH=A,B,C... --seeds N --out FILE.sqlite [options]\n"
-             "SCENE ... --out FILE.sqlite --list\n"
-             "--merge FILE... --out FILE.sqlite",
+             "SCENE ... --out FILE.sqlite --list|--status\n"
+             "--merge FILE|FOLDER... --out FILE.sqlite",
     .about = "Runs every combination of the values given with every seed, each in a process of its "
              "own, and stores the results in one SQLite file. All runs use the files as they were "
              "when the sweep began. A run that fails is stored with its reason; the others go on. "
              "`jostle compare` compares the variants.\n\nOn many machines:\n  jostle sweep SCENE "
              "--set ... --seeds 20 --out all.sqlite --list > jobs\n  parallel < jobs               "
-             "             # or, in a Slurm array:\n  sed -n \"${SLURM_ARRAY_TASK_ID}p\" jobs | "
-             "sh\n  jostle sweep --merge all-parts/*.sqlite --out all.sqlite\n\nThe same sweep "
-             "without --list then does the runs that are missing in --out.",
+             "             # or on a cluster: scripts/cluster\n"
+             "  jostle sweep --merge all-parts --out all.sqlite\n\nRuns that have their file are "
+             "not repeated; --list --missing prints the commands that are left. The same sweep "
+             "without --list does the runs that are missing in --out here.",
     .notes =
         "exit status: 0 all runs are done, 1 some failed or did not go as written, or the file "
-        "could not be written, 2 wrong usage, 3 bad input, or a file of other inputs; 129, 130 and "
+        "could not be written, 2 wrong usage, 3 bad input, a file of other inputs, or runs missing "
+        "in a merge; 129, 130 and "
         "143: SIGHUP, SIGINT or SIGTERM ended it early, and finished runs are kept",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

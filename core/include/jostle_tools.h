@@ -295,7 +295,8 @@ typedef struct JoSweepCounts {
     uint32_t kept;       /* done and failed runs that the file held before this call */
     uint32_t troubled;   /* done runs with troubles (jo_scene_troubles) */
     uint32_t failed;     /* runs that ended without figures; the file holds the reason */
-    uint32_t missing;    /* runs that were not done, as the sweep was stopped */
+    uint32_t missing;    /* runs that were not done, as the sweep was stopped, or that no part of
+                            a merge has */
 } JoSweepCounts;
 /* Does the runs that the file lacks. A run that fails, or whose variant does not load, is stored
    with its reason and does not end the sweep. *summary, unless `summary` is NULL, becomes
@@ -306,11 +307,41 @@ typedef struct JoSweepCounts {
 JO_API bool jo_sweep(const JoSweepDef *def, JoSweepCounts *counts, char **summary, JoError *error);
 /* Returns how many runs a sweep has, without doing any; 0 with `error`. */
 JO_API uint32_t jo_sweep_runs(const JoSweepDef *def, JoError *error);
-/* Merges `count` files of the same sweep, made on several machines with JoSweepDef.only for
-   instance, into `out`, which is created or continued. False with `error` if one of them belongs to
-   no sweep or another one, or if two have different results for the same run. */
-JO_API bool jo_sweep_merge(const char *out, const char *const *parts, size_t count,
-                           JoSweepCounts *counts, JoError *error);
+/* A run of a sweep: its number (as JoSweepDef.only takes it), seed, and state: "done", "troubled",
+   "failed", or "missing" if no file has it. The texts are valid within the call. */
+typedef struct JoSweepRunState {
+    uint32_t number;
+    uint64_t seed;
+    const char *variant; /* "count=100, speed=1.2"; "" for a single variant */
+    const char *state;
+    const char *part; /* file for this run alone */
+} JoSweepRunState;
+typedef void JoSweepEachRun(void *context, const JoSweepRunState *run);
+/* Calls `each` for every run of a sweep in the order of their numbers, without doing any. The state
+   is that in JoSweepDef.out, or else in FOLDER/run-NNNNNN.sqlite, the run's part. False with
+   `error`. */
+JO_API bool jo_sweep_states(const JoSweepDef *def, const char *folder, JoSweepEachRun *each,
+                            void *context, JoError *error);
+
+typedef struct JoSweepMergeDef {
+    const char *out; /* created, or continued */
+    /* files of the same sweep, made on several machines with JoSweepDef.only for instance */
+    const char *const *parts;
+    size_t part_count;
+    bool partial;       /* merge also if planned runs are missing */
+    JoMessage *message; /* gets the names of missing runs; NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoSweepMergeDef;
+JO_API JoSweepMergeDef jo_default_sweep_merge_def(void);
+/* Merges files of a sweep. False with `error`: JO_INPUT if planned runs are missing (then nothing
+   is written), if a file belongs to no sweep or another one, or if two have different results for
+   the same run. */
+JO_API bool jo_sweep_merge(const JoSweepMergeDef *def, JoSweepCounts *counts, JoError *error);
+/* Rewrites a sweep's file in the order of its plans, without what differs between machines and
+   repetitions: times of computation, the instruction set, the number of threads. Files of the same
+   runs then are the same bytes (of the same SQLite). False with `error`; the file is as before. */
+JO_API bool jo_sweep_make_canonical(const char *path, JoError *error);
 /* Writes the runs of a sweep's file as CSV to the file `csv` ("-": standard output): one row per
    run, with the variant's settings, seed, state and figures as columns. */
 JO_API bool jo_sweep_csv(const char *sweep, const char *csv, JoError *error);

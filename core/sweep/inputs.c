@@ -153,8 +153,8 @@ bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
     return good;
 }
 
-bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
-                           const JoxOverlay *files, JoxText *differences, JoError *error) {
+bool jox_sweep_note_settings(const JoxSweepStore *store, const JoSweepDef *def,
+                             JoxText *differences, JoError *error) {
     char until[64] = "", step[48] = "";
     JoxText sets = {0}, mods = {0};
     if (def->steps)
@@ -179,10 +179,16 @@ bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
     bool good = true;
     for (size_t k = 0; good && k < sizeof shared / sizeof *shared; k++)
         good = jox_sweep_note_value(store, shared[k].key, shared[k].value, differences, error);
+    jox_text_free(&sets);
+    jox_text_free(&mods);
+    return good;
+}
+
+bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
+                           const JoxOverlay *files, JoxText *differences, JoError *error) {
+    bool good = jox_sweep_note_settings(store, def, differences, error);
     for (size_t f = 0; good && f < files->count; f++)
         good = jox_sweep_note_input(store, files->files[f].path, files->files[f].text,
                                     files->files[f].length, differences, error);
-    jox_text_free(&sets);
-    jox_text_free(&mods);
     return good;
 }

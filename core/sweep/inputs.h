@@ -18,7 +18,10 @@ JoSceneDef jox_sweep_scene_def(const JoSweepDef *def, const JoxSweepVariant *var
 bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
                            const char *const *names, JoxOverlay *files, char **refused,
                            JoError *error);
-/* Stores the settings and inputs that all runs share, or compares them with those in the file. */
+/* Stores the settings that all runs share, or compares them with those in the file. */
+bool jox_sweep_note_settings(const JoxSweepStore *store, const JoSweepDef *def,
+                             JoxText *differences, JoError *error);
+/* Does the same for these settings and all inputs. */
 bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
                            const JoxOverlay *files, JoxText *differences, JoError *error);
 

@@ -1,8 +1,12 @@
-/* Merges the files of a sweep whose runs were spread over machines: `jostle sweep --merge`. Each
-   part is attached to the output as the database `part`, and its runs are copied. */
+/* Merges the files of a sweep whose runs were spread over machines: `jostle sweep --merge`. All
+   parts are first listed in memory, to find which planned runs are missing. Then each part is
+   attached to the output as the database `part`, and its runs are copied. */
+#include <string.h>
+#include <sys/stat.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "run/messages.h"
 #include "sweep/store.h"
 
 /* Adds the part's variants and curve names, and lists in `moved` the runs that the output lacks or
@@ -11,6 +15,11 @@
 static const char CHOOSE[] =
     "INSERT INTO main.variant(settings, plan) SELECT settings, plan FROM part.variant WHERE true"
     " ON CONFLICT(settings) DO UPDATE SET plan = coalesce(plan, excluded.plan);"
+    /* the plan of a variant is that of its run with the lowest seed */
+    "UPDATE main.variant SET plan = w.plan FROM part.variant w WHERE w.settings = "
+    "main.variant.settings AND w.plan NOT NULL AND"
+    " (SELECT min(seed) FROM part.run WHERE variant = w.id AND summary NOT NULL) <"
+    " (SELECT min(seed) FROM main.run r WHERE r.variant = main.variant.id AND summary NOT NULL);"
     "INSERT INTO main.curve_name(name, unit) SELECT name, unit FROM part.curve_name WHERE true"
     " ON CONFLICT(name) DO NOTHING;"
     "CREATE TEMP TABLE IF NOT EXISTS moved(was INTEGER, variant INTEGER, seed INTEGER,"
@@ -86,13 +95,27 @@ static bool compare_notes(const JoxSweepStore *store, const JoxSweepStore *part,
     }
     good = good && (code == SQLITE_DONE || jox_sweep_set_error(part, error));
     jox_sweep_finalize(part, s);
+    return good && jox_sweep_copy_plans(part, store, error);
+}
+
+/* Whether all pages of a file are whole; false with `error`. */
+static bool is_whole(const JoxSweepStore *part, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(part, "PRAGMA quick_check(1)", error);
+    const int code = s ? sqlite3_step(s) : SQLITE_ERROR;
+    const bool good = code == SQLITE_ROW && !strcmp((const char *)sqlite3_column_text(s, 0), "ok");
+    if (s && !good)
+        jox_error(error, JO_INPUT, "%.300s: the file is damaged: remove it, and do its runs again",
+                  part->path);
+    jox_sweep_finalize(part, s);
     return good;
 }
 
+/* Checks that a part belongs to the same sweep, and takes over what its runs share, and its plans.
+ */
 static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError *error) {
     JoxSweepStore part;
     JoxText differences = {0};
-    bool good = jox_sweep_open_to_read(&part, path, error) &&
+    bool good = jox_sweep_open_to_read(&part, path, error) && is_whole(&part, error) &&
                 compare_notes(store, &part, &differences, error);
     if (good && differences.length) {
         jox_error(error, JO_INPUT, "%.200s belongs to another sweep than %.200s:\n%.500s", path,
@@ -102,13 +125,6 @@ static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError 
     jox_sweep_close(&part);
     jox_text_free(&differences);
     return good;
-}
-
-static bool attach_part(const JoxSweepStore *store, const char *path, JoError *error) {
-    sqlite3_stmt *s = jox_sweep_prepare(store, "ATTACH ? AS part", error);
-    if (s)
-        sqlite3_bind_text(s, 1, path, -1, SQLITE_STATIC);
-    return jox_sweep_step_once(store, s, error);
 }
 
 /* Merges one part: checks that it belongs to the same sweep, then copies its runs, each in a
@@ -121,7 +137,7 @@ static bool merge_part(const JoxSweepStore *store, const char *path, JoError *er
         jox_sweep_execute(store, "ROLLBACK", &ignored);
         return false;
     }
-    if (!attach_part(store, path, error))
+    if (!jox_sweep_attach_part(store, path, error))
         return false;
     good = jox_sweep_execute(store, "BEGIN IMMEDIATE", error) && check_hashes(store, path, error) &&
            jox_sweep_execute(store, CHOOSE, error) && jox_sweep_execute(store, MOVE, error) &&
@@ -144,22 +160,96 @@ static bool count_runs(const JoxSweepStore *store, JoxSweepState state, uint32_t
     return good;
 }
 
-bool jo_sweep_merge(const char *out, const char *const *parts, size_t part_count,
-                    JoSweepCounts *counts, JoError *error) {
-    JOX_REQUIRE(out && parts && part_count > 0 && counts, false);
-    JOX_GUARD (NULL, error)
-        return false;
+/* ---- missing runs ---- */
+
+/* Adds the runs that a part has to a list, which has their settings, seeds and states alone. */
+static const char LIST[] =
+    "INSERT OR IGNORE INTO main.variant(settings) SELECT settings FROM part.variant;"
+    "INSERT OR IGNORE INTO main.run(variant, seed, state) SELECT v.id, p.seed, p.state"
+    " FROM part.run p JOIN part.variant w ON w.id = p.variant"
+    " JOIN main.variant v ON v.settings = w.settings;";
+
+/* Checks that a part is whole and belongs to the same sweep as those listed before, and lists its
+   runs. */
+static bool list_part(const JoxSweepStore *list, const char *path, JoError *error) {
+    JoError ignored;
+    JoxText name = {0};
+    jox_text_add(&name, path);
+    JoxSweepStore named = *list; /* errors name the part */
+    named.path = name.data;
+    bool good = is_same_sweep(list, path, error) && jox_sweep_attach_part(&named, path, error);
+    if (good) {
+        good = jox_sweep_execute(&named, LIST, error);
+        jox_sweep_execute(list, "DETACH part", &ignored);
+    }
+    jox_text_free(&name);
+    return good;
+}
+
+/* Counts the planned runs that neither the output nor a part has; their names are sent as a
+   message. */
+static bool find_missing_of_merge(const JoSweepMergeDef *def, uint32_t *missing, JoError *error) {
+    JoxSweepStore list;
+    JoxText lines = {0};
+    struct stat info;
+    bool good = jox_sweep_open(&list, NULL, error);
+    if (good) { /* for errors */
+        jox_free(list.path);
+        list.path = jox_strdup(def->out);
+    }
+    if (good && stat(def->out, &info) == 0 && info.st_size > 0)
+        good = list_part(&list, def->out, error);
+    for (size_t p = 0; good && p < def->part_count; p++)
+        good = list_part(&list, def->parts[p], error);
+    good = good && jox_sweep_find_missing(&list, missing, &lines, error);
+    if (good && *missing) {
+        JoxText text = {0};
+        jox_text_printf(&text, "missing:\n%s", lines.data);
+        jox_run_send_message(def->message, def->message_context, text.data);
+        jox_text_free(&text);
+    }
+    jox_text_free(&lines);
+    jox_sweep_close(&list);
+    return good;
+}
+
+/* Merges the parts, unless runs are missing and the def does not allow that. */
+static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoError *error) {
     JoxSweepStore store;
     uint32_t done = 0;
-    *counts = (JoSweepCounts){0};
-    bool good = jox_sweep_open(&store, out, error);
-    for (size_t p = 0; good && p < part_count; p++)
-        good = merge_part(&store, parts[p], error);
+    if (!find_missing_of_merge(def, &counts->missing, error))
+        return false;
+    if (counts->missing && !def->partial) {
+        jox_error(error, JO_INPUT,
+                  "%u planned %s missing, and nothing was merged into %.300s: do %s first, or "
+                  "merge what there is by --partial",
+                  counts->missing, counts->missing == 1 ? "run is" : "runs are", def->out,
+                  counts->missing == 1 ? "it" : "them");
+        return false;
+    }
+    bool good = jox_sweep_open(&store, def->out, error);
+    for (size_t p = 0; good && p < def->part_count; p++)
+        good = merge_part(&store, def->parts[p], error);
     good = good && count_runs(&store, JOX_SWEEP_DONE, &done, error) &&
            count_runs(&store, JOX_SWEEP_TROUBLED, &counts->troubled, error) &&
            count_runs(&store, JOX_SWEEP_FAILED, &counts->failed, error);
     counts->done = done + counts->troubled;
-    counts->runs = counts->done + counts->failed;
+    counts->runs = counts->done + counts->failed + counts->missing;
     jox_sweep_close(&store);
     return good;
+}
+
+enum { MERGE_COOKIE = 0x4a4f4d47 };
+
+JoSweepMergeDef jo_default_sweep_merge_def(void) {
+    return (JoSweepMergeDef){.cookie = MERGE_COOKIE};
+}
+
+bool jo_sweep_merge(const JoSweepMergeDef *def, JoSweepCounts *counts, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == MERGE_COOKIE && def->out && counts, false);
+    JOX_REQUIRE(def->parts && def->part_count > 0, false);
+    JOX_GUARD (NULL, error)
+        return false;
+    *counts = (JoSweepCounts){0};
+    return merge_parts(def, counts, error);
 }

@@ -261,3 +261,13 @@ void jox_sweep_name_variants(const char *const *keys, uint32_t count, char **nam
     }
     jox_free(paths.items);
 }
+
+char **jox_sweep_name_plan(const JoxSweepPlan *plan) {
+    const char **keys = jox_alloc(plan->variant_count, sizeof *keys);
+    char **names = jox_alloc(plan->variant_count, sizeof *names);
+    for (uint32_t v = 0; v < plan->variant_count; v++)
+        keys[v] = plan->variants[v].key;
+    jox_sweep_name_variants(keys, plan->variant_count, names);
+    jox_free(keys);
+    return names;
+}

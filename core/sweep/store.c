@@ -3,18 +3,20 @@
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "base/guard.h"
 #include "base/hash.h"
 
-/* Header fields of the SQLite file: the id "JSwp", and the version of these tables. */
+/* Header field of the SQLite file: the id "JSwp". */
 #define APPLICATION "1246984048"
-#define FORMAT "1"
+/* A format that is read, and continued: it lacks the table `planned`. */
+#define FORMER_FORMAT "1"
 
 static const char SCHEMA[] =
     "BEGIN;"
-    "CREATE TABLE sweep(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE sweep(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;" JOX_SWEEP_PLANNED
     "CREATE TABLE input(path TEXT PRIMARY KEY, sha256 TEXT NOT NULL, text BLOB NOT NULL);"
     "CREATE TABLE variant(id INTEGER PRIMARY KEY, settings TEXT NOT NULL UNIQUE, plan TEXT);"
     "CREATE TABLE run(variant INTEGER NOT NULL, seed INTEGER NOT NULL, state TEXT NOT NULL,"
@@ -28,10 +30,10 @@ static const char SCHEMA[] =
     "CREATE TABLE field(variant INTEGER NOT NULL, seed INTEGER NOT NULL, name TEXT NOT NULL,"
     " unit TEXT, low_x REAL, low_y REAL, cell REAL, columns INTEGER, rows INTEGER, cells BLOB,"
     " PRIMARY KEY(variant, seed, name));"
-    "PRAGMA application_id=" APPLICATION ";PRAGMA user_version=" FORMAT ";"
+    "PRAGMA application_id=" APPLICATION ";PRAGMA user_version=" JOX_SWEEP_FORMAT ";"
     "COMMIT";
-static const char *const TABLES[] = {"sweep",      "input",       "variant", "run", "figure",
-                                     "curve_name", "curve_point", "field",   NULL};
+static const char *const TABLES[] = {"sweep",  "planned",    "input",       "variant", "run",
+                                     "figure", "curve_name", "curve_point", "field",   NULL};
 
 bool jox_sweep_set_error(const JoxSweepStore *store, JoError *error) {
     const int code = sqlite3_errcode(store->db->sqlite) & 0xff;
@@ -87,15 +89,17 @@ static bool check_format(const JoxSweepStore *store, JoError *error) {
     snprintf(text, sizeof text, "%lld", (long long)read_pragma(store, "PRAGMA application_id"));
     if (strcmp(text, APPLICATION) != 0) {
         const int code = sqlite3_errcode(store->db->sqlite) & 0xff;
+        if (code == SQLITE_CORRUPT)
+            return jox_sweep_set_error(store, error);
         jox_error(error, JO_INPUT, "%.300s is no file of `jostle sweep`%s; it is left as it is",
                   store->path, code == SQLITE_NOTADB ? ", nor any SQLite database" : "");
         return false;
     }
     snprintf(text, sizeof text, "%lld", (long long)read_pragma(store, "PRAGMA user_version"));
-    if (strcmp(text, FORMAT) == 0)
+    if (strcmp(text, JOX_SWEEP_FORMAT) == 0 || strcmp(text, FORMER_FORMAT) == 0)
         return true;
     jox_error(error, JO_INPUT, "%.300s is a sweep's file of format %s, and this program has %s",
-              store->path, text, FORMAT);
+              store->path, text, JOX_SWEEP_FORMAT);
     return false;
 }
 
@@ -148,6 +152,42 @@ bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *err
     *store = (JoxSweepStore){.path = jox_strdup(path)};
     return connect_database(store, path, JOX_DATABASE_READ, error) && check_format(store, error) &&
            restrict_tables(store, error);
+}
+
+bool jox_sweep_open_in_memory(JoxSweepStore *store, const char *path, JoError *error) {
+    *store = (JoxSweepStore){.path = jox_strdup(path)};
+    if (!jox_file_can_be_written(path)) {
+        jox_error(error, JO_FAILED, "cannot write '%.300s': %s", path, jox_file_error_text(errno));
+        return false;
+    }
+    return connect_database(store, NULL, JOX_DATABASE_WRITE, error) && prepare_tables(store, error);
+}
+
+bool jox_sweep_write_file(const JoxSweepStore *store, JoError *error) {
+    sqlite3_int64 size = 0;
+    unsigned char *bytes = sqlite3_serialize(store->db->sqlite, "main", &size, 0);
+    if (!bytes)
+        return jox_sweep_set_error(store, error);
+    FILE *file = jox_file_replace(store->path);
+    bool good = file && fwrite(bytes, 1, (size_t)size, file) == (size_t)size;
+    good = good && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    const int why = errno;
+    if (file && (good ? jox_file_close(file) : jox_file_drop(file)) != 0 && good)
+        good = false;
+    else
+        errno = why;
+    sqlite3_free(bytes);
+    if (!good)
+        jox_error(error, JO_FAILED, "cannot write '%.300s': %s", store->path,
+                  jox_file_error_text(errno));
+    return good;
+}
+
+bool jox_sweep_attach_part(const JoxSweepStore *store, const char *path, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(store, "ATTACH ? AS part", error);
+    if (s)
+        sqlite3_bind_text(s, 1, path, -1, SQLITE_STATIC);
+    return jox_sweep_step_once(store, s, error);
 }
 
 void jox_sweep_close(JoxSweepStore *store) {
@@ -239,15 +279,8 @@ bool jox_sweep_find_variant(const JoxSweepStore *store, const char *key, int64_t
     return good;
 }
 
-bool jox_sweep_find_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
-                          JoError *error) {
-    sqlite3_stmt *s =
-        jox_sweep_prepare(store, "SELECT state FROM run WHERE variant = ? AND seed = ?", error);
-    *state = -1;
-    if (!s)
-        return false;
-    sqlite3_bind_int64(s, 1, variant);
-    sqlite3_bind_int64(s, 2, (sqlite3_int64)seed);
+/* Reads the state that a statement finds, and finalizes it. */
+static bool read_state(const JoxSweepStore *store, sqlite3_stmt *s, int *state, JoError *error) {
     const int code = sqlite3_step(s);
     const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(s, 0) : NULL;
     for (int k = 0; text && k < 3; k++)
@@ -257,4 +290,30 @@ bool jox_sweep_find_state(const JoxSweepStore *store, int64_t variant, uint64_t 
         code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_set_error(store, error);
     jox_sweep_finalize(store, s);
     return good;
+}
+
+bool jox_sweep_find_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
+                          JoError *error) {
+    sqlite3_stmt *s =
+        jox_sweep_prepare(store, "SELECT state FROM run WHERE variant = ? AND seed = ?", error);
+    *state = -1;
+    if (!s)
+        return false;
+    sqlite3_bind_int64(s, 1, variant);
+    sqlite3_bind_int64(s, 2, (sqlite3_int64)seed);
+    return read_state(store, s, state, error);
+}
+
+bool jox_sweep_find_run(const JoxSweepStore *store, const char *key, uint64_t seed, int *state,
+                        JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(store,
+                                        "SELECT r.state FROM run r JOIN variant v ON v.id = "
+                                        "r.variant WHERE v.settings = ? AND r.seed = ?",
+                                        error);
+    *state = -1;
+    if (!s)
+        return false;
+    sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
+    sqlite3_bind_int64(s, 2, (sqlite3_int64)seed);
+    return read_state(store, s, state, error);
 }

@@ -3,6 +3,7 @@
    it:
 
      sweep(key, value)                    what all runs share: "scene", "version", "step", ...
+     planned(settings, first_seed, seeds) the plans: "PATH=A,B,C" of each axis, one a line
      input(path, sha256, text)            every file that the runs were loaded from, with its text
      variant(id, settings, plan)          settings: "PATH=VALUE", one a line; plan: JSON
      run(variant, seed, state, reason, hash, steps, simulated_s, cpu_s, wall_s, summary)
@@ -18,6 +19,11 @@
 #include "base/database.h"
 #include "sweep/sweep.h"
 
+#define JOX_SWEEP_FORMAT "2" /* version of these tables */
+#define JOX_SWEEP_PLANNED                                                                          \
+    "CREATE TABLE IF NOT EXISTS planned(settings TEXT NOT NULL, first_seed INTEGER NOT NULL,"      \
+    " seeds INTEGER NOT NULL, PRIMARY KEY(settings, first_seed, seeds)) WITHOUT ROWID;"
+
 typedef struct JoxSweepStore {
     JoxDatabase *db;
     FILE *claim; /* locks the file against other sweeps; NULL: opened for reading */
@@ -30,7 +36,12 @@ typedef struct JoxSweepStore {
 bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error);
 /* Opens a sweep's file for reading only. */
 bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *error);
+/* Creates a sweep's file in memory, which jox_sweep_write_file writes to `path` as a whole. */
+bool jox_sweep_open_in_memory(JoxSweepStore *store, const char *path, JoError *error);
+bool jox_sweep_write_file(const JoxSweepStore *store, JoError *error);
 void jox_sweep_close(JoxSweepStore *store);
+/* Attaches the sweep's file at a path to the connection, as the database `part`. */
+bool jox_sweep_attach_part(const JoxSweepStore *store, const char *path, JoError *error);
 
 /* Describes SQLite's last error in `error`; always returns false. */
 bool jox_sweep_set_error(const JoxSweepStore *store, JoError *error);
@@ -56,6 +67,9 @@ bool jox_sweep_find_variant(const JoxSweepStore *store, const char *key, int64_t
 /* Finds the JoxSweepState of a run; *state is -1 if the run is not stored. */
 bool jox_sweep_find_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
                           JoError *error);
+/* Finds the same by the key of a variant, which the file may lack. */
+bool jox_sweep_find_run(const JoxSweepStore *store, const char *key, uint64_t seed, int *state,
+                        JoError *error);
 /* Stores the results of a run in place of older ones; `pieces` are those of jox_sweep_simulate. */
 bool jox_sweep_put_run(const JoxSweepStore *store, int64_t variant, uint64_t seed,
                        const JoxText *pieces, JoError *error);
@@ -63,8 +77,23 @@ bool jox_sweep_put_run(const JoxSweepStore *store, int64_t variant, uint64_t see
 bool jox_sweep_put_failure(const JoxSweepStore *store, int64_t variant, uint64_t seed,
                            const char *why, JoError *error);
 
-/* Deletes all runs except those of the `count` seeds from `first` on. */
+/* Deletes all plans, and all runs except those of the `count` seeds from `first` on. */
 bool jox_sweep_keep_seeds(const JoxSweepStore *store, uint64_t first, uint32_t count,
                           JoError *error);
+
+/* ---- planned.c: which runs a file is to have ---- */
+
+/* Notes a plan: what it adds to the plans noted before is missing until it is stored. */
+bool jox_sweep_note_plan(const JoxSweepStore *store, const JoxSweepPlan *plan, JoError *error);
+/* Copies the plans of one file to another. */
+bool jox_sweep_copy_plans(const JoxSweepStore *from, const JoxSweepStore *to, JoError *error);
+/* Called for each plan of a file, in order; false with `error` ends the walk. */
+typedef bool JoxSweepVisitPlan(void *context, const JoxSweepPlan *plan, JoError *error);
+bool jox_sweep_visit_plans(const JoxSweepStore *store, JoxSweepVisitPlan *visit, void *context,
+                           JoError *error);
+/* Counts the runs that plans name and the file lacks, and appends up to 20 lines that name them,
+   "  run 5: count=30, seed 2". */
+bool jox_sweep_find_missing(const JoxSweepStore *store, uint32_t *missing, JoxText *lines,
+                            JoError *error);
 
 #endif

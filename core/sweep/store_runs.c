@@ -121,13 +121,18 @@ static bool insert_field(RunWriter *p, const JoxSweepField *field) {
     return p->good = jox_sweep_step_once(p->store, s, p->error);
 }
 
-/* Stores the plan with the variant; the first run of a variant that has one provides it. */
+/* Stores the plan with the variant, unless the file has that of a run with a lower seed: which run
+   ended first must not matter. */
 static bool insert_plan(RunWriter *p, const char *plan) {
     sqlite3_stmt *s = jox_sweep_prepare(
-        p->store, "UPDATE variant SET plan = ? WHERE id = ? AND plan IS NULL", p->error);
+        p->store,
+        "UPDATE variant SET plan = ? WHERE id = ?2 AND (plan IS NULL OR NOT EXISTS("
+        "SELECT 1 FROM run WHERE variant = ?2 AND seed < ?3 AND summary NOT NULL))",
+        p->error);
     if (s) {
         sqlite3_bind_text(s, 1, plan, -1, SQLITE_STATIC);
         sqlite3_bind_int64(s, 2, p->variant);
+        sqlite3_bind_int64(s, 3, (sqlite3_int64)p->seed);
     }
     return p->good = jox_sweep_step_once(p->store, s, p->error);
 }
@@ -138,7 +143,7 @@ enum { TABLE_COUNT = sizeof TABLES / sizeof *TABLES };
 
 bool jox_sweep_keep_seeds(const JoxSweepStore *store, uint64_t first, uint32_t count,
                           JoError *error) {
-    bool good = true;
+    bool good = jox_sweep_execute(store, JOX_SWEEP_PLANNED "DELETE FROM planned", error);
     for (size_t t = 0; good && t < TABLE_COUNT; t++) {
         char text[100];
         snprintf(text, sizeof text, "DELETE FROM %s WHERE seed < ? OR seed >= ?", TABLES[t]);

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/assert.h"
@@ -35,6 +36,7 @@ typedef struct Sweep {
     const JoSweepDef *def;
     JoxSweepPlan plan;
     JoxSweepStore store;
+    bool whole;           /* the file is made in memory, and written at the end */
     JoxOverlay files;     /* texts of all files that the runs read */
     char **names;         /* by variant */
     bool *heard;          /* by variant: messages of one of its runs were passed on */
@@ -126,10 +128,14 @@ static bool refuse_file(const Sweep *s, const JoxText *differences, JoError *err
 }
 
 /* Opens the file, stores what all runs share, and lists the jobs. If the file was begun with other
-   inputs, fills `differences` and writes nothing. */
+   inputs, fills `differences` and writes nothing. A file of one run is made in memory, to appear
+   as a whole once the run has ended: what is there is never a part of a result. */
 static bool try_file(Sweep *s, JoxText *differences, JoError *error) {
     JoError ignored;
-    if (!jox_sweep_open(&s->store, s->def->out, error) ||
+    struct stat info;
+    s->whole = s->def->only && s->def->out && lstat(s->def->out, &info) != 0;
+    if (!(s->whole ? jox_sweep_open_in_memory(&s->store, s->def->out, error)
+                   : jox_sweep_open(&s->store, s->def->out, error)) ||
         !jox_sweep_execute(&s->store, "BEGIN IMMEDIATE", error) ||
         !jox_sweep_note_inputs(&s->store, s->def, &s->files, differences, error))
         return false;
@@ -137,7 +143,8 @@ static bool try_file(Sweep *s, JoxText *differences, JoError *error) {
         return jox_sweep_execute(&s->store, "ROLLBACK", &ignored);
     return (!s->def->renew ||
             jox_sweep_keep_seeds(&s->store, s->plan.first_seed, s->plan.seeds, error)) &&
-           list_jobs(s, error) && jox_sweep_execute(&s->store, "COMMIT", error);
+           jox_sweep_note_plan(&s->store, &s->plan, error) && list_jobs(s, error) &&
+           jox_sweep_execute(&s->store, "COMMIT", error);
 }
 
 /* Opens the file; one of other inputs is deleted and begun anew if the def says `renew`. */
@@ -241,6 +248,12 @@ static bool take_end(Sweep *s, const JoxChildEnd *end, JoError *error) {
     const Job *job = &s->jobs[end->job];
     if (end->good)
         return take_result(s, job, &end->result, error);
+    if (end->killed && s->def->only) { /* says nothing about the scene: leaves the run to be done */
+        jox_error(error, JO_FAILED,
+                  "run %u: %s. Nothing is stored: the same command does the run again",
+                  s->def->only, end->why);
+        return false;
+    }
     if (!jox_sweep_put_failure(&s->store, job->id, job->seed, end->why, error))
         return false;
     count_state(s, JOX_SWEEP_FAILED);
@@ -332,11 +345,15 @@ static bool run_sweep(Sweep *s, char **summary, JoError *error) {
     jox_children_free(children);
     show_sweep_progress(s, 0, true);
     s->counts.missing = s->counts.runs - s->counts.done - s->counts.failed;
+    if (good && s->whole && s->counts.missing == 0 && !jox_sweep_write_file(&s->store, error))
+        return false;
     if (good && is_stopped(s)) {
         jox_error(error, JO_FAILED,
-                  s->def->out ? "interrupted; %u of %u runs are kept in %s, and the same command "
-                                "continues with it"
-                              : "interrupted",
+                  s->whole && s->counts.missing
+                      ? "interrupted; nothing is stored, and the same command does the run"
+                  : s->def->out ? "interrupted; %u of %u runs are kept in %s, and the same command "
+                                  "continues with it"
+                                : "interrupted",
                   s->counts.done + s->counts.failed, s->counts.runs, s->def->out);
         return false;
     }
@@ -371,12 +388,7 @@ static bool plan_sweep(Sweep *s, JoError *error) {
                   variants * def->seeds);
         return false;
     }
-    const char **keys = jox_alloc(variants, sizeof *keys);
-    s->names = jox_alloc(variants, sizeof *s->names);
-    for (uint32_t v = 0; v < variants; v++)
-        keys[v] = s->plan.variants[v].key;
-    jox_sweep_name_variants(keys, variants, s->names);
-    jox_free(keys);
+    s->names = jox_sweep_name_plan(&s->plan);
     return true;
 }
 

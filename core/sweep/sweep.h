@@ -51,6 +51,8 @@ void jox_sweep_free_plan(JoxSweepPlan *plan);
    to its last name where that is unambiguous. `keys` are those of JoxSweepVariant. A single variant
    has the empty name. The caller frees each name. */
 void jox_sweep_name_variants(const char *const *keys, uint32_t count, char **names);
+/* Names the variants of a plan. The caller frees each name and the list. */
+char **jox_sweep_name_plan(const JoxSweepPlan *plan);
 
 /* ---- one run ---- */
 

@@ -1,5 +1,5 @@
 # jostle sweep: every combination and seed in one file, which is continued after any end, holds its inputs, and refuses
-# others; the same by GNU parallel; run --seeds, which uses the same mechanism.
+# others; the same by GNU parallel; run --seeds, which uses the same mechanism. tests/cluster has Slurm and Snakemake.
 . tests/scenes/lib.sh
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
 mkdir -p "$work/project/scenes" "$work/project/behaviours"
@@ -120,6 +120,8 @@ expect "a repeated value is refused" 2 "stands in the list twice" "$program" swe
 expect "an open bracket is refused" 2 "not closed" "$program" sweep $scene --set 'groups.hall.set.speed=normal(1,2' --out x.sqlite
 expect "a repeated path is refused" 2 "set twice" "$program" sweep $scene --set groups.hall.count=1 --set groups.hall.count=2 --out x.sqlite
 expect "too many runs are refused" 2 "100000 runs are the most" "$program" sweep $scene --set groups.hall.count=1,2 --seeds 100000 --out x.sqlite
+expect "--missing without --list is refused" 2 "--missing goes with --list" "$program" sweep $scene --missing --out x.sqlite
+expect "a folder without files is not merged" 3 "has no file whose name ends in .sqlite" "$program" sweep --merge scenes --out x.sqlite
 expect "a sweep without --out is refused" 2 "--out FILE says" "$program" sweep $scene --seeds 2
 expect "a missing scene is refused" 3 "gone.yaml" "$program" sweep gone.yaml --out x.sqlite
 printf 'not a database, and long enough to be looked at: %0100d' 7 >foreign.sqlite; cp foreign.sqlite kept
@@ -145,15 +147,52 @@ grep -q 'status 1' "$work/out" && grep -q 'finished runs are kept' "$work/out"; 
 [ "$(wc -l <jobs)" = 6 ] && [ ! -e many.sqlite ]; verdict "--list prints a command for each run" $?
 parallel --version >/dev/null && parallel -j 2 <jobs >"$work/out" 2>&1; verdict "GNU parallel runs these" $?
 [ "$(ls many-parts | wc -l)" = 6 ] && [ "$(sqlite3 many-parts/run-000005.sqlite 'select count(*), min(seed) from run')" = "1|2" ]; verdict "  each writes a file of its own" $?
-rm many-parts/run-000004.sqlite
-expect "--merge merges the files" 0 "5 runs with figures" "$program" sweep --merge many-parts/*.sqlite --out many.sqlite
+mv many-parts/run-000004.sqlite fourth.sqlite
+expect "--merge names a missing run" 3 "run 4: count=30, seed 1" "$program" sweep --merge many-parts --out many.sqlite
+grep -qF 'nothing was merged into many.sqlite' "$work/out" && [ ! -e many.sqlite ]; verdict "  and merges nothing" $?
+expect "  --status names it" 1 $'4\tmissing\tcount=30, seed 1\tmany-parts/run-000004.sqlite' "$program" sweep $scene "${what[@]}" --out many.sqlite --status
+[ "$("$program" sweep $scene "${what[@]}" --out many.sqlite --list --missing)" = "$(sed -n 4p jobs)" ]; verdict "  --list --missing prints its command" $?
+expect "  --partial merges the others" 1 "5 runs with figures, 1 missing" "$program" sweep --merge many-parts/*.sqlite --out many.sqlite --partial
 expect "  and the sweep's command does the missing run" 0 "6 of 6 runs done (5 from before)" "$program" sweep $scene "${what[@]}" --out many.sqlite
 table many.sqlite | cmp -s - whole.csv; verdict "  the table is that of one machine" $?
-[ "$(sqlite3 many.sqlite 'select count(*), sum(value) from curve_point')" = "$(sqlite3 whole.sqlite 'select count(*), sum(value) from curve_point')" ]; verdict "  and so are the curves" $?
+size=$(stat -c %s fourth.sqlite); head -c $((size / 2)) fourth.sqlite >many-parts/run-000004.sqlite
+expect "half a file is not merged" 3 "the file is damaged" "$program" sweep --merge many-parts --out half.sqlite
+grep -qF many-parts/run-000004.sqlite "$work/out" && [ ! -e half.sqlite ]; verdict "  nor any other" $?
+cp fourth.sqlite many-parts/run-000004.sqlite
+expect "all files are merged in a canonical file" 0 "6 runs with figures" "$program" sweep --merge many-parts/*4.sqlite many-parts --out merged.sqlite --canonical
+"$program" sweep $scene "${what[@]}" --out alone.sqlite --jobs 1 --isa scalar --quiet --canonical; cmp alone.sqlite merged.sqlite; verdict "  which is that of one machine, byte for byte" $?
+"$program" sweep $scene "${what[@]}" --out many.sqlite --quiet --canonical && cmp many.sqlite merged.sqlite; verdict "  and that of a sweep that was continued" $?
+[ "$(sqlite3 merged.sqlite 'pragma integrity_check')" = ok ] && table merged.sqlite | cmp -s - whole.csv; verdict "  it has the results of all runs" $?
+sed -n 2p jobs | sed 's/ --out .*//; s/ --for [^ ]*/ --for 80/' >long
+sh -c "exec $(cat long) --out only.sqlite" 2>"$work/out" &
+pid=$!
+child=
+while kill -0 $pid && [ -z "$child" ]; do sleep 0.05; child=$(pgrep -P $pid); done
+kill -KILL $child; wait $pid
+[ $? = 1 ] && grep -q 'run 2: its process was ended by signal 9' "$work/out" && [ ! -e only.sqlite ]; verdict "of one run whose process is killed no file is left" $?
+sh -c "exec $(cat long) --out only.sqlite" 2>"$work/out" &
+pid=$!
+child=
+while kill -0 $pid && [ -z "$child" ]; do sleep 0.05; child=$(pgrep -P $pid); done
+kill -TERM $child $pid; wait $pid
+[ $? = 143 ] && grep -q 'nothing is stored' "$work/out" && [ -z "$(ls | grep '^only')" ]; verdict "  nor of one that a batch system cancels" $?
+[ "$(sqlite3 merged.sqlite 'select count(*), sum(value) from curve_point')" = "$(sqlite3 whole.sqlite 'select count(*), sum(value) from curve_point')" ]; verdict "  and so are the curves" $?
 "$program" sweep $scene --set groups.hall.count=20,30 --set groups.archive.count=6 --seeds 3 --for 7 --only 1 --out another.sqlite --quiet
 expect "a file of another sweep is not merged" 3 "belongs to another sweep" "$program" sweep --merge another.sqlite --out many.sqlite
 cp many-parts/run-000001.sqlite lies.sqlite; sqlite3 lies.sqlite "update run set hash = '0000000000000000'"
 expect "a file with another result for a run is not merged" 3 "the programs that made them are not the same" "$program" sweep --merge lies.sqlite --out many.sqlite
+
+sed -i 's/^jostle: 1/jostle: 1 # edited/' $scene
+expect "the state of runs of other inputs is not told" 3 "$scene has changed" "$program" sweep $scene "${what[@]}" --out many.sqlite --status
+sed -i 's/^jostle: 1 # edited/jostle: 1/' $scene
+# A file of the former format, which has no plans, is continued and merged.
+for f in former/run-000001 former; do
+    mkdir -p former; cp many-parts/run-000001.sqlite $f.sqlite
+    sqlite3 $f.sqlite 'drop table planned; pragma user_version = 1'
+done
+expect "a file of the former format is merged" 0 "1 run with figures" "$program" sweep --merge former --out from-former.sqlite
+expect "  and continued" 0 "6 of 6 runs done (1 from before)" "$program" sweep $scene "${what[@]}" --out former.sqlite --canonical
+cmp former.sqlite merged.sqlite; verdict "  to the same file" $?
 
 # ---- run --seeds ----
 "$program" run $scene --set groups.hall.count=20 --set groups.archive.count=5 --seeds 3 --for 4 --quiet --summary seeds.json --data each 2>err

@@ -335,6 +335,11 @@ static void quiet(void *context, const char *text) {
     (void)text;
 }
 
+static void ignore_run(void *context, const JoSweepRunState *run) {
+    (void)context;
+    (void)run;
+}
+
 static void texts_that_are_missing_are_reported(void **state) {
     (void)state;
     const char *const none[] = {NULL, "{}"};
@@ -361,6 +366,8 @@ static void texts_that_are_missing_are_reported(void **state) {
     sweep.sets = none;
     sweep.set_count = 1;
     assert_int_equal(jo_sweep_runs(&sweep, &error), 0);
+    assert_int_equal(error.code, JO_USAGE);
+    assert_false(jo_sweep_states(&sweep, "parts", ignore_run, NULL, &error));
     assert_int_equal(error.code, JO_USAGE);
 }
 

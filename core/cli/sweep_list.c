@@ -1,0 +1,109 @@
+/* Prints a command for each run of a sweep, or its state: `jostle sweep --list` and `--status`. */
+#include "cli/sweep_list.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/format/quote.h"
+
+typedef struct Lister {
+    const CliSweep *sweep;
+    JoxText begin; /* of each command: the program, the scene and the options of all runs */
+    bool any_missing;
+} Lister;
+
+static void add_option(JoxText *out, const char *name, const char *value) {
+    jox_text_printf(out, " --%s ", name);
+    jox_quote_shell(out, value);
+}
+
+/* Appends the options that all runs share. */
+static void add_shared_options(JoxText *out, const CliSweep *sweep, const char *program) {
+    const JoSweepDef *def = &sweep->def;
+    jox_quote_shell(out, program);
+    jox_text_add(out, " sweep ");
+    jox_quote_shell(out, def->scene.path);
+    for (size_t s = 0; s < def->set_count; s++)
+        add_option(out, "set", def->sets[s]);
+    for (size_t m = 0; m < def->scene.mod_count; m++)
+        add_option(out, "mod", def->scene.mods[m]);
+    jox_text_printf(out, " --seeds %u", def->seeds);
+    if (def->scene.has_seed)
+        jox_text_printf(out, " --seed %llu", (unsigned long long)def->scene.seed);
+    if (sweep->has_seconds)
+        jox_text_printf(out, " --for %.9g", def->seconds);
+    if (def->steps)
+        jox_text_printf(out, " --steps %llu", (unsigned long long)def->steps);
+    if (def->scene.has_dt)
+        jox_text_printf(out, " --dt %.9g", def->scene.dt);
+    if (def->scene.threads)
+        jox_text_printf(out, " --threads %u", def->scene.threads);
+    if (def->scene.isa != JO_ISA_WIDEST)
+        add_option(out, "isa", jo_isa_name(def->scene.isa));
+    if (def->scene.input_log)
+        add_option(out, "input", def->scene.input_log);
+    jox_text_printf(out, "%s%s%s", def->scene.named_mods_only ? " --no-mods" : "",
+                    sweep->trusted ? " --trusted" : "", def->again ? " --again" : "");
+}
+
+static void print_command(void *context, const JoSweepRunState *run) {
+    const Lister *l = context;
+    const bool left =
+        !strcmp(run->state, "missing") || (l->sweep->def.again && !strcmp(run->state, "failed"));
+    if (l->sweep->missing && !left)
+        return;
+    JoxText out = {0};
+    add_option(&out, "out", run->part);
+    printf("%s --only %u%s --quiet\n", l->begin.data, run->number, out.data);
+    jox_text_free(&out);
+}
+
+static void print_state(void *context, const JoSweepRunState *run) {
+    Lister *l = context;
+    l->any_missing |= !strcmp(run->state, "missing");
+    printf("%u\t%s\t%s%sseed %llu\t%s\n", run->number, run->state, run->variant,
+           *run->variant ? ", " : "", (unsigned long long)run->seed, run->part);
+}
+
+/* Makes the folder of the runs' files; false with a message. */
+static bool make_parts_folder(const char *folder) {
+    if (mkdir(folder, 0777) == 0 || errno == EEXIST)
+        return true;
+    fprintf(stderr, "jostle sweep: cannot make the folder '%s': %s\n", folder, strerror(errno));
+    return false;
+}
+
+/* Appends the path of the folder of the runs' files: that of the sweep's file, with "-parts". */
+static void add_parts_folder(JoxText *folder, const char *out) {
+    static const char ENDING[] = ".sqlite";
+    const size_t n = strlen(out), e = sizeof ENDING - 1;
+    const size_t stem = n > e && !strcmp(out + n - e, ENDING) ? n - e : n;
+    jox_text_printf(folder, "%.*s-parts", (int)stem, out);
+}
+
+int cli_list_runs(const CliSweep *sweep) {
+    char program[1024];
+    JoError error = {0};
+    JoxText folder = {0};
+    Lister lister = {.sweep = sweep};
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = 0;
+    add_parts_folder(&folder, sweep->def.out);
+    add_shared_options(&lister.begin, sweep, program);
+    int status =
+        jo_sweep_runs(&sweep->def, &error) ? JO_OK : cli_report_error(&cli_sweep, &error, false);
+    if (status == JO_OK) {
+        cli_output_is_data();
+        status = sweep->list && !make_parts_folder(folder.data) ? JO_FAILED : JO_OK;
+    }
+    if (status == JO_OK &&
+        !jo_sweep_states(&sweep->def, folder.data, sweep->list ? print_command : print_state,
+                         &lister, &error))
+        status = cli_report_error(&cli_sweep, &error, false);
+    jox_text_free(&folder);
+    jox_text_free(&lister.begin);
+    return status == JO_OK && lister.any_missing ? JO_FAILED : status;
+}
