@@ -37,14 +37,11 @@ static void create_bullet_world(JoxBodies *b) {
     btDefaultCollisionConstructionInfo info;
     info.m_defaultMaxPersistentManifoldPoolSize = 512;
     info.m_defaultMaxCollisionAlgorithmPoolSize = 512;
-    b->configuration = create_bullet_object<btDefaultCollisionConfiguration>(info);
+    b->configuration = create_bullet_object<JoxBulletConfiguration>(info);
     b->dispatcher = create_bullet_object<btCollisionDispatcher>(b->configuration);
     b->broadphase = create_bullet_object<btDbvtBroadphase>();
-    b->solver = new btSequentialImpulseConstraintSolver();
+    b->solver = new JoxBulletSolver();
     b->world = new JoxBulletWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
-    /* Find all contacts of a body with the ground in the first step, not one more in each, on
-       which the body would rock. */
-    b->configuration->setPlaneConvexMultipointIterations(3, 3);
     /* With friction in one direction alone, bodies under pressure creep. */
     b->world->getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     /* Overlap of touching bodies, m: with faces that just meet, Bullet finds now their edges,

@@ -12,6 +12,9 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include <btBulletDynamicsCommon.h>
+
+#include <BulletCollision/CollisionDispatch/btBoxBoxCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btConvexPlaneCollisionAlgorithm.h>
 #pragma GCC diagnostic pop
 
 extern "C" {
@@ -135,9 +138,29 @@ void jox_bullet_free_heap(const JoxHeap *heap);
    be NULL. */
 bool jox_bodies_are_heaped(const JoxBodies *bodies, JoxText *error);
 
-/* Bullet's world, without work on sleeping and slow bodies that changes nothing. Bullet predicts
-   contacts of fast bodies apart from its pairs: these stay until the next step, and must be
-   removed together with the body. */
+/* Makers of the algorithms of bullet_collide.cc, which find contacts without the C library's
+ * functions. */
+struct JoxBoxContactsMaker : btCollisionAlgorithmCreateFunc {
+    btCollisionAlgorithm *CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo &info,
+                                                   const btCollisionObjectWrapper *one,
+                                                   const btCollisionObjectWrapper *two) override;
+};
+struct JoxGroundContactsMaker : btCollisionAlgorithmCreateFunc {
+    btCollisionAlgorithm *CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo &info,
+                                                   const btCollisionObjectWrapper *one,
+                                                   const btCollisionObjectWrapper *two) override;
+};
+/* Chooses the algorithm for each pair of kinds of shapes. */
+struct JoxBulletConfiguration : btDefaultCollisionConfiguration {
+    JoxBoxContactsMaker boxes;
+    JoxGroundContactsMaker ground, ground_first;
+    explicit JoxBulletConfiguration(const btDefaultCollisionConstructionInfo &info);
+    btCollisionAlgorithmCreateFunc *getCollisionAlgorithmCreateFunc(int one, int two) override;
+};
+
+/* Bullet's world and solver, without work on sleeping and slow bodies that changes nothing, and
+   without the C library's functions. Bullet predicts contacts of fast bodies apart from its pairs:
+   these stay until the next step, and must be removed together with the body. */
 struct JoxBulletWorld : btDiscreteDynamicsWorld {
     using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
     void remove(btRigidBody *body);
@@ -149,15 +172,22 @@ struct JoxBulletWorld : btDiscreteDynamicsWorld {
     void predictUnconstraintMotion(btScalar dt) override;
     void createPredictiveContacts(btScalar dt) override;
     void integrateTransforms(btScalar dt) override;
+
+  private:
+    void integrate_fast(btRigidBody *body, btScalar dt);
+};
+struct JoxBulletSolver : btSequentialImpulseConstraintSolver {
+    btScalar solveGroupCacheFriendlyFinish(btCollisionObject **bodies, int count,
+                                           const btContactSolverInfo &info) override;
 };
 
 struct JoxBodies {
     JoxHeap *heap; /* heap in use when it was created */
     JoxBodiesDef def;
-    btDefaultCollisionConfiguration *configuration;
+    JoxBulletConfiguration *configuration;
     btCollisionDispatcher *dispatcher;
     btDbvtBroadphase *broadphase;
-    btSequentialImpulseConstraintSolver *solver;
+    JoxBulletSolver *solver;
     JoxBulletWorld *world; /* NULL until the first body or wall */
     btCollisionShape *ground_shape;
     btRigidBody *ground;
