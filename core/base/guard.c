@@ -18,15 +18,15 @@ void jox_memory_error(JoError *error) {
 /* ---- subnormal numbers ---- */
 
 #if defined(__x86_64__) || defined(__i386__)
-/* Bits FTZ and DAZ of the SSE control register: subnormal results and operands are zero. All other
-   bits, exception flags among them, are kept. */
+/* Bits FTZ and DAZ of the SSE control register: subnormal results and operands become zero. All
+   other bits, exception flags among them, are kept. */
 enum { FLUSH = 0x8000 | 0x0040 };
 
 static uint64_t read_mode(void) {
     return _mm_getcsr() & FLUSH;
 }
 
-/* Sets the bits that flush subnormal numbers, and no others. */
+/* Sets or clears the bits that flush subnormal numbers, and no others. */
 static void set_mode(uint64_t mode) {
     const uint64_t now = _mm_getcsr();
     if ((now & FLUSH) != mode) /* writing the register is slower than reading it */
@@ -51,8 +51,6 @@ static void set_mode(uint64_t mode) {
         __asm__ volatile("msr fpcr, %0" : : "r"((now & ~FLUSH) | mode));
 }
 #else
-enum { FLUSH = 0 };
-
 static uint64_t read_mode(void) {
     return 0;
 }
@@ -78,7 +76,7 @@ static locale_t plain_locale(void) {
 }
 
 JoxNumeric jox_numeric_plain(void) {
-    return (JoxNumeric){plain_locale(), FLUSH};
+    return (JoxNumeric){plain_locale(), 0};
 }
 
 JoxNumeric jox_numeric_use(JoxNumeric numeric) {

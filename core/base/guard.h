@@ -26,9 +26,10 @@
 /* Numeric settings of a thread.
 
    The engine reads and writes text in the C locale, whatever the program's: with decimal commas,
-   `1.5` would be read as 1. It flushes subnormal numbers (below 1.2e-38 in floats, 2.2e-308 in
-   doubles) to zero: quantities that decay, such as the velocity across an agent's direction, would
-   stay subnormal, and processors take a hundred cycles and more for an operation on those.
+   `1.5` would be read as 1. It computes with subnormal numbers (below 1.2e-38 in floats, 2.2e-308
+   in doubles) as IEEE 754 says, whatever the program does: not every machine can flush them to
+   zero, and results must be the same on all. As they are slow, kernels set to zero what decays
+   (jf_end_decay of simd/vectors.h).
 
    Both settings belong to the thread. The program's are restored at the end of a public call, and
    while a callback of the program runs. */

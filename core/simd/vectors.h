@@ -48,6 +48,14 @@ static inline JoxMask jv_is_nonzero(JoxVector a) {
     const JoxMask none = jm_and(jf_le(jf_abs(a.x), zero), jf_le(jf_abs(a.y), zero));
     return jm_without(jm_of_bits(JOX_ALL_LANES), none);
 }
+/* Returns 0 for what has decayed to less than 1e-12. What loses a share in each step would end as
+   subnormal numbers, on which processors take a hundred cycles and more. */
+static inline JoxFloats jf_end_decay(JoxFloats a) {
+    return jf_select(jf_lt(jf_abs(a), jf_set(1e-12f)), jf_set(0.0f), a);
+}
+static inline JoxVector jv_end_decay(JoxVector a) {
+    return (JoxVector){jf_end_decay(a.x), jf_end_decay(a.y)};
+}
 /* Returns the shortest difference along one axis with periodic edges; as jox_wrap of
    agents/agents.h. */
 static inline JoxFloats jf_wrap(JoxFloats d, float period) {

@@ -18,7 +18,7 @@ static inline void turn_chests(const JoxMove *m, uint32_t i) {
     const JoxFloats c = (one - half * half) * by, s = (half + half) * by;
     const JoxVector to = {c * chest.x - s * chest.y, s * chest.x + c * chest.y};
     const JoxFloats inverse = one / jf_sqrt(jv_dot(to, to));
-    jv_store(a->chest_x, a->chest_y, i, jv_scale(to, inverse));
+    jv_store(a->chest_x, a->chest_y, i, jv_end_decay(jv_scale(to, inverse)));
 }
 
 void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end) {
@@ -41,7 +41,7 @@ void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end
             ends = jv_add(ends, borne);
             turn_chests(m, i);
         }
-        jv_store(a->vx, a->vy, i, ends);
+        jv_store(a->vx, a->vy, i, jv_end_decay(ends));
         jv_store(x, y, 0, jv_add(at, jv_scale(mean, dt)));
         for (uint32_t lane = 0; lane < JOX_WIDTH && i + lane < end; lane++)
             m->position[0][i + lane] = (JoxV2){x[lane], y[lane]};

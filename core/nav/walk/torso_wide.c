@@ -181,7 +181,7 @@ void JOX_WIDE(jox_torso_packets)(const JoxWalk *w, uint32_t begin, uint32_t end)
         const JoxFloats torque = stiffness * error - DAMPING * spin;
         const JoxFloats within = jf_max(-bound, jf_min(bound, torque));
         float out[JOX_WIDTH];
-        jf_store(out, jf_select(is_long, spin + dt * within, spin));
+        jf_store(out, jf_end_decay(jf_select(is_long, spin + dt * within, spin)));
         for (uint32_t lane = 0; lane < JOX_WIDTH && i + lane < end; lane++)
             a->spin[i + lane] = out[lane];
     }

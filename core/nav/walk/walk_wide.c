@@ -429,7 +429,7 @@ static void walk_packet(Packet *p) {
     const JoxVector aim = p->aim;
     const JoxVector e = {to.e.x * aim.x - to.e.y * aim.y, to.e.x * aim.y + to.e.y * aim.x};
     const JoxVector velocity = jox_approach(p->w, i, e, to.allowed);
-    const JoxVector course = jox_turn_course(p->w, i, e);
+    const JoxVector course = jv_end_decay(jox_turn_course(p->w, i, e));
     float out[4][JOX_WIDTH];
     jf_store(out[0], velocity.x);
     jf_store(out[1], velocity.y);
