@@ -1,5 +1,5 @@
 # Compares hashes of scenes for 1, 2 and 4 threads, every instruction set that the machine runs, two processes, -O0 and
-# -O2, gcc and clang. If JOSTLE_MATRIX names scenes (`make matrix`; "all": those below), also for 1 to 8 threads, 20
+# -O2, gcc and clang, and with another C library's functions (other_libm.c), within Bullet too. If JOSTLE_MATRIX names scenes (`make matrix`; "all": those below), also for 1 to 8 threads, 20
 # processes, -O3, reloads without a change, checkpoints at any time, recorder, report, page and trace, and beside a busy
 # process.
 . tests/scenes/lib.sh
@@ -130,9 +130,14 @@ compare dodgeball-500 --for 4
 compare office --set groups.people.count=300 --for 5 --input tests/data/session.input
 [ -z "$matrix" ] || exit 0
 # Every shipped scene, for a short time.
+gcc -O1 -fno-builtin -shared -fPIC -o "$work/other_libm.so" tests/scenes/other_libm.c -ldl -lm
+LD_PRELOAD=$work/other_libm.so "$JOSTLE" run scenes/office.yaml --for 4 --quiet --summary - 2>&1 >/dev/null | grep -q 'other libm: [1-9]'
+verdict "the other C library is in use" $?
 for file in scenes/*.yaml; do
     less=$(.ci/smaller "$file")
-    same_hash "$file, short" "$(hash_of "$JOSTLE" "$file" --for 4 $less)" \
-        "$(hash_of "$JOSTLE" "$file" --for 4 $less --threads 2)" "$(hash_of build/clang/jostle "$file" --for 4 $less --isa scalar)"
+    one=$(hash_of "$JOSTLE" "$file" --for 4 $less)
+    same_hash "$file, short" "$one" "$(hash_of "$JOSTLE" "$file" --for 4 $less --threads 2)" \
+        "$(hash_of build/clang/jostle "$file" --for 4 $less --isa scalar)"
+    same_hash "$file, other C library" "$one" "$(LD_PRELOAD=$work/other_libm.so hash_of "$JOSTLE" "$file" --for 4 $less)"
 done
 exit 0
