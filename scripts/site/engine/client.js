@@ -1,0 +1,33 @@
+// The engine in a worker: calls with answers, and what it tells by itself.
+
+export class EngineClient {
+    /** `tell(event)`: takes {event: "scene" | "status" | "reloaded" | "said" | "failed", ...}. */
+    constructor(address, tell = () => {}) {
+        this.calls = new Map();
+        this.count = 0;
+        this.worker = new Worker(address, { type: "module" });
+        this.worker.onmessage = ({ data }) => (data.id === undefined ? tell(data) : this.answer(data));
+        this.worker.onerror = (event) => {
+            event.preventDefault();
+            const text = event.message || "The engine could not be loaded: a file of the playground is missing.";
+            for (const { reject } of this.calls.values()) reject(new Error(text));
+            this.calls.clear();
+            tell({ event: "failed", text });
+        };
+    }
+
+    answer({ id, result, error }) {
+        const call = this.calls.get(id);
+        this.calls.delete(id);
+        if (error) call?.reject(new Error(error));
+        else call?.resolve(result);
+    }
+
+    /** Calls a function of the worker; resolves with its result. */
+    call(what, given = {}, transfer = []) {
+        return new Promise((resolve, reject) => {
+            this.calls.set(++this.count, { resolve, reject });
+            this.worker.postMessage({ id: this.count, what, ...given }, transfer);
+        });
+    }
+}

@@ -1,0 +1,141 @@
+// The engine's worker: runs one scene turn by turn, feeds the live page by a port, and checks texts. A second one of it, without a page,
+// checks what is being written and tries lessons, so that a large crowd makes neither wait.
+import { Engine } from "./engine/engine.mjs";
+import { plainPath } from "../project/references.js";
+import { observe } from "./observe.js";
+
+const TOLD = new Set(["scene", "status", "reloaded"]); // messages of which the workbench gets a copy
+const ready = Engine.create();
+let scene = null, port = null;
+let answered = true; // the page has taken the last batch
+let timer = 0;
+const soon = new MessageChannel(); // timers of browsers wait 4 ms at least
+soon.port1.onmessage = () => turn();
+
+function schedule(seconds) {
+    clearTimeout(timer);
+    if (seconds > 0.001) timer = setTimeout(turn, 1000 * seconds);
+    else soon.port2.postMessage(null);
+}
+
+function turn() {
+    if (!scene) return;
+    let wait;
+    try {
+        wait = scene.turn();
+    } catch (error) {
+        close();
+        postMessage({ event: "failed", text: error.message });
+        return;
+    }
+    deliver();
+    schedule(wait);
+}
+
+function tellWorkbench(text) {
+    const type = /^\{\s*"type":\s*"(\w+)"/.exec(text)?.[1];
+    if (TOLD.has(type)) postMessage({ event: type, message: JSON.parse(text) });
+}
+
+/** Sends the page what waits, if it has taken what was sent before. */
+function deliver() {
+    if (!scene || !port || !answered) return;
+    const messages = scene.takeMessages().map(({ text, bytes }) => text ?? bytes);
+    for (const message of messages) if (typeof message === "string") tellWorkbench(message);
+    if (messages.length === 0) return;
+    answered = false;
+    port.postMessage({ messages }, messages.filter((message) => typeof message !== "string"));
+}
+
+function close() {
+    clearTimeout(timer);
+    scene?.close();
+    scene = null;
+}
+
+/** Faults with paths as the project has them: "behaviours/a.lua" for "scenes/../behaviours/a.lua". */
+const named = (faults) => faults.map((fault) => ({ ...fault, file: plainPath(fault.file) }));
+
+/** Faults of an error that the engine threw for what is in files; another error is thrown on. */
+function faultsOf(error) {
+    if (!error.errors) throw error;
+    return named(error.errors);
+}
+
+const calls = {
+    /** Takes the port of the page that is shown from now on. */
+    connect({ port: given }) {
+        port = given;
+        answered = true;
+        port.onmessage = ({ data }) => {
+            if (data.command) scene?.command(data.command);
+            else answered = true;
+            deliver();
+            if (data.command) schedule(0);
+        };
+        if (scene) greet();
+        return null;
+    },
+
+    /** Opens a scene in place of the one that runs; if it has errors, that one goes on. Returns {errors}. */
+    async open({ files, path }) {
+        const engine = await ready;
+        let next;
+        try {
+            next = engine.open({ files, scene: path, page: true, say: (text) => postMessage({ event: "said", text }) });
+        } catch (error) {
+            return { errors: faultsOf(error) };
+        }
+        close();
+        scene = next;
+        greet();
+        return { errors: [] };
+    },
+
+    /** Loads changed files into the scene that runs. Returns {news, errors}; with errors nothing has changed. */
+    reload({ files }) {
+        const { live, errors, news } = scene.reload(files);
+        schedule(0);
+        return { errors: live ? [] : named(errors.filter((fault) => fault.severity === "error")), news };
+    },
+
+    async check({ files, path }) {
+        return named((await ready).check(files, path));
+    },
+
+    /** Runs a scene without a page; returns what observe() says of it, or {errors}. */
+    async observe({ files, path, seconds }) {
+        const engine = await ready;
+        let tried;
+        try {
+            tried = engine.open({ files, scene: path, say() {} });
+        } catch (error) {
+            return { errors: faultsOf(error) };
+        }
+        try {
+            return { errors: [], ...observe(tried, seconds) };
+        } finally {
+            tried.close();
+        }
+    },
+
+    async load() {
+        await ready;
+        return null;
+    },
+};
+
+/** Tells the page that a scene runs, which has to be sent to it from the beginning. */
+function greet() {
+    port?.postMessage({ open: true });
+    answered = true;
+    schedule(0);
+}
+
+addEventListener("message", async ({ data: { id, what, ...given } }) => {
+    try {
+        postMessage({ id, result: await calls[what](given) });
+    } catch (error) {
+        postMessage({ id, error: error.message });
+    }
+});

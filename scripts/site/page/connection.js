@@ -1,0 +1,34 @@
+// The live page's connection in the playground: the build puts it in the place of core/view/page/net/connection.js. Messages come
+// by a port from the engine's worker, which gets an answer to each batch and sends the next one then: a slow page gets the newest only.
+import { Connection as Socket } from "../../../core/view/page/net/connection.js";
+
+export class Connection extends Socket {
+    open() {
+        this.isOpen = false;
+        this.handlers.state("connecting");
+        const { port1, port2 } = new MessageChannel();
+        this.port = port1;
+        port1.onmessage = ({ data }) => this.takeBatch(data);
+        window.parent.postMessage({ jostle: "connect" }, location.origin, [port2]);
+    }
+
+    /** Takes {open} once a scene runs, or {messages}: texts and buffers. */
+    takeBatch({ open, messages }) {
+        if (open) {
+            this.isOpen = true;
+            this.handlers.state("open");
+        }
+        if (!messages) return;
+        for (const message of messages) this.receive(message);
+        this.port.postMessage({ taken: true });
+    }
+
+    send(command) {
+        if (!this.isOpen) {
+            this.unsent++;
+            return false;
+        }
+        this.port.postMessage({ command: JSON.stringify(command) });
+        return true;
+    }
+}

@@ -1,0 +1,66 @@
+// Which files a scene reads: behaviours, included scenes, walls, inputs, modules and mods, found by their names in the texts.
+
+const NAME = /[\w./-]+\.(?:lua|yaml|wkt|dxf|geojson|json|xml|input)\b/g;
+const BECOME = /\bbecome\s*=\s*["']([\w-]+)["']/g;
+const REQUIRE = /\brequire\s*\(?\s*["']([\w.-]+)["']/g;
+
+/** "a/b/../c" as "a/c". */
+export function plainPath(path) {
+    const parts = [];
+    for (const part of path.split("/")) {
+        if (part === "..") parts.pop();
+        else if (part !== "." && part !== "") parts.push(part);
+    }
+    return parts.join("/");
+}
+
+export const folderOf = (path) => path.slice(0, path.lastIndexOf("/") + 1);
+
+/** A text without the comments of YAML or Lua: what they name is not read. */
+function withoutComments(path, text) {
+    return path.endsWith(".lua") ? text.replace(/--\[\[[\s\S]*?\]\]|--[^\n]*/g, "") : text.replace(/(^|\s)#[^\n]*/g, "$1");
+}
+
+/** Names of mods that a scene turns on: "mods: {NAME: ...}", or lines below "mods:". */
+export function modsNamed(text) {
+    const plain = withoutComments("x.yaml", text);
+    const flow = /^mods:[ \t]*\{(.*)\}/m.exec(plain)?.[1];
+    if (flow !== undefined) return [...flow.replace(/\{[^}]*\}/g, "").matchAll(/([\w-]+)\s*:/g)].map((m) => m[1]);
+    const block = /^mods:[ \t]*\n((?:[ \t]+[^\n]*\n?)+)/m.exec(plain)?.[1] ?? "";
+    const indent = /^[ \t]+/.exec(block)?.[0];
+    return indent ? block.split("\n").map((line) => new RegExp(`^${indent}([\\w-]+):`).exec(line)?.[1]).filter(Boolean) : [];
+}
+
+/** Paths at which the engine looks for what a file names, the first that exists being read. */
+function candidates(path, name) {
+    const here = folderOf(path);
+    return [here + name, `${here}../behaviours/${name}`, `behaviours/${name}`].map(plainPath);
+}
+
+/**
+ * Returns the paths of all files that the scene at `scene` reads, itself first. `read(path)` returns a text, or undefined where there is
+ * no such file; `list(folder)` the paths of files below a folder.
+ */
+export function filesOf(scene, read, list) {
+    const found = [scene];
+    const add = (path) => {
+        if (!found.includes(path) && read(path) !== undefined) found.push(path);
+    };
+    const addFirst = (paths) => {
+        const path = paths.find((p) => read(p) !== undefined);
+        if (path) add(path);
+    };
+    for (let n = 0; n < found.length; n++) {
+        const path = found[n], text = read(path);
+        if (text === undefined) continue;
+        const plain = withoutComments(path, text);
+        if (path.endsWith(".lua")) {
+            for (const [, machine] of plain.matchAll(BECOME)) addFirst([`${folderOf(path)}${machine}.lua`, `behaviours/${machine}.lua`]);
+            for (const [, module] of plain.matchAll(REQUIRE)) addFirst([`${folderOf(path)}${module}.lua`, `scripts/${module}.lua`].map(plainPath));
+        } else {
+            for (const [name] of plain.matchAll(NAME)) addFirst(candidates(path, name));
+            for (const mod of path.endsWith(".yaml") ? modsNamed(text) : []) list(`${folderOf(path)}mods/${mod}/`).forEach(add);
+        }
+    }
+    return found;
+}

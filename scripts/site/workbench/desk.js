@@ -1,0 +1,273 @@
+// The desk: the texts of a project, what of them runs, and what is done with them: save, undo, restart, check while somebody writes.
+import { byId, el, fill, say } from "../../../core/view/page/dom.js";
+import { newsLines } from "../../../core/view/page/panels/news.js";
+import { Editor } from "../editor/editor.js";
+import { placeText, problemText } from "../editor/problems.js";
+import { EngineClient } from "../engine/client.js";
+import { Draft } from "../project/draft.js";
+import { FilesBar } from "./files_bar.js";
+import { LessonPanel } from "./lesson_panel.js";
+import { Share } from "./share.js";
+
+const PAUSE = 350; // ms without a key before what is written is checked
+const MOST = 50; // problems listed
+const LINES = 300; // of what is printed
+
+export class Desk {
+    /** `given`: {engine, opened, told, notice, begun}: see main.js and opened.js; `begun`: the answer to the first opening. */
+    constructor({ engine, opened, told, notice, begun }) {
+        Object.assign(this, { engine, opened, told, notice });
+        this.scene = opened.scene;
+        this.texts = { ...opened.texts }; // as written
+        this.live = begun.errors.length ? null : { ...opened.texts }; // as they run; null: nothing runs
+        this.versions = []; // what ran before each save, the latest last
+        this.words = { words: [], keys: [], spaces: { other: [], own: [] }, methods: [], scene: {}, behaviours: [] };
+        this.checker = new EngineClient(new URL("worker.js", location.href), ({ event, text }) => event === "failed" && notice(`Errors are not checked while you write: ${text}`));
+        this.draft = new Draft(opened.name);
+        this.editor = new Editor(byId("editor"), {
+            words: () => this.words, texts: () => this.texts, change: (path, text) => this.change(path, text), save: () => this.save(),
+        });
+        this.files = new FilesBar(this);
+        this.share = new Share(this);
+        byId("save").onclick = () => this.save();
+        byId("undo").onclick = () => this.undo();
+        byId("restart").onclick = () => this.restart();
+        addEventListener("keydown", (event) => {
+            if (event.key !== "s" || !(event.ctrlKey || event.metaKey)) return;
+            event.preventDefault();
+            this.save();
+        });
+        this.said = [];
+        told.addEventListener("said", ({ detail }) => this.hear(detail));
+        this.lesson = opened.lessons ? new LessonPanel(this, opened.lessons, opened.lesson) : null;
+        this.show(this.lesson?.file() ?? this.files.paths().find((path) => path.endsWith(".lua")) ?? this.scene);
+        this.loadWords();
+        this.bindDivider();
+        if (begun.errors.length) this.tellErrors(begun.errors, "Nothing runs yet");
+        if (opened.restored) this.tellRestored();
+        this.refresh();
+        this.checkSoon(0);
+    }
+
+    async loadWords() {
+        const answer = await fetch("data/words.json");
+        if (answer.ok) this.words = await answer.json();
+        else this.notice("Words are not completed: data/words.json is missing.");
+    }
+
+    tellRestored() {
+        const when = new Date(this.opened.restored).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+        this.notice(`Your work of ${when} is here again: it was not shared.`, el("button", { type: "button", onclick: () => this.discard() }, "Discard it"));
+    }
+
+    discard() {
+        this.draft.forget();
+        location.reload();
+    }
+
+    /** Shows a file in the editor. */
+    show(path) {
+        this.path = path;
+        this.editor.show(path, this.texts[path] ?? "");
+        this.files?.draw();
+    }
+
+    change(path, text) {
+        if (this.texts[path] === text) return;
+        this.texts[path] = text;
+        this.keep();
+        this.refresh();
+        this.checkSoon(PAUSE);
+    }
+
+    /** Replaces the text of a file by another one, which the editor can take back. */
+    replace(path, text) {
+        const isNew = !(path in this.texts);
+        if (isNew) this.texts[path] = "";
+        if (this.path !== path) this.show(path);
+        this.editor.replace(path, text);
+        this.change(path, text);
+        if (isNew) this.files.draw();
+    }
+
+    keep() {
+        const kept = this.draft.keep(this.texts, this.opened.files, { scene: this.scene, lesson: this.lesson?.number });
+        if (!kept && !this.warned) this.notice("This browser keeps nothing: download your work before you close the tab.");
+        this.warned ||= !kept;
+    }
+
+    /** Paths whose texts are not those that run. */
+    changed() {
+        return Object.keys(this.texts).filter((path) => this.live?.[path] !== this.texts[path]);
+    }
+
+    refresh() {
+        const changed = this.changed();
+        byId("save").disabled = changed.length === 0;
+        byId("undo").disabled = this.versions.length === 0;
+        byId("restart").disabled = false;
+        say(byId("save"), this.live ? "Save" : "Start");
+        byId("waiting").hidden = this.live !== null;
+        this.files.draw();
+    }
+
+    checkSoon(wait) {
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => this.check(), wait);
+    }
+
+    /** Checks the texts as they are written, and shows what is wrong. */
+    async check() {
+        const asked = (this.asked = { ...this.texts });
+        let problems;
+        try {
+            problems = await this.checker.call("check", { files: asked, path: this.scene });
+        } catch (error) {
+            return this.notice(`Errors are not checked while you write: ${error.message}`);
+        }
+        if (asked === this.asked) this.setProblems(problems);
+        return problems;
+    }
+
+    setProblems(problems) {
+        this.problems = problems;
+        this.editor.setProblems(problems);
+        const node = byId("problems"), errors = problems.filter((p) => p.severity === "error").length;
+        node.hidden = problems.length === 0;
+        fill(node, el("h2", {}, errors === 0 ? "Notes" : errors === 1 ? "1 error" : `${errors} errors`), el("ul", {}, problems.slice(0, MOST).map((p) => el("li", { "data-severity": p.severity },
+            el("button", { type: "button", onclick: () => this.goTo(p) }, placeText(p)), ` ${problemText(p)}`))));
+        this.files.draw();
+    }
+
+    goTo(problem) {
+        if (!(problem.file in this.texts)) return;
+        this.show(problem.file);
+        if (problem.line) this.editor.goTo(problem);
+    }
+
+    /** Saves: loads changed files into the crowd that runs, or begins it. */
+    async save() {
+        if (this.saving) return;
+        const changed = this.changed();
+        if (changed.length === 0) return this.tell("Nothing has changed since the last save.");
+        this.saving = true;
+        try {
+            await (this.live ? this.reload(changed) : this.begin("Started"));
+        } catch (error) {
+            this.tell(`That was not saved: ${error.message}`);
+        } finally {
+            this.saving = false;
+            this.refresh();
+        }
+        await this.lesson?.check();
+    }
+
+    /** Loads files into the crowd that runs; with `back`, as the way back from a save. */
+    async reload(changed, back = false) {
+        const files = Object.fromEntries(changed.map((path) => [path, this.texts[path]])), before = { ...this.live };
+        const { errors, news } = await this.engine.call("reload", { files });
+        if (errors.length) return this.tellErrors(errors, "Not live: the version before keeps running");
+        this.live = { ...this.texts };
+        if (!back) this.versions.push(before);
+        this.setProblems((this.problems ?? []).filter((p) => p.severity !== "error"));
+        this.tellNews(news, back);
+        this.checkSoon(0);
+        this.lastNews = news;
+    }
+
+    /** Begins the scene anew with what is written. */
+    async begin(done) {
+        const { errors } = await this.engine.call("open", { files: this.texts, path: this.scene });
+        if (errors.length) return this.tellErrors(errors, this.live ? "Not restarted: the version before keeps running" : "Nothing runs yet");
+        if (this.live && this.changed().length) this.versions.push({ ...this.live });
+        this.live = { ...this.texts };
+        this.lastNews = [];
+        this.tell(`${done} with ${Object.keys(this.texts).length === 1 ? "this file" : `these ${Object.keys(this.texts).length} files`}.`);
+        this.checkSoon(0);
+    }
+
+    async restart() {
+        try {
+            await this.begin("Started anew");
+        } catch (error) {
+            this.tell(`Not restarted: ${error.message}`);
+        }
+        this.refresh();
+        await this.lesson?.check();
+    }
+
+    /** Takes the last save back: texts and machines as before it. */
+    async undo() {
+        const before = this.versions.pop();
+        if (!before) return;
+        for (const path of Object.keys(this.texts)) if (before[path] !== undefined && before[path] !== this.texts[path]) this.replace(path, before[path]);
+        try {
+            await this.reload(this.changed(), true);
+        } catch (error) {
+            this.tell(`The save was not taken back: ${error.message}`);
+        }
+        this.refresh();
+    }
+
+    /** Shows what the engine and behaviours print, as natively the terminal does. */
+    hear(text) {
+        this.said = [...this.said, ...text.split("\n")].slice(-LINES);
+        const node = byId("said"), lines = node.querySelector("pre"), follows = lines.scrollTop + lines.clientHeight >= lines.scrollHeight - 4;
+        node.hidden = false;
+        lines.textContent = this.said.join("\n");
+        if (follows) lines.scrollTop = lines.scrollHeight;
+    }
+
+    tell(text, ...more) {
+        const node = byId("outcome");
+        delete node.dataset.kind;
+        node.hidden = false;
+        fill(node, el("button", { type: "button", className: "close", "aria-label": "Close", onclick: () => (node.hidden = true) }, "×"), el("p", {}, text), more);
+    }
+
+    tellErrors(errors, what) {
+        this.setProblems(errors);
+        this.tell(`${what}. ${errors.length === 1 ? "1 error" : `${errors.length} errors`}, the first in ${placeText(errors[0])}: ${problemText(errors[0])}`);
+        byId("outcome").dataset.kind = "error";
+    }
+
+    /** Tells what a save changed: people by state before and after, and what needs a restart. */
+    tellNews(news, back) {
+        const later = news.some((item) => item.later);
+        const rows = news.map((item) => el("div", { className: "item" }, el("strong", {}, `${item.file.split("/").pop()} is ${back ? "as before" : "live"}`), el("ul", {}, newsLines(item).map((line) => el("li", {}, line)))));
+        this.tell(rows.length ? "" : back ? "The save is taken back." : "Saved.", rows, el("div", { className: "row" },
+            later ? el("button", { type: "button", className: "main", onclick: () => this.restart() }, "Restart, so that all of it counts") : null,
+            back ? null : el("button", { type: "button", onclick: () => this.undo() }, "Undo this save")));
+    }
+
+    /** Opens another project in place of this one: {scene, files}. */
+    async open({ scene, files }, done) {
+        this.scene = scene;
+        this.texts = { ...files };
+        this.live = null;
+        this.versions = [];
+        this.editor.forget();
+        this.show(this.lesson?.file() ?? scene);
+        this.keep();
+        await this.restart();
+        if (this.live && done) this.tell(done);
+    }
+
+    bindDivider() {
+        const divider = byId("divider"), main = divider.parentElement;
+        const set = (share) => main.style.setProperty("--desk", `${Math.min(75, Math.max(20, share)).toFixed(1)}%`);
+        divider.onpointerdown = (event) => {
+            divider.setPointerCapture(event.pointerId);
+            document.body.classList.add("dragging"); // the frame would take the pointer
+            divider.onpointermove = (move) => set((100 * move.clientX) / innerWidth);
+        };
+        divider.onpointerup = divider.onpointercancel = () => {
+            divider.onpointermove = null;
+            document.body.classList.remove("dragging");
+        };
+        divider.onkeydown = ({ key }) => {
+            const by = { ArrowLeft: -3, ArrowRight: 3 }[key];
+            if (by) set((100 * divider.getBoundingClientRect().left) / innerWidth + by);
+        };
+    }
+}

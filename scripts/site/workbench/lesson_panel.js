@@ -1,0 +1,124 @@
+// The walk through the tutorial: a lesson's text, what it asks for, and the way to the next one.
+import { byId, el, fill } from "../../../core/view/page/dom.js";
+import { lessonFiles } from "./opened.js";
+import { CHECKS } from "./lesson_checks.js";
+
+/** Elements of the parts of a line of text (make/lessons.mjs). */
+const inline = (parts) => parts.map((p) => (typeof p === "string" ? p : p.code ? el("code", {}, p.code) : p.bold ? el("strong", {}, p.bold) : p.text));
+
+export class LessonPanel {
+    /** `lessons`: of data/lessons.json; `number`: from 0. */
+    constructor(desk, lessons, number) {
+        this.desk = desk;
+        this.lessons = lessons;
+        this.number = number;
+        this.live = { news: [], scene: null, status: null };
+        this.node = byId("lesson");
+        this.node.hidden = false;
+        for (const event of ["scene", "status"]) {
+            desk.told.addEventListener(event, ({ detail }) => {
+                this.live[event] = detail;
+                if (this.watches) this.show();
+            });
+        }
+        this.draw();
+        this.check();
+    }
+
+    get lesson() {
+        return this.lessons[this.number];
+    }
+
+    /** The file that this lesson writes first. */
+    file() {
+        return this.lesson.blocks.find((b) => b.file)?.file ?? "court.yaml";
+    }
+
+    /** Goes to a lesson with the files as they are; `afresh` with those that it begins with. */
+    async go(number, afresh = false) {
+        this.number = number;
+        this.asked = {}; // answers about the lesson before come too late
+        this.watches = false;
+        this.node.dataset.done = "false";
+        this.live.news = [];
+        this.desk.lastNews = [];
+        history.replaceState(null, "", `#lesson=${number + 1}`);
+        this.draw();
+        this.node.querySelector(".text").scrollTop = 0;
+        if (afresh) await this.desk.open({ scene: "court.yaml", files: lessonFiles(this.lesson) });
+        const missing = Object.entries(lessonFiles(this.lesson)).filter(([path]) => !(path in this.desk.texts));
+        for (const [path, text] of missing) this.desk.replace(path, text);
+        this.desk.show(this.file() in this.desk.texts ? this.file() : "court.yaml");
+        this.desk.keep();
+        await this.check();
+    }
+
+    block(block) {
+        if (block.text) return el("p", {}, inline(block.text));
+        if (block.shell) return el("details", { className: "shell" }, el("summary", {}, "With the program installed"), el("pre", {}, block.shell));
+        return el("figure", {}, el("figcaption", {}, el("code", {}, block.file), el("button", { type: "button", onclick: () => this.write(block) }, `Put it into ${block.file}`)), el("pre", {}, block.code));
+    }
+
+    write({ file, code }) {
+        this.desk.replace(file, code);
+        this.desk.tell(`${file} is written, and not saved yet. Save loads it into the crowd (Ctrl+S).`);
+    }
+
+    draw() {
+        const { lesson, lessons, number } = this, last = number === lessons.length - 1;
+        const choose = el("select", { "aria-label": "Lesson", onchange: () => this.go(Number(choose.value)) },
+            lessons.map(({ title }, n) => el("option", { value: n, selected: n === number }, title)));
+        this.list = el("ul", { className: "checks" });
+        this.done = el("p", { className: "done", role: "status" });
+        this.next = el("button", { type: "button", onclick: () => this.go(number + 1) }, "Next lesson");
+        fill(this.node, el("div", { className: "row head" }, el("span", { className: "faint" }, `Lesson ${number + 1} of ${lessons.length}`), choose,
+            el("button", { type: "button", title: "Begin this lesson with the files of the one before", onclick: () => this.go(number, true) }, "Afresh")),
+        el("div", { className: "text", tabIndex: 0 }, el("h2", {}, lesson.title), lesson.blocks.map((b) => this.block(b)), el("h3", {}, "What has to happen"), this.list, this.done, el("div", { className: "row" }, last ? null : this.next)));
+    }
+
+    /** Looks at what is written and what runs, after each save. */
+    async check() {
+        const { desk, lesson } = this, asked = (this.asked = {});
+        const tried = new Map();
+        let problems;
+        try {
+            problems = await desk.checker.call("check", { files: desk.live ?? desk.texts, path: desk.scene });
+        } catch {
+            return; // told by the desk
+        }
+        this.live.news = desk.lastNews ?? [];
+        const texts = { ...(desk.live ?? desk.texts) };
+        const observe = (files, seconds) => {
+            const key = JSON.stringify([files, seconds]);
+            if (!tried.has(key)) tried.set(key, desk.checker.call("observe", { files, path: desk.scene, seconds }));
+            return tried.get(key);
+        };
+        const { lessons, live } = this;
+        this.look = () => CHECKS[lesson.title]({ texts, problems, observe, live, lessons });
+        this.watches = false;
+        const items = await this.look();
+        if (asked !== this.asked) return;
+        this.showItems(items);
+        this.watches = true;
+    }
+
+    /** Looks again at the crowd that runs. */
+    async show() {
+        if (this.looking) return;
+        this.looking = true;
+        const { asked } = this, items = await this.look().catch(() => null);
+        this.looking = false;
+        if (items && asked === this.asked) this.showItems(items);
+    }
+
+    showItems(items) {
+        const line = JSON.stringify(items);
+        if (line === this.line && this.list.childElementCount) return;
+        this.line = line;
+        const all = items.every((i) => i.holds), last = this.number === this.lessons.length - 1;
+        this.node.dataset.done = String(all);
+        fill(this.list, items.map(({ text, holds, why }) => el("li", { "data-holds": String(holds) }, text, !holds && why ? el("span", { className: "faint" }, ` ${why}`) : null)));
+        this.done.textContent = all ? (last ? "That is your game. Share it by a link or a zip, at the top." : "Done.") : "";
+        this.next.classList.toggle("main", all);
+    }
+}

@@ -1,0 +1,61 @@
+// What an address opens: "#scene=NAME" a shipped scene, "#lesson=N" a lesson, "#edit=..." the edit that a link carries. Work that was
+// left unsaved there comes back.
+import { Draft } from "../project/draft.js";
+import { unpackProject } from "../project/link.js";
+import { filesOf } from "../project/references.js";
+import { checksum } from "../project/zip.js";
+
+const FIRST = "dodgeball"; // the scene of an address that names none
+
+async function fetchJson(path) {
+    const answer = await fetch(path);
+    if (!answer.ok) throw new Error(`The playground lacks ${path}.`);
+    return answer.json();
+}
+
+async function openScene(name) {
+    const shipped = await fetchJson("engine/shipped.json"), scene = `scenes/${name}.yaml`;
+    if (!(scene in shipped)) throw new Error(`There is no scene "${name}".`);
+    const paths = filesOf(scene, (path) => shipped[path], (folder) => Object.keys(shipped).filter((path) => path.startsWith(folder)));
+    return { name: `scene:${name}`, title: titleOf(shipped[scene], scene), scene, files: Object.fromEntries(paths.map((path) => [path, shipped[path]])) };
+}
+
+/** The files with which a lesson begins: an empty scene in place of what the lesson is to write. */
+export function lessonFiles(lesson) {
+    return { "court.yaml": "# The scene goes here.\n", ...lesson.before };
+}
+
+async function openLesson(number) {
+    const { lessons } = await fetchJson("data/lessons.json"), at = Math.min(Math.max(Number(number) || 1, 1), lessons.length) - 1;
+    return { name: "lesson", title: "Dodge-ball, step by step", scene: "court.yaml", files: lessonFiles(lessons[at]), lessons, lesson: at };
+}
+
+async function openLink(text) {
+    const { scene, files, lesson } = await unpackProject(text), name = `link:${checksum(new TextEncoder().encode(text))}`;
+    if (lesson === null) return { name, title: titleOf(files[scene], scene), scene, files };
+    const { lessons } = await fetchJson("data/lessons.json");
+    return { name, title: "Dodge-ball, step by step", scene, files, lessons, lesson };
+}
+
+export function titleOf(text, path) {
+    return /^title: *["']?(.*?)["']?\s*$/m.exec(text ?? "")?.[1] || path.split("/").pop();
+}
+
+/**
+ * Finds what an address opens: {name, title, scene, files, texts, lessons, lesson, restored, fault}. `files` is what it names, `texts`
+ * what is shown: work that was left, from the time `restored` (ms since 1970), else the same.
+ */
+export async function findOpened({ hash }) {
+    const [kind, value] = /^#(\w+)=(.*)$/.exec(hash)?.slice(1) ?? ["scene", FIRST];
+    let opened, fault = null;
+    try {
+        opened = await ({ scene: openScene, lesson: openLesson, edit: openLink }[kind] ?? openScene)(decodeURIComponent(value));
+    } catch (error) {
+        fault = error.message;
+        opened = await openScene(FIRST);
+    }
+    const kept = new Draft(opened.name).find();
+    const same = kept && JSON.stringify(kept.files) === JSON.stringify(opened.files);
+    const restored = kept && !same ? kept.time : null;
+    return { ...opened, fault, restored, texts: restored ? kept.files : opened.files, scene: restored ? kept.scene : opened.scene, lesson: restored && kept.lesson !== undefined ? kept.lesson : opened.lesson };
+}

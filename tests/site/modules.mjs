@@ -1,0 +1,217 @@
+// Tests of the playground that need no browser: links, archives, words, files of scenes, and the checks of lessons, with the engine
+// under node. Prints "ok NAME" or "not ok NAME: why".
+//     node tests/site/modules.mjs [NAME...]    some of the tests; SITE: the folder of the site, default build/site
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import process from "node:process";
+import { pathToFileURL } from "node:url";
+import { complete, explain } from "../../scripts/site/editor/completion.js";
+import { placeOf } from "../../scripts/site/editor/problems.js";
+import { nodeAt, pathAt } from "../../scripts/site/editor/yaml_path.js";
+import { observe } from "../../scripts/site/engine/observe.js";
+import { cutPreview } from "../../scripts/site/make/scenes.mjs";
+import { Draft } from "../../scripts/site/project/draft.js";
+import { packProject, unpackProject } from "../../scripts/site/project/link.js";
+import { filesOf, modsNamed, plainPath } from "../../scripts/site/project/references.js";
+import { readZip, writeZip } from "../../scripts/site/project/zip.js";
+import { CHECKS } from "../../scripts/site/workbench/lesson_checks.js";
+import { lessonFiles } from "../../scripts/site/workbench/opened.js";
+import { sceneOf } from "../../scripts/site/workbench/share.js";
+
+const SITE = resolve(process.env.SITE ?? "build/site"), JOSTLE = resolve(process.env.JOSTLE ?? "build/release/jostle");
+const read = (path) => readFileSync(join(SITE, path), "utf8");
+const words = JSON.parse(read("data/words.json")), { lessons } = JSON.parse(read("data/lessons.json")), shipped = JSON.parse(read("engine/shipped.json"));
+const { Engine } = await import(pathToFileURL(join(SITE, "engine/engine.mjs")));
+const engine = await Engine.create({ shipped: {} }); // so that a file that is not given is missing
+
+/** Files of a shipped scene, as the workbench finds them. */
+function sceneFiles(scene) {
+    const paths = filesOf(scene, (path) => shipped[path], (folder) => Object.keys(shipped).filter((path) => path.startsWith(folder)));
+    return Object.fromEntries(paths.map((path) => [path, shipped[path]]));
+}
+
+const labels = (found) => found?.options.map((o) => o.label) ?? [];
+const completed = (path, before, files = {}) => labels(complete({ path, before, text: before, words, files, asked: false }));
+
+/** What the workbench gives a lesson's check, without a crowd that runs. */
+function givenFor(texts, live = { news: [], scene: null, status: null }) {
+    const run = (files, seconds) => {
+        let scene;
+        try {
+            scene = engine.open({ files, scene: "court.yaml", say() {} });
+        } catch (error) {
+            return { errors: error.errors };
+        }
+        try {
+            return observe(scene, seconds);
+        } finally {
+            scene.close();
+        }
+    };
+    return { texts, problems: engine.check(texts, "court.yaml"), observe: async (files, seconds) => run(files, seconds), live, lessons };
+}
+
+/** Runs a lesson's files, saves the next ones over them, and returns what the workbench would know of the crowd that runs. */
+function playedLive(before, after) {
+    const scene = engine.open({ files: before, scene: "court.yaml", page: true, say() {} });
+    const take = () => scene.takeMessages().filter((m) => m.text).map((m) => JSON.parse(m.text));
+    try {
+        scene.turn();
+        const { news } = scene.reload(after);
+        scene.command({ do: "play", level: "" });
+        scene.turn();
+        const told = take(), of = (type) => told.filter((m) => m.type === type).pop() ?? null;
+        return { news, scene: of("scene"), status: of("status") };
+    } finally {
+        scene.close();
+    }
+}
+
+const tests = {
+    async "a link carries a whole project, and a damaged one says so"() {
+        const project = { scene: "court.yaml", files: { "court.yaml": "title: ä\n", "dodge.lua": "x".repeat(5000) }, lesson: 3 }, link = await packProject(project);
+        assert.deepEqual(await unpackProject(link), project);
+        assert.match(link, /^[\w-]+$/);
+        assert.ok(link.length < 300, `${link.length} characters`);
+        await assert.rejects(unpackProject(link.slice(0, -9)), /damaged or cut short/);
+        await assert.rejects(unpackProject(await packProject({ scene: "a.yaml", files: {} })), /lacks its scene/);
+    },
+
+    async "an archive is read again, by unzip too, and damage is found"() {
+        const files = { "scenes/ä.yaml": "jostle: 1\n", "behaviours/b.lua": "return 1\n".repeat(999) }, zip = await writeZip(files), folder = mkdtempSync(join(tmpdir(), "jostle-site-"));
+        assert.deepEqual(await readZip(zip), files);
+        writeFileSync(join(folder, "a.zip"), zip);
+        execFileSync("python3", ["-c", "import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None and z.namelist() == ['scenes/ä.yaml', 'behaviours/b.lua']", join(folder, "a.zip")]);
+        rmSync(folder, { recursive: true });
+        zip[45] ^= 1;
+        await assert.rejects(readZip(zip), /damaged|invalid|incorrect/i);
+        await assert.rejects(readZip(new Uint8Array(40)), /no zip archive/);
+        await assert.rejects(readZip(await writeZip({ "../a.lua": "" })), /leads out of/);
+        assert.equal(sceneOf({ "mods/x/mod.yaml": "jostle: 1", "a.yaml": "name: 1", "b.yaml": "jostle: 1" }), "b.yaml");
+    },
+
+    "work is kept until it equals what was opened"() {
+        const kept = new Map(), storage = { getItem: (k) => kept.get(k) ?? null, setItem: (k, v) => kept.set(k, v), removeItem: (k) => kept.delete(k) }, draft = new Draft("a", storage);
+        assert.equal(draft.find(), null);
+        assert.ok(draft.keep({ "a.yaml": "2" }, { "a.yaml": "1" }, { scene: "a.yaml", lesson: 2 }));
+        assert.deepEqual([draft.find().files, draft.find().lesson], [{ "a.yaml": "2" }, 2]);
+        draft.keep({ "a.yaml": "1" }, { "a.yaml": "1" }, { scene: "a.yaml" });
+        assert.equal(kept.size, 0);
+        assert.equal(new Draft("a", { setItem() { throw new Error("full"); } }).keep({ a: "1" }, {}, {}), false);
+    },
+
+    "every word of the reference has a signature and an explanation"() {
+        const page = readFileSync("scripts/behaviour.md", "utf8"), known = new Map([...words.words, ...words.keys, ...words.methods].map((row) => [row.name, row]));
+        assert.ok(words.words.length > 90 && words.keys.length > 60);
+        for (const { name, type, text } of words.words.filter((w) => !/^(own|now|other|test|scene|refused|equal|truthy|fails|patch|replace|none|before|afterwards|around|settings)$/.test(w.name))) {
+            assert.ok(type && text, name);
+            assert.ok(page.includes(`\`${name}`), `${name} is not on the page`);
+        }
+        assert.match(known.get("seek").type, /^seek\(target: AnyTarget\): Steering$/);
+        assert.match(known.get("steer").type, /^Steering\|fun\(me: Me\): number, number$/);
+    },
+
+    "words are completed where they can stand"() {
+        assert.ok(completed("a.lua", "return machine {\n  states = {\n    Wait = { steer = se").includes("seek"));
+        assert.ok(completed("a.lua", "    Wait = { ste").includes("steer"));
+        assert.ok(completed("a.lua", "when = now.sp").includes("speed"));
+        assert.deepEqual(completed("a.lua", "local mine = memory { hits = 0 }\nset = { hits = mine.h"), ["hits"]);
+        assert.ok(completed("a.lua", 'nearest("ball"):fly').includes("flying"));
+        assert.deepEqual(completed("a.lua", '    Wait = {\n      { to = "W'), ["Wait"]);
+        assert.ok(completed("a.lua", 'steer = seek "red', { "court.yaml": "places:\n  red_court: {point: [0, 0]}\ngroups:\n" }).includes("red_court"));
+        assert.deepEqual(completed("a.lua", "-- a comment on see"), []);
+        assert.ok(completed("a.yaml", "groups:\n  red: {beha").includes("behaviour"));
+        assert.ok(completed("a.yaml", "groups:\n  red: {fill: h").includes("hex"));
+        assert.ok(completed("a.yaml", "groups:\n  red: {behaviour: wal").includes("walker.lua"));
+        assert.ok(completed("a.yaml", "du").includes("duration"));
+        assert.deepEqual(completed("a.yaml", "# du"), []);
+    },
+
+    "keys of scenes are found in blocks, lists and brackets"() {
+        const at = (text) => pathAt(text);
+        assert.deepEqual(at("bodies:\n  - name: a\n    shape:\n      sphere:\n        r").path, ["bodies", "-", "shape", "sphere"]);
+        assert.deepEqual(at("walls:\n- li").path, ["walls", "-"]);
+        assert.deepEqual(at("bodies:\n  - {name: a,\n     ma").path, ["bodies", "-"]);
+        assert.deepEqual([at("a: 1\nview: {tools: [thr").path, at("floor: wo").key], [["view", "tools", "-"], "floor"]);
+        assert.ok(nodeAt(words.scene, ["groups", "any name"]).keys.behaviour);
+    },
+
+    "what is under the pointer is explained"() {
+        const lua = '    Wait = { steer = hold, -- hold\n      { to = "hold", when = now.speed } },', at = (n) => explain({ path: "a.lua", text: lua, at: n, words })?.name ?? null;
+        assert.equal(at(lua.indexOf("hold") + 2), "hold");
+        assert.equal(at(lua.indexOf("steer") + 1), "steer");
+        assert.equal(at(lua.indexOf("-- hold") + 4), null);
+        assert.equal(at(lua.indexOf('"hold"') + 2), null);
+        assert.match(explain({ path: "a.lua", text: lua, at: lua.indexOf("speed") + 1, words }).text, /present speed/);
+        const yaml = "groups:\n  red: {fill: hex}\n", found = explain({ path: "a.yaml", text: yaml, at: yaml.indexOf("fill") + 1, words });
+        assert.match(found.text, /arrangement/);
+    },
+
+    "a fault is underlined at its column, after other letters too"() {
+        const lua = 'return machine { name = "ä", version = 1, start = "A", states = { A = { steer = hodl } } }\n', [fault] = engine.check({ "u.lua": lua }, "u.lua");
+        const { from, to } = placeOf("u.lua", lua, fault);
+        assert.equal(lua.slice(from, to), "hodl");
+        assert.match(fault.wayOut, /hold/);
+        const yaml = "jostle: 1\ntitle: ä\ngroups: {ä: {behaviour: nö.lua, at: [[0, 0]]}}\n", [missing] = engine.check({ "u.yaml": yaml }, "u.yaml"), place = placeOf("u.yaml", yaml, missing);
+        assert.equal(yaml.slice(place.from, place.to), "nö.lua");
+    },
+
+    async "each shipped scene has all the files that it reads"() {
+        assert.equal(plainPath("scenes/../behaviours/./a.lua"), "behaviours/a.lua");
+        assert.deepEqual(modsNamed("mods: {doubles: {}, rough: {a: 1}}\n"), ["doubles", "rough"]);
+        assert.deepEqual(modsNamed("title: a\nmods:\n  doubles: {}\n  rough:\n    push: 1\ngroups: {}\n"), ["doubles", "rough"]);
+        const withLibrary = await Engine.create({ shipped: { "scripts/crowd.lua": shipped["scripts/crowd.lua"] } });
+        for (const scene of readdirSync("scenes").filter((name) => name.endsWith(".yaml")).map((name) => `scenes/${name}`)) {
+            const journeys = /\bjourney:/.test(shipped[scene]); // made into machines that require what is installed
+            const faults = (journeys ? withLibrary : engine).check(sceneFiles(scene), scene).filter((f) => f.severity === "error");
+            assert.deepEqual(faults, [], scene);
+        }
+        const less = sceneFiles("scenes/evacuation.yaml");
+        delete less["scripts/crowd.lua"];
+        assert.ok(engine.check(less, "scenes/evacuation.yaml").some((f) => f.severity === "error"), "a file that is missing is found");
+    },
+
+    async "a zip of a scene runs in the native program"() {
+        const folder = mkdtempSync(join(tmpdir(), "jostle-site-"));
+        for (const name of ["dodgeball", "tawaf-few"]) {
+            writeFileSync(join(folder, `${name}.zip`), await writeZip(sceneFiles(`scenes/${name}.yaml`)));
+            execFileSync("python3", ["-m", "zipfile", "-e", `${name}.zip`, name], { cwd: folder });
+            execFileSync(JOSTLE, ["run", `scenes/${name}.yaml`, "--steps", "5", "--quiet"], { cwd: join(folder, name) });
+        }
+        rmSync(folder, { recursive: true });
+    },
+
+    async "a lesson's own solution passes its check, and what it begins with does not"() {
+        assert.deepEqual(Object.keys(CHECKS), lessons.map((l) => l.title));
+        for (const [n, lesson] of lessons.entries()) {
+            const before = lessonFiles(lesson), live = n >= 4 ? playedLive(lessons[n - 1].after, lesson.after) : undefined;
+            const begun = await CHECKS[lesson.title](givenFor(before));
+            assert.ok(begun.some((i) => !i.holds), `${lesson.title}: passes from its beginning`);
+            const solved = await CHECKS[lesson.title](givenFor(lesson.after, live)), waits = solved.filter((i) => !i.holds && !/running|crowd that runs|is a game|You /.test(i.text));
+            assert.deepEqual(waits, [], lesson.title);
+        }
+    },
+
+    "previews are cut to the crowd"() {
+        const svg = execFileSync(JOSTLE, ["render", "scenes/counter.yaml", "--out", join(tmpdir(), `jostle-preview-${process.pid}.svg`), "--quiet"]) && readFileSync(join(tmpdir(), `jostle-preview-${process.pid}.svg`), "utf8");
+        const { people, svg: cut } = cutPreview(svg);
+        assert.equal(people, 20);
+        assert.ok(!cut.includes("<text") && cut.includes("viewBox") && cut.length < svg.length);
+        rmSync(join(tmpdir(), `jostle-preview-${process.pid}.svg`));
+    },
+};
+
+const wanted = process.argv.slice(2);
+for (const [name, test] of Object.entries(tests)) {
+    if (wanted.length && !wanted.some((w) => name.includes(w))) continue;
+    try {
+        await test();
+        console.log(`ok ${name}`);
+    } catch (error) {
+        console.log(`not ok ${name}: ${error.message}`);
+        process.exitCode = 1;
+    }
+}

@@ -1,0 +1,209 @@
+"""Tests of the playground in a browser, as a file server gives it to one: below a sub-folder, without headers of ours."""
+import functools
+import http.server
+import os
+import sys
+import threading
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "page"))
+
+from selenium.webdriver.common.keys import Keys  # noqa: E402
+
+from harness import ROOT, expect, run_all, wait_for  # noqa: E402
+
+SITE = os.path.abspath(os.environ.get("SITE", os.path.join(ROOT, "build", "site")))
+BELOW = "/some/folder"  # the site is not at the server's root
+SMALL = (960, 600)  # the workbench side by side, with a small picture
+
+
+class Server:
+    """A plain file server of the site below a sub-folder."""
+
+    def __init__(self):
+        class Handler(http.server.SimpleHTTPRequestHandler):
+            def translate_path(self, path):
+                path = path.split("?")[0].split("#")[0]
+                inside = path[len(BELOW):] if path.startswith(BELOW + "/") else "/outside-of-the-site"
+                return super().translate_path(inside)
+
+            def log_message(self, *_):
+                pass
+
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=SITE))
+        self.thread = threading.Thread(target=self.server.serve_forever, daemon=True)
+        self.thread.start()
+        self.origin = f"http://127.0.0.1:{self.server.server_address[1]}"
+
+    def address(self, path):
+        return f"{self.origin}{BELOW}/{path}"
+
+    def stop(self):
+        self.server.shutdown()
+        self.server.server_close()
+
+
+class Workbench:
+    """The workbench in the browser, and short ways to use it."""
+
+    def __init__(self, browser, server, fragment, errors=False):
+        self.browser = browser
+        browser.size(*SMALL)
+        browser.draw_few(2)
+        browser.driver.get("about:blank")  # a change of the fragment alone opens no page
+        browser.driver.get(server.address(f"workbench.html#{fragment}"))
+        self.wait("return window.desk && desk.words.words.length > 0 && desk.problems !== undefined", "the editor is not there")
+        if not errors:
+            self.wait("return performance.getEntriesByName('moved').length", "the crowd does not move")
+
+    def run(self, script, *arguments):
+        return self.browser.run(script, *arguments)
+
+    def wait(self, script, text, *arguments):
+        try:
+            return self.browser.wait(script, text, *arguments)
+        except Exception as error:
+            told = self.run("return ['notice', 'outcome', 'problems'].map((id) => document.getElementById(id)?.textContent).join(' | ')")
+            raise type(error)(f"{error}; told: {told}") from None
+
+    def outcome(self, *texts):
+        """Waits until the outcome of what was done holds all texts."""
+        self.wait("const told = document.getElementById('outcome').textContent; return arguments[0].every((t) => told.includes(t))",
+                  f"the outcome has not {texts}", texts)
+
+    def text(self, path):
+        return self.run("return desk.texts[arguments[0]]", path)
+
+    def write(self, path, was, now):
+        """Replaces a part of a file, as an edit."""
+        text = self.text(path)
+        expect(was in text, f"{path} has no {was!r}")
+        self.run("desk.replace(arguments[0], arguments[1])", path, text.replace(was, now))
+
+    def save(self):
+        """Saves by the keys of the editor."""
+        self.run("desk.editor.view.focus()")
+        self.browser.driver.switch_to.active_element.send_keys(Keys.CONTROL, "s")
+
+    def press(self, text):
+        self.browser.button(text).click()
+
+    def frame(self, script, *arguments):
+        """Runs a script in the page that shows the crowd."""
+        return self.run(f"return document.getElementById('crowd').contentWindow.eval(arguments[0])", f"(() => {{ {script} }})()", *arguments)
+
+
+SERVER = Server()
+LUA = "behaviours/dodgeball.lua"
+
+
+def edits(browser):
+    """Playground: errors at their column, saves with counts, undo, restart, kept work, a link, and no request leaves the origin"""
+    bench = Workbench(browser, SERVER, "scene=dodgeball")
+    expect(bench.run("return desk.path") == LUA, "the behaviour is not shown first")
+    begun = bench.text(LUA)
+    # What is typed is completed and checked.
+    bench.run("const v = desk.editor.view, at = v.state.doc.toString().indexOf('face = ball'); v.dispatch({ selection: { anchor: at } }); v.focus()")
+    browser.driver.switch_to.active_element.send_keys("appr")
+    bench.wait("return [...document.querySelectorAll('.cm-completionLabel')].some((n) => n.textContent === 'approach')", "no word is completed")
+    browser.driver.switch_to.active_element.send_keys(Keys.ESCAPE, Keys.BACKSPACE * 4)
+    bench.write(LUA, "steer = dodge(", "steer = dogde(")
+    bench.wait("return /dodgeball.lua:\\d+:\\d+.*dogde.*Did you mean 'dodge'/.test(document.getElementById('problems').textContent)", "the error is not listed with its place and way out")
+    bench.run("desk.goTo(desk.problems[0])")
+    bench.wait("return [...document.querySelectorAll('.cm-lintRange-error')].map((n) => n.textContent).join() === 'dogde'", "the word is not underlined")
+    bench.save()
+    bench.outcome("Not live: the version before keeps running")
+    # A save, with people by state before and after, and back.
+    bench.write(LUA, "steer = dogde(", "steer = dodge(")
+    bench.write(LUA, "version = 6", "version = 7")
+    bench.save()
+    bench.outcome("dodgeball.lua is live", "People by state", "→")
+    expect(bench.frame("return page.news.node.textContent.includes('dodgeball.lua is live')"), "the page does not tell of the reload")
+    bench.press("Undo save")
+    bench.outcome("dodgeball.lua is as before")
+    expect(bench.text(LUA) == begun and bench.run("return desk.live[arguments[0]]", LUA) == begun, "the text before is not back")
+    # What needs a restart is said so, and the restart is one press away.
+    bench.write("scenes/dodgeball.yaml", "at: [[4, 0]]", "at: [[4, 0], [5, 2]]")
+    bench.save()
+    bench.outcome("At the next start", "Restart, so that all of it counts")
+    bench.press("Restart, so that all of it counts")
+    bench.wait("return document.getElementById('crowd').contentWindow.page.crowd.everybody().length === 3", "the restart does not have three people")
+    # The link has the whole edit; what is left unshared is kept, and told.
+    link = bench.run("return desk.share.link()")
+    bench.write(LUA, "version = 6", "version = 8")
+    browser.driver.get("about:blank")
+    bench = Workbench(browser, SERVER, "scene=dodgeball")
+    bench.wait("return document.getElementById('notice').textContent.includes('is here again')", "work that comes back is not told")
+    expect("version = 8" in bench.text(LUA), "the work is not back")
+    bench.press("Discard it")
+    bench.wait("return window.desk && desk.texts[arguments[0]] === arguments[1]", "the work is not discarded", LUA, begun)
+    bench = Workbench(browser, SERVER, link.split("#")[1])
+    expect("[[4, 0], [5, 2]]" in bench.text("scenes/dodgeball.yaml") and bench.text(LUA) == begun, "the link does not have the edit")
+    bench.run("localStorage.clear()")
+    # Nothing was asked of another server; and without any, the crowd and the editor go on.
+    asked = bench.run("return [window, document.getElementById('crowd').contentWindow].flatMap((w) => w.performance.getEntriesByType('resource').map((e) => e.name))")
+    foreign = [name for name in asked if not name.startswith(SERVER.origin + BELOW) and not name.startswith(("blob:", "data:"))]
+    expect(len(asked) > 8 and not foreign, f"requests to {foreign}")
+    expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+
+
+def lessons(browser):
+    """Playground: the lessons from the first step to the reader's own game, which is played"""
+    bench = Workbench(browser, SERVER, "lesson=1", errors=True)
+    count = bench.run("return desk.lesson.lessons.length")
+    for number in range(count):
+        title = bench.run("return desk.lesson.lesson.title")
+        bench.wait("return desk.lesson.number === arguments[0] && desk.lesson.list.childElementCount > 0", f"no lesson {number + 1}", number)
+        expect(bench.run("return desk.lesson.node.dataset.done") == "false", f"{title}: it is done before it is begun")
+        for button in bench.run("return [...document.querySelectorAll('.lesson figcaption button')]"):
+            bench.run("arguments[0].click()", button)
+        if title == "To the ball":
+            wait_for(lambda: bench.run("return !desk.problems.some((p) => p.severity === 'error')"), "the files have errors")
+        bench.save()
+        bench.wait("return desk.changed().length === 0 || !document.getElementById('outcome').hidden", "nothing was saved")
+        if number >= count - 2:  # new bodies and a player need a restart
+            bench.outcome("Restart")
+            bench.press("Restart")
+        if number == count - 1:
+            bench.wait("const p = document.getElementById('crowd').contentWindow.page; return p.scene?.game && !p.game.card.hidden", "the game has no start card")
+            bench.frame("page.game.card.querySelector('button.main').click()")
+            bench.wait("return document.getElementById('crowd').contentWindow.page.game.playing", "no round begins")
+            bench.frame("page.player.press?.('d'); const on = (type) => document.body.dispatchEvent(new KeyboardEvent(type, { key: 'd', code: 'KeyD', bubbles: true })); on('keydown')")
+        bench.wait("return desk.lesson.node.dataset.done === 'true'", f"{title} is not done")
+        if number < count - 1:
+            bench.press("Next lesson")
+    expect("That is your game" in bench.run("return desk.lesson.done.textContent"), "the end is not told")
+    bench.run("localStorage.clear()")
+    expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+
+
+def start(browser):
+    """Playground: the gallery finds scenes, its links lead to crowds that move, and mods are turned on"""
+    browser.size(*SMALL)
+    browser.driver.get(SERVER.address("index.html"))
+    browser.wait("return /^\\d+ scenes$/.test(document.getElementById('found').textContent)", "the scenes are not counted")
+    browser.find("#find").send_keys("pilgrims queue")
+    browser.wait("return [...document.querySelectorAll('.card')].filter((c) => !c.hidden).length === 1", "one scene is not found")
+    scenes = len([name for name in os.listdir(os.path.join(ROOT, "scenes")) if name.endswith(".yaml")])
+    expect(browser.run("return document.querySelectorAll('.card').length") == scenes, "a scene is missing")
+    broken = browser.run("return Promise.all([...document.querySelectorAll('.card img')].map(async (i) => ((await fetch(i.src)).ok ? null : i.src))).then((all) => all.filter(Boolean))")
+    expect(not broken, f"previews are missing: {broken}")
+    bench = Workbench(browser, SERVER, "scene=no-such-scene")
+    bench.wait("return document.getElementById('notice').textContent.includes('There is no scene \"no-such-scene\"')", "a scene that is not there is not told")
+    bench = Workbench(browser, SERVER, "scene=dodgeball")
+    bench.run("document.getElementById('add').open = true")
+    bench.wait("return [...document.querySelectorAll('#add button')].some((b) => b.textContent === 'Use the mod doubles')", "the mod is not offered")
+    bench.press("Use the mod doubles")
+    bench.outcome("The scene turns the mod doubles on")
+    expect("scenes/mods/doubles/mod.yaml" in bench.run("return Object.keys(desk.texts)"), "the mod's files are not there")
+    bench.press("Restart")
+    bench.wait("return document.getElementById('crowd').contentWindow.page.crowd.everybody().length === 4", "the mod does not count")
+    SERVER.stop()  # without a server, what is loaded goes on
+    bench.write(LUA, "version = 6", "version = 9")
+    bench.save()
+    bench.outcome("dodgeball.lua is live")
+    bench.run("localStorage.clear()")
+
+
+if __name__ == "__main__":
+    sys.exit(run_all([edits, lessons, start], sys.argv[1:]))
