@@ -6,6 +6,7 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { gzipSync } from "node:zlib";
 import process from "node:process";
 import { pathToFileURL } from "node:url";
 import { complete, explain } from "../../scripts/site/editor/completion.js";
@@ -193,6 +194,12 @@ const tests = {
             const solved = await CHECKS[lesson.title](givenFor(lesson.after, live)), waits = solved.filter((i) => !i.holds && !/running|crowd that runs|is a game|You /.test(i.text));
             assert.deepEqual(waits, [], lesson.title);
         }
+    },
+
+    "engine, bodies, page and what starts them are at most 1.5 MB, compressed"() {
+        const loaded = ["engine/engine.mjs", "engine/jostle.mjs", "engine/jostle.wasm", "engine/shipped.json", "page/index.html", "page/main.js", "page/style.css", "site.css", "worker.js", "workbench.html", "workbench.js"];
+        const sizes = loaded.map((path) => gzipSync(readFileSync(join(SITE, path)), { level: 9 }).length), all = sizes.reduce((sum, size) => sum + size, 0);
+        assert.ok(all <= 1.5e6, `${all} bytes: ${loaded.map((path, n) => `${path} ${sizes[n]}`).join(", ")}`);
     },
 
     "previews are cut to the crowd"() {

@@ -5,7 +5,10 @@ import { plainPath } from "../project/references.js";
 import { observe } from "./observe.js";
 
 const TOLD = new Set(["scene", "status", "reloaded"]); // messages of which the workbench gets a copy
-const ready = Engine.create();
+const NEEDS = "This browser cannot run the engine, which needs WebAssembly with SIMD and exceptions: Chrome or Edge 95, Firefox 100, Safari 16.4, or later";
+const ready = Engine.create().catch((error) => {
+    throw error instanceof WebAssembly.CompileError ? new Error(`${NEEDS}. ${error.message}`) : error;
+});
 let scene = null, port = null;
 let answered = true; // the page has taken the last batch
 let timer = 0;

@@ -1,5 +1,6 @@
 // The tutorial of behaviours/README.md as lessons: texts, and the files that each section writes.
 
+const REPORTED = /^`step\d[\w/.]*`: (\w)/; // a picture of a report that the text tells of
 const HEADING = /^## From an empty file/m;
 
 /** Parts of a line of Markdown: strings, {code}, {bold}, {text, href}. */
@@ -27,7 +28,8 @@ function readBlocks(text) {
         } else if (lines[n].trim() && !lines[n].startsWith("![")) {
             let end = n;
             while (lines[end + 1]?.trim() && !/^(```|!\[)/.test(lines[end + 1])) end++;
-            blocks.push({ text: readInline(lines.slice(n, end + 1).join(" ")) });
+            const plain = lines.slice(n, end + 1).join(" ").replace(REPORTED, (_, first) => first.toUpperCase());
+            blocks.push({ text: readInline(plain) });
             n = end;
         }
     }

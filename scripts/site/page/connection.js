@@ -2,6 +2,8 @@
 // by a port from the engine's worker, which gets an answer to each batch and sends the next one then: a slow page gets the newest only.
 import { Connection as Socket } from "../../../core/view/page/net/connection.js";
 
+export const LINK_WORDS = { connecting: "Loading the engine", connected: "The engine is loaded" };
+
 export class Connection extends Socket {
     open() {
         this.isOpen = false;

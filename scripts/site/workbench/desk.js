@@ -32,11 +32,12 @@ export class Desk {
         byId("save").onclick = () => this.save();
         byId("undo").onclick = () => this.undo();
         byId("restart").onclick = () => this.restart();
-        addEventListener("keydown", (event) => {
+        const saveByKey = (event) => {
             if (event.key !== "s" || !(event.ctrlKey || event.metaKey)) return;
             event.preventDefault();
             this.save();
-        });
+        };
+        for (const each of [window, byId("crowd").contentWindow]) each.addEventListener("keydown", saveByKey); // also with the focus on the crowd
         this.said = [];
         told.addEventListener("said", ({ detail }) => this.hear(detail));
         this.lesson = opened.lessons ? new LessonPanel(this, opened.lessons, opened.lesson) : null;
@@ -177,6 +178,7 @@ export class Desk {
 
     /** Begins the scene anew with what is written. */
     async begin(done) {
+        this.tell("Starting the scene ...");
         const { errors } = await this.engine.call("open", { files: this.texts, path: this.scene });
         if (errors.length) return this.tellErrors(errors, this.live ? "Not restarted: the version before keeps running" : "Nothing runs yet");
         if (this.live && this.changed().length) this.versions.push({ ...this.live });

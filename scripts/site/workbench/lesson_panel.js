@@ -3,6 +3,8 @@ import { byId, el, fill } from "../../../core/view/page/dom.js";
 import { lessonFiles } from "./opened.js";
 import { CHECKS } from "./lesson_checks.js";
 
+const HERE = "You need no terminal here: the list below the editor says what jostle check says, and Save loads the files into the crowd beside it.";
+
 /** Elements of the parts of a line of text (make/lessons.mjs). */
 const inline = (parts) => parts.map((p) => (typeof p === "string" ? p : p.code ? el("code", {}, p.code) : p.bold ? el("strong", {}, p.bold) : p.text));
 
@@ -73,7 +75,7 @@ export class LessonPanel {
         this.next = el("button", { type: "button", onclick: () => this.go(number + 1) }, "Next lesson");
         fill(this.node, el("div", { className: "row head" }, el("span", { className: "faint" }, `Lesson ${number + 1} of ${lessons.length}`), choose,
             el("button", { type: "button", title: "Begin this lesson with the files of the one before", onclick: () => this.go(number, true) }, "Afresh")),
-        el("div", { className: "text", tabIndex: 0 }, el("h2", {}, lesson.title), lesson.blocks.map((b) => this.block(b)), el("h3", {}, "What has to happen"), this.list, this.done, el("div", { className: "row" }, last ? null : this.next)));
+        el("div", { className: "text", tabIndex: 0 }, el("h2", {}, lesson.title), number === 0 ? el("p", { className: "faint" }, HERE) : null, lesson.blocks.map((b) => this.block(b)), el("h3", {}, "What has to happen"), this.list, this.done, el("div", { className: "row" }, last ? null : this.next)));
     }
 
     /** Looks at what is written and what runs, after each save. */

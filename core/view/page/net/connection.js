@@ -1,5 +1,7 @@
 // The socket: reconnects by itself, passes on messages, and counts bytes.
 
+/** What the page says while it loads. */
+export const LINK_WORDS = { connecting: "Connecting to the program", connected: "Connected to the program" };
 const WAITS = [0.3, 0.6, 1, 2, 4]; // s, between attempts
 
 // The token is kept in this tab only, and removed from the address bar. A page for frames has it in its path, as

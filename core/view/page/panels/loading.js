@@ -1,7 +1,8 @@
 // What is being done until the first picture is there, and what to do if the connection fails.
 import { byId, el, figure, fill, say } from "../dom.js";
+import { LINK_WORDS } from "../net/connection.js";
 
-const STEPS = { connect: "Connecting to the program", scene: "Loading the scene", people: "Placing people", picture: "Preparing the picture" };
+const STEPS = { connect: LINK_WORDS.connecting, scene: "Loading the scene", people: "Placing people", picture: "Preparing the picture" };
 
 export class Loading {
     constructor() {
@@ -21,7 +22,7 @@ export class Loading {
     }
 
     connected() {
-        this.reach("scene", "Connected to the program");
+        this.reach("scene", LINK_WORDS.connected);
     }
 
     scene(scene) {
