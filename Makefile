@@ -125,7 +125,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm matrix soak install install-built uninstall dist deb deb-check clean test-all format
+.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm cluster-test matrix soak install install-built uninstall dist deb deb-check clean test-all format
 LIBRARIES := jostle jostle-tools
 all: $(B)/jostle $(if $(filter 0,$(VIEW)),,$(PAGE)/main.js) $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
@@ -155,6 +155,11 @@ arm:
 	@.ci/setup arm
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) .ci/suite arm
+# Tests scripts/cluster by a Slurm that it starts, and by Snakemake (tests/cluster).
+cluster-test:
+	@.ci/setup cluster
+	@$(MAKE) --no-print-directory $(B)/jostle
+	@B=$(B) .ci/suite cluster
 # Proves that the hashes of the scenes in SCENES are the same for all threads, instruction sets, compilers and options
 # that must not change results (tests/scenes/determinism.sh).
 SCENES ?= all
