@@ -45,7 +45,7 @@ function card({ name, title, about, people, picture }) {
 }
 
 function writeGallery() {
-    const subjects = makeGallery({ root, jostle, out, cache: `${out}-previews`, pictures: join(root, "build/out/gallery"), read });
+    const subjects = makeGallery({ root, jostle, out, cache: `${out}-previews`, pictures: [join(root, "build/out/gallery"), join(here, "pictures")], read });
     const html = subjects.filter(({ scenes }) => scenes.length).map(({ title, text, scenes }) =>
         `<section><h2>${escape(title)}</h2><p class="faint">${escape(text)}</p><div class="cards">${scenes.map(card).join("\n")}</div></section>`).join("\n");
     writeFileSync(join(out, "index.html"), readFileSync(join(here, "gallery/index.html"), "utf8").replace("<!-- scenes -->", () => html));

@@ -119,9 +119,11 @@ def edits(browser):
     bench.save()
     bench.outcome("dodgeball.lua is live", "People by state", "→")
     expect(bench.frame("return page.news.node.textContent.includes('dodgeball.lua is live')"), "the page does not tell of the reload")
+    bench.write("scenes/dodgeball.yaml", "duration: 60", "duration: 70")  # unsaved: an undo of a save leaves it alone
     bench.press("Undo save")
     bench.outcome("dodgeball.lua is as before")
     expect(bench.text(LUA) == begun and bench.run("return desk.live[arguments[0]]", LUA) == begun, "the text before is not back")
+    expect(bench.run("return desk.changed().join()") == "scenes/dodgeball.yaml", "the undo saved or lost what is unsaved")
     # What needs a restart is said so, and the restart is one press away.
     bench.write("scenes/dodgeball.yaml", "at: [[4, 0]]", "at: [[4, 0], [5, 2]]")
     bench.save()

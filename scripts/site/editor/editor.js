@@ -15,8 +15,11 @@ import { placeOf, problemText } from "./problems.js";
 
 const LANGUAGES = { lua: StreamLanguage.define(lua), yaml: yaml() };
 
+/** Parts of a text, those in backquotes as code. */
+const withCode = (text) => text.split("`").map((part, n) => (n % 2 ? el("code", {}, part) : part));
+
 function explanation({ name, type, text }) {
-    return el("div", { className: "told" }, el("code", {}, type && type.startsWith(name) ? type : type ? `${name}: ${type}` : name), text ? el("p", {}, text) : null);
+    return el("div", { className: "told" }, el("code", {}, type && type.startsWith(name) ? type : type ? `${name}: ${type}` : name), text ? el("p", {}, withCode(text)) : null);
 }
 
 export class Editor {

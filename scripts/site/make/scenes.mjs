@@ -1,7 +1,7 @@
 // The gallery's data: titles, sentences, people and previews of the shipped scenes.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, readdirSync, copyFileSync, statSync, writeFileSync } from "node:fs";
-import { basename, join } from "node:path";
+import { basename, extname, join } from "node:path";
 
 /** Headings of the gallery, and the scenes below them; what is named nowhere comes below the last one. */
 const SUBJECTS = [
@@ -79,8 +79,8 @@ function drawPreview(jostle, root, name, path) {
 }
 
 /**
- * Returns [{title, text, scenes: [{name, title, about, people, picture}]}] and writes previews into OUT/previews: pictures that
- * `make gallery` left in `pictures`, else drawings, which `cache` keeps.
+ * Returns [{title, text, scenes: [{name, title, about, people, picture}]}] and writes previews into OUT/previews: pictures of
+ * the live page from the first of the folders `pictures` that has one, else drawings, which `cache` keeps.
  */
 export function makeGallery({ root, jostle, out, cache, pictures, read }) {
     mkdirSync(join(out, "previews"), { recursive: true });
@@ -89,11 +89,10 @@ export function makeGallery({ root, jostle, out, cache, pictures, read }) {
     const subjects = SUBJECTS.map(([title, text]) => ({ title, text, scenes: [] }));
     for (const name of names) {
         const path = `scenes/${name}.yaml`, { svg, people } = drawPreview(jostle, root, name, join(cache, name));
-        let picture = `previews/${name}.svg`;
-        if (existsSync(join(pictures, `${name}.jpg`))) {
-            picture = `previews/${name}.jpg`;
-            copyFileSync(join(pictures, `${name}.jpg`), join(out, picture));
-        } else writeFileSync(join(out, picture), svg);
+        const shot = pictures.flatMap((folder) => ["jpg", "webp"].map((ending) => join(folder, `${name}.${ending}`))).find(existsSync);
+        const picture = `previews/${name}${shot ? extname(shot) : ".svg"}`;
+        if (shot) copyFileSync(shot, join(out, picture));
+        else writeFileSync(join(out, picture), svg);
         const row = { name, title: valueOf(read, path, "title") ?? name, about: valueOf(read, path, "about") ?? "", people, picture };
         subjects[SUBJECTS.findIndex(([, , which]) => which.test(name))].scenes.push(row);
     }

@@ -23,11 +23,14 @@ function addField(rows, line) {
     rows.push({ name, type, text });
 }
 
+/** An explanation without the word itself at its beginning: "`near(target, metres)`: the target is nearer ...". */
+const plainText = (text) => text.replace(/^`[^`]*`(?: or `[^`]*`)*: /, "");
+
 function addFunction(found, line, doc) {
     const [, owner, name, parameters] = /^function (?:(\w+)([:.]))?(\w+)\((.*)\) end$/.exec(line)?.filter((_, n) => n !== 2) ?? [];
     if (!name) return;
-    const given = doc.parameters.map(({ name: of, type }) => `${of}: ${type}`).join(", ") || parameters;
-    const row = { name, type: `${name}(${given})${doc.returns ? `: ${doc.returns}` : ""}`, text: doc.text };
+    const text = plainText(doc.text), given = doc.parameters.map(({ name: of, type }) => `${of}: ${type}`).join(", ") || parameters;
+    const row = { name, type: `${name}(${given})${doc.returns ? `: ${doc.returns}` : ""}`, text };
     if (owner) (found.methods[name] ??= row);
     else found.words.set(name, row);
 }
@@ -52,7 +55,7 @@ export function readDefinitions(text) {
         else {
             addFunction(found, line, doc);
             const [, name] = /^(\w+) = /.exec(line) ?? [];
-            if (name) found.words.set(name, { name, type: doc.type ?? "", text: doc.text });
+            if (name) found.words.set(name, { name, type: doc.type ?? "", text: plainText(doc.text) });
             if (!line.startsWith("---")) doc = { text: "", parameters: [] };
             if (line === "") rows = null;
         }

@@ -22,7 +22,18 @@ export class Connection extends Socket {
         }
         if (!messages) return;
         for (const message of messages) this.receive(message);
+        if (this.frames > 1 && !this.seen) this.tellWhenSeen();
         this.port.postMessage({ taken: true });
+    }
+
+    /** Tells the workbench once the crowd is in the picture, and moves: it loads the editor then. */
+    tellWhenSeen() {
+        this.seen = true;
+        const look = () => {
+            if (document.getElementById("stage").classList.contains("empty")) requestAnimationFrame(look);
+            else window.parent.postMessage({ jostle: "moves" }, location.origin);
+        };
+        requestAnimationFrame(look);
     }
 
     send(command) {

@@ -2,9 +2,18 @@
 
 const KEY = "jostle-draft:";
 
+/** The browser's storage; null where it is forbidden. */
+function browserStorage() {
+    try {
+        return globalThis.localStorage;
+    } catch {
+        return null;
+    }
+}
+
 /** Work on one scene or lesson; `name` tells it from that on others. `storage` is the browser's. */
 export class Draft {
-    constructor(name, storage = globalThis.localStorage) {
+    constructor(name, storage = browserStorage()) {
         this.key = KEY + name;
         this.storage = storage;
     }

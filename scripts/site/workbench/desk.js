@@ -7,6 +7,7 @@ import { EngineClient } from "../engine/client.js";
 import { Draft } from "../project/draft.js";
 import { FilesBar } from "./files_bar.js";
 import { LessonPanel } from "./lesson_panel.js";
+import { titleOf } from "./opened.js";
 import { Share } from "./share.js";
 
 const PAUSE = 350; // ms without a key before what is written is checked
@@ -39,6 +40,10 @@ export class Desk {
         };
         for (const each of [window, byId("crowd").contentWindow]) each.addEventListener("keydown", saveByKey); // also with the focus on the crowd
         this.said = [];
+        told.addEventListener("failed", () => {
+            this.live = null;
+            this.refresh();
+        });
         told.addEventListener("said", ({ detail }) => this.hear(detail));
         this.lesson = opened.lessons ? new LessonPanel(this, opened.lessons, opened.lesson) : null;
         this.show(this.lesson?.file() ?? this.files.paths().find((path) => path.endsWith(".lua")) ?? this.scene);
@@ -91,6 +96,16 @@ export class Desk {
         if (isNew) this.files.draw();
     }
 
+    /** Removes a file from the project. */
+    remove(path) {
+        delete this.texts[path];
+        delete this.live?.[path];
+        this.show(this.scene);
+        this.keep();
+        this.refresh();
+        this.checkSoon(0);
+    }
+
     keep() {
         const kept = this.draft.keep(this.texts, this.opened.files, { scene: this.scene, lesson: this.lesson?.number });
         if (!kept && !this.warned) this.notice("This browser keeps nothing: download your work before you close the tab.");
@@ -107,7 +122,9 @@ export class Desk {
         byId("save").disabled = changed.length === 0;
         byId("undo").disabled = this.versions.length === 0;
         byId("restart").disabled = false;
+        byId("restart").classList.toggle("main", Boolean(this.later));
         say(byId("save"), this.live ? "Save" : "Start");
+        say(byId("title"), this.lesson ? this.opened.title : titleOf((this.live ?? this.texts)[this.scene], this.scene));
         byId("waiting").hidden = this.live !== null;
         this.files.draw();
     }
@@ -168,7 +185,8 @@ export class Desk {
         const files = Object.fromEntries(changed.map((path) => [path, this.texts[path]])), before = { ...this.live };
         const { errors, news } = await this.engine.call("reload", { files });
         if (errors.length) return this.tellErrors(errors, "Not live: the version before keeps running");
-        this.live = { ...this.texts };
+        this.live = { ...this.live, ...files };
+        this.later ||= news.some((item) => item.later);
         if (!back) this.versions.push(before);
         this.setProblems((this.problems ?? []).filter((p) => p.severity !== "error"));
         this.tellNews(news, back);
@@ -184,6 +202,7 @@ export class Desk {
         if (this.live && this.changed().length) this.versions.push({ ...this.live });
         this.live = { ...this.texts };
         this.lastNews = [];
+        this.later = false;
         this.tell(`${done} with ${Object.keys(this.texts).length === 1 ? "this file" : `these ${Object.keys(this.texts).length} files`}.`);
         this.checkSoon(0);
     }
@@ -202,9 +221,10 @@ export class Desk {
     async undo() {
         const before = this.versions.pop();
         if (!before) return;
-        for (const path of Object.keys(this.texts)) if (before[path] !== undefined && before[path] !== this.texts[path]) this.replace(path, before[path]);
+        const changed = Object.keys(before).filter((path) => path in this.texts && before[path] !== this.live?.[path]);
+        for (const path of changed) this.replace(path, before[path]);
         try {
-            await this.reload(this.changed(), true);
+            await (this.live ? this.reload(changed, true) : this.begin("Started with the version before"));
         } catch (error) {
             this.tell(`The save was not taken back: ${error.message}`);
         }

@@ -65,8 +65,9 @@ export class FilesBar {
         const choose = el("select", { "aria-label": "A shipped behaviour" }, lua.map((path) => el("option", { value: path }, path.split("/").pop())));
         const used = modsNamed(desk.texts[desk.scene]), names = [...new Set(Object.keys(files).map((path) => /^scenes\/mods\/([\w-]+)\//.exec(path)?.[1]).filter(Boolean))];
         const mods = names.filter((mod) => !used.includes(mod) && this.fits(files, mod));
+        const shown = desk.path, remove = shown === desk.scene ? null : el("button", { type: "button", onclick: () => this.remove(shown) }, `Remove ${shown.split("/").pop()}`);
         return fill(node, form, el("div", { className: "row" }, el("label", {}, "Shipped behaviour ", choose), el("button", { type: "button", onclick: () => this.put(choose.value, files[choose.value]) }, "Add")),
-            mods.map((mod) => el("div", { className: "row" }, el("button", { type: "button", onclick: () => this.useMod(mod, files, here) }, `Use the mod ${mod}`), el("span", { className: "faint" }, titleOfMod(files, mod)))));
+            mods.map((mod) => el("div", { className: "row" }, el("button", { type: "button", onclick: () => this.useMod(mod, files, here) }, `Use the mod ${mod}`), el("span", { className: "faint" }, titleOfMod(files, mod)))), remove);
     }
 
     /** Whether a mod patches a file of this project. */
@@ -80,6 +81,11 @@ export class FilesBar {
         if (!/^[\w./-]+\.(lua|yaml)$/.test(name) || name.split("/").includes("..")) return desk.tell("A file is named like walker.lua or hall.yaml.");
         if (path in desk.texts) return desk.show(path);
         return this.put(path, name.endsWith(".lua") ? BEHAVIOUR(name.split("/").pop().slice(0, -4)) : "jostle: 1\n");
+    }
+
+    remove(path) {
+        byId("add").open = false;
+        this.desk.remove(path);
     }
 
     put(path, text) {

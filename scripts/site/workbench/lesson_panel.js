@@ -23,6 +23,7 @@ export class LessonPanel {
                 if (this.watches) this.show();
             });
         }
+        history.replaceState(null, "", `#lesson=${number + 1}`);
         this.draw();
         this.check();
     }

@@ -3,17 +3,19 @@ import { byId, say } from "../../../core/view/page/dom.js";
 import { EngineClient } from "../engine/client.js";
 import { findOpened } from "./opened.js";
 
-const LATEST = 4000; // ms after which the editor is loaded though no crowd moves: what is opened may have errors
+const LATEST = 6000; // ms after which the editor is loaded though no crowd moves: what is opened may have errors
 
 const told = new EventTarget(); // "scene", "status", "reloaded", "said" and "failed" of the engine
 let hasMoved;
 const moved = new Promise((resolve) => (hasMoved = resolve));
 const engine = new EngineClient(new URL("worker.js", location.href), (event) => {
-    if (event.event === "status" && event.message.time > 0 && !performance.getEntriesByName("moved").length) {
-        performance.mark("moved");
-        hasMoved();
-    }
     told.dispatchEvent(new CustomEvent(event.event, { detail: event.message ?? event.text }));
+});
+
+addEventListener("message", ({ origin, data }) => {
+    if (origin !== location.origin || data?.jostle !== "moves") return;
+    performance.mark("moved");
+    hasMoved();
 });
 
 function connectPage() {

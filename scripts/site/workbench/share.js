@@ -17,6 +17,18 @@ export class Share {
         this.file = el("input", { type: "file", accept: ".zip,application/zip", hidden: true, onchange: () => this.file.files[0] && this.openZip(this.file.files[0]) });
         fill(byId("share").querySelector("div"), button("Copy a link", () => this.copyLink()), button("Download a zip", () => this.download()),
             button("Open a zip", () => this.file.click()), this.file, el("p", { className: "faint" }, "Both carry all files. The zip runs natively, too: unpack it, and ", el("code", {}, "jostle run SCENE --view"), "."));
+        this.takeDrops(byId("left"));
+    }
+
+    /** Opens an archive that is dropped on the texts. */
+    takeDrops(node) {
+        node.addEventListener("dragover", (event) => [...event.dataTransfer.items].some((i) => i.kind === "file") && event.preventDefault());
+        node.addEventListener("drop", (event) => {
+            const [file] = event.dataTransfer.files;
+            if (!file) return;
+            event.preventDefault();
+            this.openZip(file);
+        }, true);
     }
 
     async link() {
