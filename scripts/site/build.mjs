@@ -35,6 +35,7 @@ async function bundle() {
         esbuild.build({ ...common, entryPoints: { gallery: join(here, "gallery/gallery.js") }, outdir }),
         // The editor is a module of its own, which main.js loads when the crowd moves.
         esbuild.build({ ...common, entryPoints: { workbench: join(here, "workbench/main.js") }, outdir, external: ["./desk.js"] }),
+        esbuild.build({ ...common, format: "iife", entryPoints: { early: join(here, "workbench/early.js") }, outdir }),
         esbuild.build({ ...common, entryPoints: { desk: join(here, "workbench/desk.js") }, outdir }),
     ]);
 }

@@ -1,10 +1,12 @@
 """Tests of the playground in a browser, as a file server gives it to one: below a sub-folder, without headers of ours."""
+import base64
 import functools
 import http.server
+import io
 import os
 import sys
 import threading
-import time
+import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "page"))
 
@@ -200,6 +202,18 @@ def start(browser):
     expect("scenes/mods/doubles/mod.yaml" in bench.run("return Object.keys(desk.texts)"), "the mod's files are not there")
     bench.press("Restart")
     bench.wait("return document.getElementById('crowd').contentWindow.page.crowd.everybody().length === 4", "the mod does not count")
+    # An archive of another program is opened, and what its behaviour prints is shown.
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as packed:
+        packed.writestr("game/talk.lua", 'return machine { name = "talk", version = 1, start = "A", states = { A = { steer = hold, on_enter = function() print "here I am" end } } }\n')
+        packed.writestr("game/talk.yaml", "jostle: 1\ntitle: Talk\ngroups: {one: {behaviour: talk.lua, at: [[0, 0]]}}\n")
+    bench.run("desk.share.openZip(new File([Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0))], 'talk.zip'))", base64.b64encode(archive.getvalue()).decode())
+    bench.outcome("talk.zip is opened")
+    bench.wait("return document.getElementById('title').textContent === 'Talk' && document.querySelector('#said pre').textContent.includes('here I am')", "what is printed is not shown")
+    bench.run("desk.share.openZip(new File(['no zip'], 'bad.zip'))")
+    bench.outcome("bad.zip was not opened: this is no zip archive")
+    bench.run("localStorage.clear()")
+    bench = Workbench(browser, SERVER, "scene=dodgeball")
     SERVER.stop()  # without a server, what is loaded goes on
     bench.write(LUA, "version = 6", "version = 9")
     bench.save()

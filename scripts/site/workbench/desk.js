@@ -15,12 +15,12 @@ const MOST = 50; // problems listed
 const LINES = 300; // of what is printed
 
 export class Desk {
-    /** `given`: {engine, opened, told, notice, begun}: see main.js and opened.js; `begun`: the answer to the first opening. */
-    constructor({ engine, opened, told, notice, begun }) {
-        Object.assign(this, { engine, opened, told, notice });
+    /** `given`: {engine, opened, told, notice, patient, begun}: see main.js and opened.js; `begun`: the answer to the first opening. */
+    constructor({ engine, opened, told, notice, patient, begun }) {
+        Object.assign(this, { engine, opened, told, notice, patient });
         this.scene = opened.scene;
         this.texts = { ...opened.texts }; // as written
-        this.live = begun.errors.length ? null : { ...opened.texts }; // as they run; null: nothing runs
+        this.live = begun.errors.length || begun.stopped ? null : { ...opened.texts }; // as they run; null: nothing runs
         this.versions = []; // what ran before each save, the latest last
         this.words = { words: [], keys: [], spaces: { other: [], own: [] }, methods: [], scene: {}, behaviours: [] };
         this.checker = new EngineClient(new URL("worker.js", location.href), ({ event, text }) => event === "failed" && notice(`Errors are not checked while you write: ${text}`));
@@ -183,7 +183,7 @@ export class Desk {
     /** Loads files into the crowd that runs; with `back`, as the way back from a save. */
     async reload(changed, back = false) {
         const files = Object.fromEntries(changed.map((path) => [path, this.texts[path]])), before = { ...this.live };
-        const { errors, news } = await this.engine.call("reload", { files });
+        const { errors, news } = await this.patient(this.engine.call("reload", { files }));
         if (errors.length) return this.tellErrors(errors, "Not live: the version before keeps running");
         this.live = { ...this.live, ...files };
         this.later ||= news.some((item) => item.later);
@@ -197,7 +197,7 @@ export class Desk {
     /** Begins the scene anew with what is written. */
     async begin(done) {
         this.tell("Starting the scene ...");
-        const { errors } = await this.engine.call("open", { files: this.texts, path: this.scene });
+        const { errors } = await this.patient(this.engine.call("open", { files: this.texts, path: this.scene }));
         if (errors.length) return this.tellErrors(errors, this.live ? "Not restarted: the version before keeps running" : "Nothing runs yet");
         if (this.live && this.changed().length) this.versions.push({ ...this.live });
         this.live = { ...this.texts };

@@ -3,6 +3,8 @@ import { byId, say } from "../../../core/view/page/dom.js";
 import { EngineClient } from "../engine/client.js";
 import { findOpened } from "./opened.js";
 
+const STOPPED = "jostle-stopped"; // key of the tab's storage: open nothing
+const LONG = 15000; // ms after which an answer of the engine is late
 const LATEST = 6000; // ms after which the editor is loaded though no crowd moves: what is opened may have errors
 
 const told = new EventTarget(); // "scene", "status", "reloaded", "said" and "failed" of the engine
@@ -33,18 +35,35 @@ function notice(text, ...acts) {
     node.hidden = false;
 }
 
+/** Waits for an answer of the engine; if it is late, offers to go on without what makes it busy. */
+async function patient(answer) {
+    const stop = Object.assign(document.createElement("button"), { type: "button", textContent: "Stop it, and edit", onclick: () => {
+        sessionStorage.setItem(STOPPED, "1");
+        location.reload();
+    } });
+    const late = setTimeout(() => notice("The engine has been busy with this scene for long.", stop), LONG);
+    try {
+        return await answer;
+    } finally {
+        clearTimeout(late);
+        if (stop.isConnected) byId("notice").hidden = true;
+    }
+}
+
 async function start() {
     connectPage();
+    const stopped = sessionStorage.getItem(STOPPED);
+    sessionStorage.removeItem(STOPPED);
     const opened = await findOpened(location);
     say(byId("title"), opened.title);
     document.title = `${opened.title} – Jostle`;
     if (opened.fault) notice(opened.fault);
-    const begun = engine.call("open", { files: opened.texts, path: opened.scene });
+    const begun = stopped ? Promise.resolve({ errors: [], stopped }) : patient(engine.call("open", { files: opened.texts, path: opened.scene }));
     begun.catch((error) => notice(error.message));
     told.addEventListener("failed", ({ detail }) => notice(`The engine stopped: ${detail}`));
-    await Promise.race([moved, new Promise((resolve) => setTimeout(resolve, LATEST)), begun.then(({ errors }) => (errors.length ? null : moved), () => null)]);
+    await Promise.race([moved, new Promise((resolve) => setTimeout(resolve, LATEST)), begun.then(({ errors }) => (errors.length || stopped ? null : moved), () => null)]);
     const { Desk } = await import("./desk.js");
-    window.desk = new Desk({ engine, opened, told, notice, begun: await begun.catch(() => ({ errors: [] })) });
+    window.desk = new Desk({ engine, opened, told, notice, patient, begun: await begun.catch(() => ({ errors: [], stopped: true })) });
 }
 
 addEventListener("hashchange", () => location.reload());
