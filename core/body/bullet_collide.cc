@@ -6,10 +6,6 @@
 
 #include <new>
 
-extern "C" {
-#include "base/number/elementary.h"
-}
-
 /* Bullet's test of two boxes, from its btBoxBoxDetector.cpp: adds up to `most` contacts to
    `result`. A rotation is three rows of four numbers; `sizes` are whole lengths of the sides. */
 int dBoxBox2(const btVector3 &at1, const float *rotation1, const btVector3 &sizes1,
@@ -92,16 +88,25 @@ struct SpreadContacts : btDiscreteCollisionDetectorInterface::Result {
     }
 };
 
+/* Returns the manifold of an algorithm that has one, or NULL. */
+btPersistentManifold *get_manifold(btCollisionAlgorithm *algorithm) {
+    btManifoldArray manifolds;
+    algorithm->getAllContactManifolds(manifolds);
+    return manifolds.size() ? manifolds[0] : nullptr;
+}
+
 struct BoxContacts : btBoxBoxCollisionAlgorithm {
-    using btBoxBoxCollisionAlgorithm::btBoxBoxCollisionAlgorithm;
+    btPersistentManifold *manifold;
+
+    BoxContacts(const btCollisionAlgorithmConstructionInfo &info,
+                const btCollisionObjectWrapper *one, const btCollisionObjectWrapper *two)
+        : btBoxBoxCollisionAlgorithm(nullptr, info, one, two), manifold(get_manifold(this)) {}
 
     void processCollision(const btCollisionObjectWrapper *one, const btCollisionObjectWrapper *two,
                           const btDispatcherInfo &, btManifoldResult *result) override {
-        btManifoldArray manifold;
-        getAllContactManifolds(manifold);
-        if (!manifold.size())
+        if (!manifold)
             return;
-        result->setPersistentManifold(manifold[0]);
+        result->setPersistentManifold(manifold);
         const PlacedBox a(one), b(two);
         SpreadContacts contacts;
         btVector3 normal;
@@ -114,45 +119,48 @@ struct BoxContacts : btBoxBoxCollisionAlgorithm {
     }
 };
 
-/* Contacts of a body with the ground. With fewer than three, more are searched: the lowest points
-   of the body tilted a little to three sides. All are found in the first step, as a body would rock
-   on one. */
+/* Contacts of a body with the ground, the plane z = 0. With fewer than three, more are searched:
+   the lowest points of the body tilted a little to three sides. All are found in the first step, as
+   a body would rock on one. */
 struct GroundContacts : btConvexPlaneCollisionAlgorithm {
+    btPersistentManifold *manifold;
     bool ground_first;
 
     GroundContacts(const btCollisionAlgorithmConstructionInfo &info,
                    const btCollisionObjectWrapper *one, const btCollisionObjectWrapper *two,
                    bool swapped)
         : btConvexPlaneCollisionAlgorithm(nullptr, info, one, two, swapped, 0, 0),
-          ground_first(swapped) {}
+          manifold(get_manifold(this)), ground_first(swapped) {}
 
     void processCollision(const btCollisionObjectWrapper *one, const btCollisionObjectWrapper *two,
-                          const btDispatcherInfo &info, btManifoldResult *result) override {
-        btManifoldArray manifold;
-        getAllContactManifolds(manifold);
-        if (!manifold.size())
+                          const btDispatcherInfo &, btManifoldResult *result) override {
+        static const float SIDES[3][2] = {{1.0f, 0.0f}, {-0.5f, 0.8660254f}, {-0.5f, -0.8660254f}};
+        if (!manifold)
             return;
-        collideSingleContact(btQuaternion::getIdentity(), one, two, info, result);
         const btCollisionObjectWrapper *body = ground_first ? two : one;
         const btConvexShape *shape = static_cast<const btConvexShape *>(body->getCollisionShape());
+        const btTransform &at = body->getWorldTransform();
+        result->setPersistentManifold(manifold);
+        add_lowest(shape, at, btVector3(0, 0, -1), result);
         /* Round bodies would roll on contacts beside their lowest point. */
-        if (shape->isPolyhedral() && manifold[0]->getNumContacts() < 3)
-            collide_tilted(shape, one, two, info, result);
-        if (manifold[0]->getNumContacts())
+        if (shape->isPolyhedral() && manifold->getNumContacts() < 3) {
+            const float slope =
+                btMin(gContactBreakingThreshold / shape->getAngularMotionDisc(), 0.4f);
+            for (const float *side : SIDES)
+                add_lowest(shape, at, btVector3(slope * side[0], slope * side[1], -1), result);
+        }
+        if (manifold->getNumContacts())
             result->refreshContactPoints();
     }
 
   private:
-    void collide_tilted(const btConvexShape *shape, const btCollisionObjectWrapper *one,
-                        const btCollisionObjectWrapper *two, const btDispatcherInfo &info,
-                        btManifoldResult *result) {
-        static const float AXES[3][2] = {{0.0f, -1.0f}, {-0.8660254f, 0.5f}, {0.8660254f, 0.5f}};
-        const double tilt =
-            btMin(double(gContactBreakingThreshold / shape->getAngularMotionDisc()), M_PI / 8);
-        const float sine = float(jox_sin(0.5 * tilt)), cosine = float(jox_cos(0.5 * tilt));
-        for (const float *axis : AXES)
-            collideSingleContact(btQuaternion(sine * axis[0], sine * axis[1], 0.0f, cosine), one,
-                                 two, info, result);
+    /* Adds the point of a body that lies farthest in a direction, if it is near the ground. */
+    void add_lowest(const btConvexShape *shape, const btTransform &at, const btVector3 &direction,
+                    btManifoldResult *result) {
+        const btVector3 lowest = at * shape->localGetSupportingVertex(direction * at.getBasis());
+        if (lowest.z() < manifold->getContactBreakingThreshold())
+            result->addContactPoint(btVector3(0, 0, 1), btVector3(lowest.x(), lowest.y(), 0),
+                                    lowest.z());
     }
 };
 
@@ -169,7 +177,7 @@ btCollisionAlgorithm *
 JoxBoxContactsMaker::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo &info,
                                               const btCollisionObjectWrapper *one,
                                               const btCollisionObjectWrapper *two) {
-    return create_algorithm<BoxContacts>(info, nullptr, info, one, two);
+    return create_algorithm<BoxContacts>(info, info, one, two);
 }
 
 btCollisionAlgorithm *
