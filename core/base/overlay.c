@@ -28,6 +28,15 @@ void jox_overlay_put(JoxOverlay *overlay, const char *path, const char *text, si
     file->length = length;
 }
 
+void jox_overlay_remove(JoxOverlay *overlay, const char *path) {
+    JoxOverlayFile *file = (JoxOverlayFile *)jox_overlay_find(overlay, path);
+    if (!file)
+        return;
+    jox_free(file->path);
+    jox_free(file->text);
+    *file = overlay->files[--overlay->count];
+}
+
 void jox_overlay_free(JoxOverlay *overlay) {
     for (size_t f = 0; f < overlay->count; f++) {
         jox_free(overlay->files[f].path);

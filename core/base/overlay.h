@@ -26,6 +26,8 @@ typedef struct JoxOverlay {
 
 /* Stores a copy of a text at a path, in place of the one before. */
 void jox_overlay_put(JoxOverlay *overlay, const char *path, const char *text, size_t length);
+/* Forgets the text of a path, so that the file is read from elsewhere again. */
+void jox_overlay_remove(JoxOverlay *overlay, const char *path);
 /* Returns the file that this overlay itself holds at a path, or NULL. */
 const JoxOverlayFile *jox_overlay_find(const JoxOverlay *overlay, const char *path);
 void jox_overlay_free(JoxOverlay *overlay);

@@ -2,6 +2,7 @@
    states, and works out how it replaces what runs (reload_batch.c). The stepping thread finds it
    ready between two steps, and swaps all of it or nothing (reload_swap.c). */
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -142,6 +143,7 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
                       scene->input_path);
             return false;
         }
+    jox_run_end_reload(scene); /* that of jo_scene_reload */
     JoxWatch *watch = jox_watch_create();
     if (watch) {
         JoxReload *r = create_reload(scene, watch);
@@ -166,11 +168,14 @@ static void report_unread_file(const JoScene *scene, const JoxInputEntry *entry,
         for (uint32_t f = 0; f < changes->made_of[p].count && count < MOST; f++)
             names[count++] = changes->made_of[p].paths[f];
     const char *near = jox_did_you_mean(path, names, count, hint);
+    char place[512] = "";
+    if (entry->line > 0) /* 0: of jo_scene_reload */
+        snprintf(place, sizeof place,
+                 "%.490s:%d: ", scene->input_path ? scene->input_path : "input", entry->line);
     jox_run_say(scene,
-                "%s:%d: t = %.2f s: no behaviour or scene of this run reads '%.200s': its "
-                "text has no effect%s%s\n",
-                scene->input_path ? scene->input_path : "input", entry->line,
-                jo_world_time(scene->world), path, near ? ". " : "", near ? near : "");
+                "%st = %.2f s: no behaviour or scene of this run reads '%.200s': its text has no "
+                "effect%s%s\n",
+                place, jo_world_time(scene->world), path, near ? ". " : "", near ? near : "");
 }
 
 bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *error) {

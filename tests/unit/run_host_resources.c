@@ -68,6 +68,37 @@ static void files_only_reads_nothing_from_the_disk(void **state) {
     assert_null(jo_scene_load(&def, &error));
 }
 
+/* Texts replace files of a running scene at once, all that belong together or none. */
+static void texts_replace_files_of_a_running_scene(void **state) {
+    (void)state;
+    const JoFile files[] = {FILE_OF("nowhere/scenes/hall.yaml", HALL),
+                            FILE_OF("nowhere/behaviours/walk.lua", WALK_ON),
+                            FILE_OF("nowhere/behaviours/pace.lua", "return 1.5\n")};
+    const JoFile slower = FILE_OF("nowhere/behaviours/pace.lua", "return 0.5\n");
+    const JoFile wrong = FILE_OF("nowhere/behaviours/pace.lua", "return 0.5 +\n");
+    const JoFile turned[] = {FILE_OF("nowhere/behaviours/walk.lua", MACHINE_START
+                                     "\"Walk\", defaults = { speed = require 'pace' }, "
+                                     "states = { Walk = { steer = drift(-1, 0) } } }\n")};
+    JoError error;
+    JoScene *scene = load_files(files, 3, true, &error);
+    assert_non_null(scene);
+    step_scene(scene, 20);
+    assert_false(jo_scene_reload(scene, &wrong, 1, &error));
+    assert_string_equal(error.file, "nowhere/behaviours/pace.lua");
+    assert_int_equal(error.line, 2);
+    step_scene(scene, 20);
+    assert_float_equal(scene->world->state.agents.vx[0], 1.5, 0.01); /* goes on */
+    assert_true(jo_scene_reload(scene, &slower, 1, &error));
+    step_scene(scene, 40);
+    assert_float_equal(scene->world->state.agents.vx[0], 0.5, 0.01);
+    /* the text that was refused is forgotten: the next reload reads the last good one */
+    assert_false(jo_scene_reload(scene, &wrong, 1, &error));
+    assert_true(jo_scene_reload(scene, turned, 1, &error));
+    step_scene(scene, 40);
+    assert_float_equal(scene->world->state.agents.vx[0], -0.5, 0.01);
+    jo_scene_free(scene);
+}
+
 /* ---- threads ---- */
 
 static uint32_t rounds, most;
@@ -145,6 +176,7 @@ int main(void) {
         cmocka_unit_test(scenes_are_read_from_memory),
         cmocka_unit_test(missing_file_is_reported),
         cmocka_unit_test(files_only_reads_nothing_from_the_disk),
+        cmocka_unit_test(texts_replace_files_of_a_running_scene),
         cmocka_unit_test(loops_run_on_the_threads_of_the_program),
         cmocka_unit_test(allocator_must_be_set_before_other_calls),
     };
