@@ -93,7 +93,8 @@ typedef enum JoIsa {
     JO_ISA_SSE2,
     JO_ISA_AVX2,
     JO_ISA_AVX512,
-    JO_ISA_NEON
+    JO_ISA_NEON,
+    JO_ISA_WASM /* of WebAssembly: 128-bit vectors */
 } JoIsa;
 /* Writes the instruction set with a name such as "avx2" to *isa. False if there is no such set
    or this machine does not support it; `error` then lists the available ones. */

@@ -6,11 +6,8 @@
 static const struct {
     JoIsa isa;
     const char *name;
-} ALL[] = {{JO_ISA_SCALAR, "scalar"},
-           {JO_ISA_SSE2, "sse2"},
-           {JO_ISA_AVX2, "avx2"},
-           {JO_ISA_AVX512, "avx512"},
-           {JO_ISA_NEON, "neon"}};
+} ALL[] = {{JO_ISA_SCALAR, "scalar"}, {JO_ISA_SSE2, "sse2"}, {JO_ISA_AVX2, "avx2"},
+           {JO_ISA_AVX512, "avx512"}, {JO_ISA_NEON, "neon"}, {JO_ISA_WASM, "wasm"}};
 enum { COUNT = sizeof ALL / sizeof *ALL };
 
 bool jox_isa_runs(JoIsa isa) {
@@ -26,6 +23,9 @@ bool jox_isa_runs(JoIsa isa) {
         return __builtin_cpu_supports("avx512f");
 #elif defined __aarch64__
     case JO_ISA_NEON:
+        return true;
+#elif defined __wasm_simd128__
+    case JO_ISA_WASM:
         return true;
 #endif
     default:

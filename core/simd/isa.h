@@ -15,12 +15,14 @@
     X(sse2, JO_ISA_SSE2) X(avx2, JO_ISA_AVX2) X(avx512, JO_ISA_AVX512)
 #elif defined __aarch64__
 #define JOX_ISAS(X) X(scalar, JO_ISA_SCALAR) X(neon, JO_ISA_NEON)
+#elif defined __wasm_simd128__
+#define JOX_ISAS(X) X(scalar, JO_ISA_SCALAR) X(wasm, JO_ISA_WASM)
 #else
 #define JOX_ISAS(X) X(scalar, JO_ISA_SCALAR)
 #endif
 
 /* Size of a table with an entry for each JoIsa; entries of sets that the build lacks stay NULL. */
-enum { JOX_ISA_ROOM = JO_ISA_NEON + 1 };
+enum { JOX_ISA_ROOM = JO_ISA_WASM + 1 };
 
 /* Returns whether the build has kernels for it, and processor and system support it. */
 bool jox_isa_runs(JoIsa isa);

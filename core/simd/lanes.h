@@ -18,6 +18,8 @@
 #include "simd/lanes_sse2.h"
 #elif defined JOX_ISA_neon
 #include "simd/lanes_neon.h"
+#elif defined JOX_ISA_wasm
+#include "simd/lanes_wasm.h"
 #else
 #include "simd/lanes_scalar.h"
 #endif

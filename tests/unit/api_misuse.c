@@ -150,7 +150,7 @@ static void enumerations_out_of_range_are_refused_by_name(void **state) {
         assert_null(jo_world_create(&world, &error));
         assert_non_null(strstr(error.text, "lost_bodies must be one of JO_LOST_END, "));
         world = jo_default_world_def();
-        world.isa = (JoIsa)(wrong[i] == 3 ? 6 : wrong[i]);
+        world.isa = (JoIsa)(wrong[i] == 3 ? 7 : wrong[i]);
         assert_null(jo_world_create(&world, &error));
         assert_non_null(strstr(error.text, "does not run 'unknown'; it runs scalar"));
         assert_string_equal(jo_isa_name(world.isa), "unknown");

@@ -16,6 +16,8 @@
 #define JOX_ISA_sse2
 #elif defined __aarch64__
 #define JOX_ISA_neon
+#elif defined __wasm_simd128__
+#define JOX_ISA_wasm
 #endif
 #include "simd/lanes.h"
 
