@@ -210,21 +210,31 @@ static bool run_scene_page(JoxScenePage *s, JoError *error) {
     return good;
 }
 
-static bool view_scene(const JoViewDef *def, JoError *error) {
-    JoxScenePage s = {.def = def, .scene_def = def->scene};
-    s.page.source = &jox_scene_page_source;
-    s.page.self = &s;
+bool jox_scene_page_open(JoxScenePage *s, const JoViewDef *def, JoError *error) {
     const JoxViewOptions options = {.address = def->address, .port = def->port, .page = def->page};
-    if (!jox_live_page_open(&s.page, &options, error))
-        return false;
+    *s = (JoxScenePage){.def = def, .scene_def = def->scene};
+    s->page.source = &jox_scene_page_source;
+    s->page.self = s;
+    return jox_live_page_open(&s->page, &options, error);
+}
+
+bool jox_scene_page_close(JoxScenePage *s, JoError *error) {
+    const bool ended = jox_scene_page_end(s, error);
+    jox_live_page_close(&s->page);
+    jox_scene_page_forget_errors(s);
+    jox_free(s->errors);
+    jox_free(s->overrides);
+    jox_free(s->level);
+    return ended;
+}
+
+static bool view_scene(const JoViewDef *def, JoError *error) {
+    JoxScenePage s;
     JoError ending = {0};
-    bool good = run_scene_page(&s, error), ended = jox_scene_page_end(&s, good ? error : &ending);
-    jox_live_page_close(&s.page);
-    jox_scene_page_forget_errors(&s);
-    jox_free(s.errors);
-    jox_free(s.overrides);
-    jox_free(s.level);
-    return good && ended;
+    if (!jox_scene_page_open(&s, def, error))
+        return false;
+    const bool good = run_scene_page(&s, error);
+    return jox_scene_page_close(&s, good ? error : &ending) && good;
 }
 
 bool jo_view(const JoViewDef *def, JoError *error) {

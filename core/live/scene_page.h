@@ -55,6 +55,11 @@ typedef struct JoxScenePage {
 
 /* scene_page.c: functions of the source; `self` is a JoxScenePage. */
 extern const JoxLiveSource jox_scene_page_source;
+/* Opens the page of `def`, which must outlive it; jox_scene_page_load then loads the scene. False
+   with `error`. */
+bool jox_scene_page_open(JoxScenePage *scene, const JoViewDef *def, JoError *error);
+/* Ends the scene, all connections, and the page. False with `error` if a file is not whole. */
+bool jox_scene_page_close(JoxScenePage *scene, JoError *error);
 /* scene_load.c: loads the scene in place of the one that runs, and starts its recording, log and
    watch. False with `error`; the scene that ran before goes on if the new one could not be
    loaded. */
