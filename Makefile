@@ -24,9 +24,11 @@ PKG     := PKG_CONFIG_LIBDIR=/usr/lib/$(CROSS:-=)/pkgconfig:/usr/share/pkgconfig
 else
 PKG     := pkg-config
 endif
+# Edited files are noticed by inotify; without it (WATCH=0) they are not.
+WATCH   ?= 1
 # Mods as zip archives need libzip; without it, or with ZIP=0, they are refused.
 ZIP     ?= $(if $(shell $(PKG) --exists libzip 2>/dev/null && echo 1),1,0)
-WITHOUT := $(if $(filter-out file,$(origin ZIP)),$(if $(filter 0,$(ZIP)),-nozip))$(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)$(if $(CROSS),-$(CROSS:-=))
+WITHOUT := $(if $(filter-out file,$(origin ZIP)),$(if $(filter 0,$(ZIP)),-nozip))$(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)$(if $(filter 0,$(WATCH)),-nowatch)$(if $(CROSS),-$(CROSS:-=))
 B       ?= build/$(MODE)$(WITHOUT)
 # SHARED: folder of the objects that builds of a MODE have in common, whatever they leave out and wherever they
 # are installed. The few files that name a folder of the installation (PLACED) are compiled for each build. If B
@@ -53,9 +55,12 @@ SRC_CC  :=
 else
 SRC_C   := $(filter-out core/body/no_bullet.c,$(SRC_C))
 endif
+SRC_C   := $(filter-out core/run/watch/watch_$(if $(filter 0,$(WATCH)),inotify,none).c,$(SRC_C))
 SRC_C   := $(filter-out core/picture/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
 SRC_C   := $(filter-out core/base/zip_$(if $(filter 0,$(ZIP)),libzip,none).c,$(SRC_C))
-SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/no_server.c),$(SRC_C))
+# One of three files, or groups of files, implements view.h: worker.c in WebAssembly alone (scripts/wasm/build.mk).
+SERVERS := core/view/lws_% core/view/no_server.c core/view/worker.c
+SRC_C   := $(filter-out $(filter-out core/view/$(or $(patsubst 0,no_server.c,$(filter 0,$(VIEW))),$(patsubst worker,worker.c,$(filter worker,$(VIEW))),lws_%),$(SERVERS)),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c core/cli/bench/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api load),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
 TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c tests/unit/live_replay_page.c),$(TESTS))
@@ -86,6 +91,8 @@ WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-
 HARD    := $(if $(filter release,$(MODE)),-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
 # No contraction to fused multiply-add, no fast-math: every build must compute the same bits.
 FP      := -ffp-contract=off -fno-math-errno -fno-trapping-math
+PIC     := -fPIC
+THREADS := -pthread
 CFLAGS  ?=
 CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -D_GNU_SOURCE
 # Folders of the installation, defined only for the files that name them (PLACED) and for tests, so that all other
@@ -94,11 +101,11 @@ PLACES  := -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"'
 PLACED  := $(shell grep -lE 'JOX_(DATADIR|PAGEDIR)' $(SRC_C) $(SRC_CC) $(SRC_CLI))
 # Static variables of inline C++ functions must not become symbols that all libraries of a process share.
 UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
-CFLAGS_ALL  = -std=c17 $(OPT) $(HARD) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
+CFLAGS_ALL  = -std=c17 $(OPT) $(HARD) $(WARN) $(FP) $(PIC) -fvisibility=hidden $(THREADS) -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
 # No vectorization of scalars in C++: with it, GCC 12 at -O3 rounds the sum of a shape's moments of inertia
 # differently. The C++ files have no loops that would gain by it.
-CXXFLAGS_ALL = -std=c++17 $(OPT) $(HARD) -Wall -Wextra $(FP) -fno-tree-slp-vectorize -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti $(UNIQUE) \
-           -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
+CXXFLAGS_ALL = -std=c++17 $(OPT) $(HARD) -Wall -Wextra $(FP) -fno-tree-slp-vectorize $(PIC) -fvisibility=hidden -fno-exceptions -fno-rtti $(UNIQUE) \
+           $(THREADS) -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
 PKG_CFLAGS := $(shell $(PKG) --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
 PKG_LIBS   := $(shell $(PKG) --libs $(PKGS) 2>/dev/null)
 LIBS       := $(PKG_LIBS) -lm -pthread
@@ -125,7 +132,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm cluster-test matrix soak install install-built uninstall dist deb deb-check clean test-all format
+.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm cluster-test wasm wasm-test npm npm-test matrix soak install install-built uninstall dist deb deb-check clean test-all format
 LIBRARIES := jostle jostle-tools
 all: $(B)/jostle $(if $(filter 0,$(VIEW)),,$(PAGE)/main.js) $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
@@ -160,6 +167,20 @@ cluster-test:
 	@.ci/setup cluster
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) .ci/suite cluster
+# Builds the engine for WebAssembly, with its JavaScript, in build/wasm/out (scripts/wasm).
+wasm:
+	@.ci/setup wasm
+	@bash scripts/wasm/sources.sh build/wasm/sources $$(.ci/setup wasm-sources)
+	@$(MAKE) --no-print-directory $(AT_ONCE) -f scripts/wasm/build.mk
+wasm-test: wasm
+	@$(MAKE) --no-print-directory $(B)/jostle
+	@B=$(B) JOSTLE=$(B)/jostle .ci/suite wasm
+# Makes the npm package, build/out/jostle-VERSION.tgz (scripts/npm).
+npm: wasm
+	@$(MAKE) --no-print-directory -f scripts/wasm/build.mk wasm-npm
+npm-test: npm
+	@$(MAKE) --no-print-directory $(NODE)
+	@.ci/suite npm
 # Proves that the hashes of the scenes in SCENES are the same for all threads, instruction sets, compilers and options
 # that must not change results (tests/scenes/determinism.sh).
 SCENES ?= all
@@ -363,7 +384,7 @@ install: install-built
 	install -d $(D)/share/jostle/page
 	if [ -f $(PAGE)/main.js ]; then cp -R $(PAGE)/. $(D)/share/jostle/page; fi
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
-	rm -rf $(D)/share/jostle/scripts/debian $(D)/share/jostle/scripts/python $(D)/share/jostle/scripts/lua
+	rm -rf $(foreach d,debian python lua wasm npm,$(D)/share/jostle/scripts/$(d))
 uninstall:
 	rm -rf $(D)/share/jostle
 	rm -f $(D)/bin/jostle $(L)/lua/5.4/jostle.so $(LIBRARIES:%=$(L)/lib%.a) $(LIBRARIES:%=$(L)/lib%.so*) $(HEADERS:core/%=$(D)/%)

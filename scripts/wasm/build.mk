@@ -1,0 +1,95 @@
+# Builds the engine as a WebAssembly module, build/wasm/out/jostle.wasm with its JavaScript (README.md). `make wasm` runs
+# it, after it has unpacked the sources of the libraries. It is the Makefile with another compiler and fewer folders:
+# clang is called without emcc's wrapper, which takes longer to start than most files to compile, and emcc links.
+.DEFAULT_GOAL := wasm-module
+WASM_SOURCES := build/wasm/sources
+# emcc of Debian is a Python script whose JavaScript part needs modules of Debian's own folder.
+export NODE_PATH := /usr/share/nodejs
+# longjmp by the exceptions of WebAssembly, which cost nothing until one is thrown.
+WASM_LONGJMP := -sSUPPORT_LONGJMP=wasm
+WASM_CCACHE  := $(shell command -v ccache)
+WASM_CFLAGS  := $(shell emcc $(WASM_LONGJMP) --cflags)
+# Without stack coloring: with it, clang 14 reads lanes from a slot of the stack that another array has overwritten.
+WASM_CODE    := -msimd128 -mllvm -no-stack-coloring
+override CC  := $(WASM_CCACHE) clang $(WASM_CFLAGS) $(WASM_CODE)
+override CXX := $(WASM_CCACHE) clang++ $(WASM_CFLAGS) $(WASM_CODE)
+override B       := build/wasm/release
+override CAIRO   := 0
+override ZIP     := 0
+override VIEW    := worker
+override WATCH   := 0
+override HARD    :=
+override THREADS :=
+override PIC     :=
+override ISAS    := scalar wasm
+override DATADIR := /jostle
+override PAGEDIR := /jostle/page
+# Folders of the engine, and of the tools those that the module calls.
+override ONLY := base base/number base/format simd task geom geom/field geom/ground agents nav/spots nav nav/near nav/walk nav/orca \
+    nav/move force force/push force/support force/contact force/stages body machine machine/steering world/input \
+    world/step_events world/routes world world/verbs world/embed scene/format scene/wall_files scene scene/reference lua/vm lua/language \
+    lua record/fields record record/probes record/danger view picture run/watch run run/resume run/results run/why run/mods live validate wasm
+override PKG_CFLAGS := -isystem $(WASM_SOURCES)/lua5.4/src -isystem $(WASM_SOURCES)/libyaml/include -isystem $(WASM_SOURCES)/expat/expat/lib \
+    -isystem $(WASM_SOURCES)/cjson -isystem $(WASM_SOURCES)/bullet/src -isystem build/wasm/include
+# What a browser's tab has no use or no means for: sandboxing, child processes, the reproduction of claims.
+WASM_LEFT_OUT := core/base/confine% core/task/children.c core/validate/repro%
+include Makefile
+OBJ := $(filter-out $(foreach s,$(WASM_LEFT_OUT),$(B)/$(basename $(s)).o),$(OBJ))
+
+# ---- libraries ----
+LIB_C := $(filter-out %/lua.c %/luac.c,$(wildcard $(WASM_SOURCES)/lua5.4/src/*.c)) $(wildcard $(WASM_SOURCES)/libyaml/src/*.c) \
+    $(addprefix $(WASM_SOURCES)/expat/expat/lib/,xmlparse.c xmlrole.c xmltok.c) $(WASM_SOURCES)/cjson/cJSON.c
+LIB_CC := $(foreach d,LinearMath BulletCollision/* BulletDynamics/*,$(wildcard $(WASM_SOURCES)/bullet/src/$(d)/*.cpp))
+LIB_OBJ := $(LIB_C:$(WASM_SOURCES)/%.c=$(B)/lib/%.o) $(LIB_CC:$(WASM_SOURCES)/%.cpp=$(B)/lib/%.o)
+# Headers that Debian's packages put elsewhere than their sources do. Of SQLite only the header is used (core/wasm/no_sqlite.c).
+WASM_INCLUDE := build/wasm/include
+$(WASM_INCLUDE)/.made:
+	@mkdir -p $(@D)
+	@echo '#define DEB_HOST_MULTIARCH "wasm32"' >$(@D)/lua5.4-deb-multiarch.h
+	@touch $(@D)/expat_config.h # LIB_FLAGS has what it would say
+	@cp /usr/include/sqlite3.h $(@D)/
+	@touch $@
+$(OBJ) $(LIB_OBJ): scripts/wasm/build.mk | $(WASM_INCLUDE)/.made
+LIB_FLAGS := -DYAML_VERSION_STRING='"0.2.5"' -DYAML_VERSION_MAJOR=0 -DYAML_VERSION_MINOR=2 -DYAML_VERSION_PATCH=5 \
+    -DXML_NS -DXML_DTD -DXML_CONTEXT_BYTES=1024 -DBYTEORDER=1234 -DHAVE_GETRANDOM -DNDEBUG -D_GNU_SOURCE -w
+$(B)/lib/%.o: $(WASM_SOURCES)/%.c
+	@mkdir -p $(@D)
+	$(call say,LIB,$<)
+	$(Q)$(CC) -O2 $(FP) $(LIB_FLAGS) $(PKG_CFLAGS) -c $< -o $@
+$(B)/lib/%.o: $(WASM_SOURCES)/%.cpp
+	@mkdir -p $(@D)
+	$(call say,LIB,$<)
+	$(Q)$(CXX) -O2 $(FP) -fno-exceptions -fno-rtti -DNDEBUG -w $(PKG_CFLAGS) -c $< -o $@
+
+# ---- the module ----
+WASM_OUT := build/wasm/out
+WASM_LINK := -O2 $(WASM_LONGJMP) -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB \
+    -sINITIAL_MEMORY=32MB -sSTRICT=1 -sFILESYSTEM=1 -sFORCE_FILESYSTEM=1 -sNO_EXIT_RUNTIME=1 -sINCOMING_MODULE_JS_API=wasmBinary,locateFile,print,printErr \
+    -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=FS,UTF8ToString,stringToUTF8,lengthBytesUTF8 --no-entry
+$(WASM_OUT)/jostle.mjs: $(OBJ) $(LIB_OBJ)
+	@mkdir -p $(@D)
+	$(call say,LINK,$@)
+	$(Q)em++ $(WASM_LINK) $^ -o $@
+$(WASM_OUT)/engine.mjs: scripts/wasm/engine.mjs
+	@mkdir -p $(@D)
+	@cp $< $@
+$(WASM_OUT)/shipped.json: scripts/wasm/shipped.mjs $(wildcard scripts/*.lua behaviours/*.lua scenes/*.* scenes/mods/*/*)
+	@mkdir -p $(@D)
+	$(call say,TEXT,$@)
+	$(Q)node $< >$@.part && mv $@.part $@
+# Licences of what the module contains.
+$(WASM_OUT)/licences.txt: LICENSE $(LIB_OBJ)
+	@mkdir -p $(@D)
+	$(Q)for source in LICENSE $(WASM_SOURCES)/*/debian/copyright; do printf '==== %s\n\n' "$$source"; cat "$$source"; echo; done >$@.part
+	@sed -i 's,^==== $(WASM_SOURCES)/\([^/]*\)/.*,==== \1,; s,^==== LICENSE,==== jostle,' $@.part && mv $@.part $@
+wasm-module: $(WASM_OUT)/licences.txt $(WASM_OUT)/jostle.mjs $(WASM_OUT)/engine.mjs $(WASM_OUT)/shipped.json
+wasm-objects: $(OBJ) $(LIB_OBJ)
+# The npm package, made of these and of scripts/npm.
+NPM := build/wasm/npm
+wasm-npm: wasm-module
+	@rm -rf $(NPM) && mkdir -p $(NPM) build/out
+	@cp -R scripts/npm/. $(NPM)/ && cp $(WASM_OUT)/* $(NPM)/
+	@sed -i 's/VERSION/$(VERSION)/' $(NPM)/package.json $(NPM)/README.md
+	$(call say,NPM,build/out/jostle-$(VERSION).tgz)
+	$(Q)cd $(NPM) && npm pack --silent --pack-destination=../../out >/dev/null
+.PHONY: wasm-module wasm-objects wasm-npm
