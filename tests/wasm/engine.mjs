@@ -1,0 +1,184 @@
+// Tests of the interface of the WebAssembly module (scripts/wasm/engine.mjs) under Node.js. Prints "ok NAME" or "not ok NAME".
+import assert from "node:assert/strict";
+import { Engine, JostleError } from "../../build/wasm/out/engine.mjs";
+
+const engine = await Engine.create();
+
+function test(name, work) {
+    try {
+        work();
+        console.log(`ok ${name}`);
+    } catch (error) {
+        console.log(`not ok ${name}: ${error.stack}`);
+    }
+}
+
+const YARD = "jostle: 1\nplaces: {yard: {polygon: [[-9, -9], [9, -9], [9, 9], [-9, 9]]}}\ngroups: {some: {behaviour: walk.lua, at: [[0, 0], [2, 0], [4, 0]]}}\n";
+const walk = (speed, way = 1) => `return machine { name = "walk", start = "Walk", defaults = { speed = ${speed} },\n  states = { Walk = { steer = drift(${way}, 0) } } }\n`;
+const FILES = { "scenes/yard.yaml": YARD, "behaviours/walk.lua": walk(1.5) };
+
+/** Opens the yard; what it says goes to `said`. */
+function openYard({ files = FILES, ...options } = {}) {
+    const said = [];
+    return Object.assign(engine.open({ files, scene: "scenes/yard.yaml", say: (text) => said.push(text), ...options }), { said });
+}
+
+test("scene is stepped and read", () => {
+    const scene = openYard();
+    scene.step(20);
+    assert.equal(scene.agents, 3);
+    assert.equal(scene.tick, 20);
+    assert.ok(Math.abs(scene.time - 1) < 1e-9);
+    assert.match(scene.hash, /^[0-9a-f]{16}$/);
+    assert.ok(scene.column("x") instanceof Float32Array);
+    assert.deepEqual([...scene.column("vx")].map((v) => v.toFixed(1)), ["1.5", "1.5", "1.5"]);
+    assert.deepEqual([...scene.column("id")].sort(), [0, 1, 2]);
+    assert.equal(scene.column("speed").length, 3);
+    assert.equal(scene.name("machine", 0), "walk");
+    assert.equal(scene.name("state", scene.column("state")[0]), "Walk");
+    assert.throws(() => scene.column("nonsense"), RangeError);
+    assert.equal(scene.summary().agents, 3);
+    assert.equal(scene.plan().states[0].name, "Walk");
+    scene.close();
+    assert.throws(() => scene.step(), /closed/);
+});
+
+test("columns are of the engine's memory", () => {
+    const scene = openYard(), x = scene.column("x");
+    assert.equal(x.buffer, scene.column("y").buffer);
+    scene.close();
+});
+
+test("errors of a scene have file, line, column and a way out", () => {
+    const wrong = { ...FILES, "behaviours/walk.lua": walk(1.5).replace("steer", "ster") };
+    let caught = null;
+    try { openYard({ files: wrong }); } catch (error) { caught = error; }
+    assert.ok(caught instanceof JostleError);
+    const [fault] = caught.errors;
+    assert.deepEqual([fault.file, fault.line, fault.column, fault.severity], ["behaviours/walk.lua", 2, 23, "error"]);
+    assert.match(fault.wayOut, /Did you mean 'steer'/);
+    assert.deepEqual(engine.check(wrong, "behaviours/walk.lua")[0], fault);
+    assert.deepEqual(engine.check(FILES, "scenes/yard.yaml"), []);
+    assert.throws(() => openYard({ set: { "groups.some.spead": 1 } }), JostleError);
+    assert.throws(() => engine.open({ scene: "scenes/none.yaml" }), /none.yaml/);
+});
+
+test("reload is taken or leaves all as it was", () => {
+    const scene = openYard();
+    scene.step(20);
+    const refused = scene.reload({ "behaviours/walk.lua": walk("1.5 +") });
+    assert.equal(refused.live, false);
+    assert.deepEqual([refused.errors[0].file, refused.errors[0].line], ["behaviours/walk.lua", 1]);
+    assert.deepEqual(refused.taken, []);
+    assert.equal(scene.read("behaviours/walk.lua"), walk(1.5));
+    scene.step(1);
+    const done = scene.reload({ "behaviours/walk.lua": walk(0.5, -1) });
+    assert.equal(done.live, true);
+    assert.deepEqual(done.taken, ["behaviours/walk.lua"]);
+    assert.deepEqual([done.news[0].before, done.news[0].after], [[{ state: "Walk", people: 3 }], [{ state: "Walk", people: 3 }]]);
+    scene.step(60);
+    assert.ok([...scene.column("vx")].every((v) => Math.abs(v + 0.5) < 0.01));
+    assert.equal(scene.read("behaviours/walk.lua"), walk(0.5, -1));
+    scene.close();
+});
+
+test("a reload that changes nothing keeps the hash", () => {
+    const [one, other] = [openYard(), openYard()];
+    for (const scene of [one, other]) scene.step(10);
+    other.reload({ "behaviours/walk.lua": walk(1.5) });
+    for (const scene of [one, other]) scene.step(10);
+    assert.equal(one.hash, other.hash);
+    for (const scene of [one, other]) scene.close();
+});
+
+test("events and bodies are read", () => {
+    const scene = engine.open({ scene: "scenes/dodgeball.yaml", say: () => {} });
+    assert.ok(scene.events().entered.length > 0);
+    const seen = { transitions: 0, hits: 0 };
+    for (let step = 0; step < 400; step++) {
+        scene.step();
+        for (const kind of Object.keys(seen)) seen[kind] += scene.events()[kind].length;
+    }
+    assert.ok(seen.transitions > 0 && seen.hits > 0, JSON.stringify(seen));
+    const [ball] = scene.bodies();
+    assert.ok(Number.isFinite(ball.z) && Math.abs(Math.hypot(ball.qx, ball.qy, ball.qz, ball.qw) - 1) < 1e-3, JSON.stringify(ball));
+    scene.close();
+});
+
+test("page gets messages turn by turn, and gives commands", () => {
+    const scene = openYard({ page: true });
+    scene.turn();
+    const first = scene.takeMessages(), texts = first.filter((message) => message.text).map((message) => JSON.parse(message.text));
+    assert.ok(texts.some((message) => message.type === "scene"));
+    assert.ok(texts.some((message) => message.type === "status"));
+    assert.ok(first.some((message) => message.bytes && message.channel < 12 && new DataView(message.bytes).getUint32(0, true) === 1));
+    for (let turn = 0; turn < 5; turn++) scene.turn();
+    const frames = scene.takeMessages().filter((message) => message.bytes && message.channel < 12);
+    assert.ok(frames.length <= 1); // the newest alone
+    scene.command({ do: "pause", on: true });
+    scene.command({ do: "step", n: 3 });
+    scene.turn();
+    const before = scene.tick;
+    for (let turn = 0; turn < 5; turn++) scene.turn();
+    assert.ok(scene.tick - before <= 3);
+    scene.reload({ "behaviours/walk.lua": walk(0.2) });
+    scene.command({ do: "restart" });
+    scene.turn();
+    assert.ok(scene.tick <= 1);
+    const types = scene.takeMessages().filter((message) => message.text).map((message) => JSON.parse(message.text).type);
+    assert.ok(types.includes("reloaded") && types.includes("scene"), types.join());
+    scene.step(40);
+    assert.ok(Math.abs(scene.column("vx")[0] - 0.2) < 0.01); // the restart reads the reloaded text
+    scene.close();
+});
+
+test("mods and settings are applied", () => {
+    const hash = (options) => {
+        const scene = engine.open({ scene: "scenes/tawaf-few.yaml", say: () => {}, ...options });
+        scene.step(20);
+        const { hash: found } = scene;
+        scene.close();
+        return found;
+    };
+    const few = { "groups.pilgrims.count": 100 };
+    assert.notEqual(hash({ set: few }), hash({ set: few, seed: 7 }));
+    assert.throws(() => hash({ mods: ["scenes/mods/none"] }), JostleError);
+});
+
+test("input is carried out", () => {
+    const [pushed, other] = [openYard(), openYard()];
+    pushed.input("push 0 0 500");
+    for (const scene of [pushed, other]) scene.step(1);
+    assert.notEqual(pushed.hash, other.hash);
+    assert.throws(() => pushed.input("shove 0"), JostleError);
+    for (const scene of [pushed, other]) scene.close();
+});
+
+test("language is described", () => {
+    const rows = engine.vocabulary(), near = rows.find((row) => row.word === "near");
+    assert.equal(near.signature, "near(target, metres)");
+    assert.ok(rows.every((row) => row.word !== undefined && row.meaning));
+    assert.ok(rows.some((row) => row.kind === "parameter" && row.word === "speed" && row.greatest > 0));
+    assert.ok(JSON.parse(engine.reference("scene-schema")).properties);
+    assert.match(engine.reference("behaviours"), /near/);
+    assert.throws(() => engine.reference("nothing"), JostleError);
+});
+
+test("lack of memory is an error, and other scenes go on", () => {
+    const fail = engine.module._jostle_fail_memory_after, scene = openYard();
+    let failed = 0;
+    for (let count = 0; count < 4000; count = Math.ceil(1.3 * count + 1)) {
+        fail(count);
+        try {
+            openYard().close();
+        } catch (error) {
+            assert.match(error.message, /out of memory/);
+            failed++;
+        } finally {
+            fail(-1);
+        }
+        scene.step(1);
+    }
+    assert.ok(failed > 10, `${failed} loads failed`);
+    scene.close();
+});
