@@ -244,6 +244,9 @@ typedef struct JoTiming {
     double ns, least_ns; /* processor time per agent and step, ns: median and least of the rounds */
     double stage_ns[JO_STAGE_COUNT];
 } JoTiming;
+/* Returns how many processors the process may use, by its affinity and the quotas of its control
+   groups; 1 to 64. */
+JO_API uint32_t jo_count_processors(void);
 /* Draws bench.svg into `directory` (made if it is missing), and leaves gnuplot's script and data
    beside it: a bar for each item of `timings`, another one divided into its stages, and for each
    instruction set the series as a curve over the number of agents. Needs gnuplot. */

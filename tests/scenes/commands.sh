@@ -148,6 +148,8 @@ expect "view: bad option" 2 "Did you mean --scene" "$JOSTLE" view x.sqlite --sce
 expect "bench prints times" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
 "$JOSTLE" bench scale-1k --isa scalar,sse2 --rounds 3 --steps 3 --warm-up 1 --json >"$work/bench.json" 2>/dev/null
 [ "$(grep -c '"agents": 1000,' "$work/bench.json")" = 2 ] && [ "$(grep -c '"rounds": 3,' "$work/bench.json")" = 2 ]; verdict "bench times a named scene with two instruction sets and three rounds" $?
+python3 -c 'import json, sys
+for case in json.load(open(sys.argv[1])): assert 300 < case["resident_bytes_per_agent"] < 4000, case' "$work/bench.json"; verdict "  and tells the resident memory of an agent" $?
 # Enough steps for the clock of processor time, which may advance by 10 ms.
 "$JOSTLE" bench scale-1k scenes/circle.yaml --steps 1000 --warm-up 0 --csv "$work/bench.csv" --commit 'a "b", c' --plot "$work/plot" >/dev/null 2>&1
 "$JOSTLE" bench scale-1k --steps 2 --warm-up 0 --csv "$work/bench.csv" >/dev/null 2>&1
@@ -157,6 +159,29 @@ grep -q '</svg>' "$work/plot/bench.svg" && grep -q 'scenes/circle.yaml' "$work/p
 "$JOSTLE" bench worlds-of-2 scenes/catch.yaml --steps 3 --warm-up 0 --json >"$work/bench.json" 2>/dev/null
 [ "$(grep -c '"bullet_ns": [1-9]' "$work/bench.json")" = 2 ] && [ "$(grep -c '"bodies_in_bullets": [1-9]' "$work/bench.json")" = 2 ]; verdict "bench times many small worlds, and Bullet's own share" $?
 expect "bench: a table that cannot be written" 1 "cannot write" "$JOSTLE" bench scale-1k --steps 1 --warm-up 0 --csv "$work"
+expect "bench compares numbers of threads" 0 "* more threads than processors" "$JOSTLE" bench scale-1k --threads 1,2,64 --steps 40 --warm-up 1 --rounds 3 --csv "$work/threads.csv"
+grep -qE '^solve +64\* ' "$work/out" && grep -qE '^1000 agents|: 1000 agents, ' "$work/out"; verdict "  in a table" $?
+python3 - "$work/threads.csv" "$(nproc)" <<'END'; verdict "  and a CSV file, whose speed-ups, efficiencies and sums are those of its times" $?
+import csv, sys
+rows = list(csv.DictReader(open(sys.argv[1])))
+assert len(rows) == 33 and [r["stage"] for r in rows[:3]] == ["all", "perceive", "think"], rows
+first = {r["stage"]: r for r in rows[:11]}
+near = lambda a, b: abs(a - b) <= 1e-4 * max(abs(a), abs(b), 1e-3)
+for r in rows:
+    wall, was, n = float(r["wall_ns"]), float(first[r["stage"]]["wall_ns"]), int(r["threads"])
+    assert float(r["least_wall_ns"]) <= wall and r["rounds"] == "3"
+    assert r["is_measure"] == ("yes" if n <= int(sys.argv[2]) else "no"), r
+    assert (r["cpu_ns"] == "") == (r["stage"] != "all")
+    if wall > 0:
+        assert near(float(r["speed_up"]), was / wall) and near(float(r["efficiency"]), was / wall / n), r
+        assert near(float(r["lost_ns"]) + was / n, wall), r
+for n in "1", "2", "64":
+    least = [float(r["least_wall_ns"]) for r in rows if r["threads"] == n]
+    assert sum(least[1:]) <= least[0] * 1.001, least
+END
+expect "  a CSV file of other columns is refused" 1 "it has lines of other columns" "$JOSTLE" bench scale-1k --threads 1,2 --steps 1 --warm-up 0 --rounds 1 --csv "$work/bench.csv"
+expect "  and numbers that are none, or repeated" 2 "has the number 2 twice" "$JOSTLE" bench scale-1k --threads 1,2,2
+expect "  and worlds that one thread steps in turn" 3 "by one thread" "$JOSTLE" bench worlds-of-2 --threads 1,2
 expect "bench refuses an unknown instruction set" 2 "scalar" "$JOSTLE" bench circle --isa scalar,none
 "$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
 (root=$PWD; cd "$work" && "$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$root/$JOSTLE" ;; esac)" run "$root/scenes/running-through.yaml" --quiet --for 2 --report some/where >/dev/null 2>&1)

@@ -1,8 +1,67 @@
 /* Computes the figures of a round from the statistics of a run, or of many worlds, at its beginning
-   and end. */
+   and end, and the median and the least of all rounds. */
+#include <malloc.h>
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/file.h"
+#include "base/sort.h"
 #include "cli/bench/bench.h"
+
+#ifdef __clang__
+const char *const bench_compiler = "clang " __clang_version__;
+#else
+const char *const bench_compiler = "gcc " __VERSION__;
+#endif
+
+void bench_find_cpu(char cpu[BENCH_CPU_NAME]) {
+    snprintf(cpu, BENCH_CPU_NAME, "unknown");
+    FILE *file = jox_file_open("/proc/cpuinfo", "r");
+    char line[256], name[256];
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "model name : %255[^\n]", name) == 1) {
+            snprintf(cpu, BENCH_CPU_NAME, "%.*s", BENCH_CPU_NAME - 1, name);
+            break;
+        }
+    if (file)
+        jox_file_close(file);
+}
+
+void bench_return_memory(void) {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 128 << 10); /* a fixed one: it would grow with what is freed */
+    malloc_trim(0);
+#endif
+}
+
+uint64_t bench_read_resident(void) {
+    unsigned long long pages = 0;
+    FILE *file = jox_file_open("/proc/self/statm", "r");
+    if (file && fscanf(file, "%*u %llu", &pages) != 1)
+        pages = 0;
+    if (file)
+        jox_file_close(file);
+    return pages * (uint64_t)sysconf(_SC_PAGESIZE);
+}
+
+double bench_find_median(const double *values, uint64_t count) {
+    double sorted[BENCH_ROUNDS];
+    memcpy(sorted, values, count * sizeof *values);
+    jox_sort_doubles(sorted, count);
+    return 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
+}
+
+double bench_find_bytes_per_agent(const BenchCase *c) {
+    return c->last.agents ? (double)c->resident / c->last.agents : 0.0;
+}
+
+double bench_find_least(const double *values, uint64_t count) {
+    double result = values[0];
+    for (uint64_t i = 1; i < count; i++)
+        result = values[i] < result ? values[i] : result;
+    return result;
+}
 
 /* Returns the mean of a figure per agent-step between two moments, given its mean from the
    beginning of the run to each. */
@@ -13,7 +72,8 @@ static double get_mean_between(const JoStats *from, const JoStats *to, double be
     return steps > 0 ? sum / steps : 0.0;
 }
 
-void bench_note(BenchCase *c, const JoStats *from, const JoStats *to) {
+void bench_note(BenchCase *c, const JoStats *from, const JoStats *to, double all_wall,
+                double all_cpu) {
     const double steps = (double)(to->steps - from->steps);
     const double agent_steps = (double)(to->agent_steps - from->agent_steps);
     const double cpu = to->cpu_s - from->cpu_s, wall = to->wall_s - from->wall_s;
@@ -23,6 +83,8 @@ void bench_note(BenchCase *c, const JoStats *from, const JoStats *to) {
     c->steps_per_s[round] = steps / wall;
     c->times_real_time[round] = steps * to->dt / wall;
     c->ns[round] = cpu * 1e9 * each;
+    c->wall[round] = all_wall * 1e9 * each;
+    c->cpu[round] = all_cpu * 1e9 * each;
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         c->stages[s][round] = get_mean_between(from, to, from->stage_ns[s], to->stage_ns[s]);
     c->bullet[round] = get_mean_between(from, to, from->bullet_ns, to->bullet_ns);

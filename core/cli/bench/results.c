@@ -7,43 +7,7 @@
 #include "base/format/quote.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "base/sort.h"
 #include "cli/bench/bench.h"
-
-enum { CPU_LENGTH = 100 };
-#ifdef __clang__
-#define COMPILER "clang " __clang_version__
-#else
-#define COMPILER "gcc " __VERSION__
-#endif
-
-/* Finds the name of the processor's model; "unknown" if there is none. */
-static void find_cpu(char cpu[CPU_LENGTH]) {
-    snprintf(cpu, CPU_LENGTH, "unknown");
-    FILE *file = jox_file_open("/proc/cpuinfo", "r");
-    char line[256], name[256];
-    while (file && fgets(line, sizeof line, file))
-        if (sscanf(line, "model name : %255[^\n]", name) == 1) {
-            snprintf(cpu, CPU_LENGTH, "%.*s", CPU_LENGTH - 1, name);
-            break;
-        }
-    if (file)
-        jox_file_close(file);
-}
-
-static double get_median_of_rounds(const double *values, uint64_t count) {
-    double sorted[BENCH_ROUNDS];
-    memcpy(sorted, values, count * sizeof *values);
-    jox_sort_doubles(sorted, count);
-    return 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
-}
-
-static double get_least_of_rounds(const double *values, uint64_t count) {
-    double result = values[0];
-    for (uint64_t i = 1; i < count; i++)
-        result = values[i] < result ? values[i] : result;
-    return result;
-}
 
 /* Returns the time of all that moves bodies and shows them to agents, divided by that of Bullet's
    own steps; 0 without bodies. */
@@ -51,49 +15,58 @@ static double get_bodies_ratio(const BenchCase *c) {
     double ratios[BENCH_ROUNDS] = {0.0};
     for (uint64_t i = 0; i < c->measured; i++)
         ratios[i] = c->bullet[i] > 0.0 ? c->bodies[i] / c->bullet[i] : 0.0;
-    return get_median_of_rounds(ratios, c->measured);
+    return bench_find_median(ratios, c->measured);
 }
 
 static void add_case_json(JoxJson *json, const BenchGiven *given, const BenchCase *c) {
-    char cpu[CPU_LENGTH];
-    find_cpu(cpu);
+    char cpu[BENCH_CPU_NAME];
+    bench_find_cpu(cpu);
     jox_json_object(json, NULL);
     jox_json_string(json, "scene", c->name);
     jox_json_string(json, "isa", jo_isa_name(c->isa));
     jox_json_string(json, "cpu", cpu);
     jox_json_string(json, "commit", given->commit);
-    jox_json_string(json, "compiler", COMPILER);
-    jox_json_whole(json, "threads", given->threads);
+    jox_json_string(json, "compiler", bench_compiler);
+    jox_json_whole(json, "threads", c->threads);
     jox_json_whole(json, "warm_up", given->warm_up);
     jox_json_whole(json, "steps", given->steps);
     jox_json_digits(json, "dt", c->last.dt, 6);
     jox_json_whole(json, "agents", c->last.agents);
     jox_json_whole(json, "bodies", c->last.bodies);
+    if (c->resident) {
+        jox_json_whole(json, "resident_bytes", c->resident);
+        jox_json_digits(json, "resident_bytes_per_agent", bench_find_bytes_per_agent(c), 4);
+    }
     jox_json_whole(json, "rounds", c->measured);
-    jox_json_digits(json, "steps_per_s", get_median_of_rounds(c->steps_per_s, c->measured), 6);
-    jox_json_digits(json, "times_real_time", get_median_of_rounds(c->times_real_time, c->measured),
+    jox_json_digits(json, "steps_per_s", bench_find_median(c->steps_per_s, c->measured), 6);
+    jox_json_digits(json, "times_real_time", bench_find_median(c->times_real_time, c->measured), 6);
+    jox_json_digits(json, "cpu_ns_per_agent_step", bench_find_median(c->ns, c->measured), 6);
+    jox_json_digits(json, "least_cpu_ns_per_agent_step", bench_find_least(c->ns, c->measured), 6);
+    jox_json_digits(json, "wall_ns_per_agent_step", bench_find_median(c->wall, c->measured), 6);
+    jox_json_digits(json, "least_wall_ns_per_agent_step", bench_find_least(c->wall, c->measured),
                     6);
-    jox_json_digits(json, "cpu_ns_per_agent_step", get_median_of_rounds(c->ns, c->measured), 6);
-    jox_json_digits(json, "least_cpu_ns_per_agent_step", get_least_of_rounds(c->ns, c->measured),
-                    6);
-    jox_json_digits(json, "bullet_ns", get_median_of_rounds(c->bullet, c->measured), 4);
-    jox_json_digits(json, "bodies_ns", get_median_of_rounds(c->bodies, c->measured), 4);
+    jox_json_digits(json, "bullet_ns", bench_find_median(c->bullet, c->measured), 4);
+    jox_json_digits(json, "bodies_ns", bench_find_median(c->bodies, c->measured), 4);
     jox_json_digits(json, "bodies_in_bullets", get_bodies_ratio(c), 4);
     jox_json_object(json, "stage_ns");
     for (int s = 0; s < JO_STAGE_COUNT; s++)
-        jox_json_digits(json, jo_stage_name(s), get_median_of_rounds(c->stages[s], c->measured), 4);
+        jox_json_digits(json, jo_stage_name(s), bench_find_median(c->stages[s], c->measured), 4);
     jox_json_end(json);
     jox_json_end(json);
 }
 
 void bench_line(const BenchCase *c) {
-    printf("%-30s %-6s %7u %6u %10.1f %8.1f %8.0f %8.0f %9.1f %8.2f ", c->name, jo_isa_name(c->isa),
-           c->last.agents, c->last.bodies, get_median_of_rounds(c->steps_per_s, c->measured),
-           get_median_of_rounds(c->times_real_time, c->measured),
-           get_median_of_rounds(c->ns, c->measured), get_least_of_rounds(c->ns, c->measured),
-           get_median_of_rounds(c->bullet, c->measured), get_bodies_ratio(c));
+    char bytes[24] = "-";
+    if (c->resident)
+        snprintf(bytes, sizeof bytes, "%.0f", bench_find_bytes_per_agent(c));
+    printf("%-30s %-6s %7u %6u %7s %10.1f %8.1f %8.0f %8.0f %9.1f %8.2f ", c->name,
+           jo_isa_name(c->isa), c->last.agents, c->last.bodies, bytes,
+           bench_find_median(c->steps_per_s, c->measured),
+           bench_find_median(c->times_real_time, c->measured),
+           bench_find_median(c->ns, c->measured), bench_find_least(c->ns, c->measured),
+           bench_find_median(c->bullet, c->measured), get_bodies_ratio(c));
     for (int s = 0; s < JO_STAGE_COUNT; s++)
-        printf(" %8.1f", get_median_of_rounds(c->stages[s], c->measured));
+        printf(" %8.1f", bench_find_median(c->stages[s], c->measured));
     puts("");
     fflush(stdout);
 }
@@ -102,9 +75,9 @@ void bench_header(void) {
     puts("Medians of the rounds. Nanoseconds are per agent and step: 'cpu ns' of processor time, "
          "stages of wall time.\n'bullet': the part of the stage 'bodies' that Bullet's own steps "
          "take; 'x bullet': the time of all that moves bodies and shows them to agents, divided by "
-         "that of Bullet's own steps.");
-    printf("%-30s %-6s %7s %6s %10s %8s %8s %8s %9s %8s ", "scene", "isa", "agents", "bodies",
-           "steps/s", "x real", "cpu ns", "least", "bullet", "x bullet");
+         "that of Bullet's own steps.\n'B/agent': resident memory of the scene, per agent.");
+    printf("%-30s %-6s %7s %6s %7s %10s %8s %8s %8s %9s %8s ", "scene", "isa", "agents", "bodies",
+           "B/agent", "steps/s", "x real", "cpu ns", "least", "bullet", "x bullet");
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         printf(" %8s", jo_stage_name(s));
     puts("");
@@ -118,8 +91,8 @@ void bench_ratios(const BenchCase *cases, size_t count, size_t isas) {
         const BenchCase *c = &cases[k], *first = c - k % isas;
         if (c != first)
             printf("%-30s %-6s %7.2f\n", c->name, jo_isa_name(c->isa),
-                   get_least_of_rounds(first->ns, first->measured) /
-                       get_least_of_rounds(c->ns, c->measured));
+                   bench_find_least(first->ns, first->measured) /
+                       bench_find_least(c->ns, c->measured));
     }
 }
 
@@ -146,23 +119,23 @@ bool bench_csv(const char *path, const BenchGiven *given, const BenchCase *cases
             fprintf(file, ",%s_ns", jo_stage_name(s));
         fputs("\n", file);
     }
-    char cpu[CPU_LENGTH];
-    find_cpu(cpu);
+    char cpu[BENCH_CPU_NAME];
+    bench_find_cpu(cpu);
     for (size_t k = 0; k < count; k++) {
         const BenchCase *c = &cases[k];
-        const char *const texts[] = {cpu, given->commit, COMPILER, jo_isa_name(c->isa)};
+        const char *const texts[] = {cpu, given->commit, bench_compiler, jo_isa_name(c->isa)};
         for (size_t t = 0; t < sizeof texts / sizeof *texts; t++) {
             jox_quote_put(file, jox_quote_csv, texts[t]);
             fputs(",", file);
         }
-        fprintf(file, "%u,", given->threads);
+        fprintf(file, "%u,", c->threads);
         jox_quote_put(file, jox_quote_csv, c->name);
         fprintf(file, ",%u,%u,%llu,%llu,%.5g,%.5g,%.6g", c->last.agents, c->last.bodies,
                 (unsigned long long)given->steps, (unsigned long long)c->measured,
-                get_median_of_rounds(c->ns, c->measured), get_least_of_rounds(c->ns, c->measured),
-                get_median_of_rounds(c->steps_per_s, c->measured));
+                bench_find_median(c->ns, c->measured), bench_find_least(c->ns, c->measured),
+                bench_find_median(c->steps_per_s, c->measured));
         for (int s = 0; s < JO_STAGE_COUNT; s++)
-            fprintf(file, ",%.4g", get_median_of_rounds(c->stages[s], c->measured));
+            fprintf(file, ",%.4g", bench_find_median(c->stages[s], c->measured));
         fputs("\n", file);
     }
     return jox_file_close(file) == 0;
@@ -175,16 +148,16 @@ bool bench_plot(const char *folder, const BenchCase *cases, size_t count, JoErro
     size_t told = 0;
     for (size_t k = 0; k < count; k++) {
         const BenchCase *c = &cases[k];
-        if (!(get_median_of_rounds(c->ns, c->measured) > 0.0))
+        if (!(bench_find_median(c->ns, c->measured) > 0.0))
             continue;
         timings[told] = (JoTiming){.scene = c->name,
                                    .isa = jo_isa_name(c->isa),
                                    .agents = c->last.agents,
                                    .in_series = strncmp(c->name, "scale-", 6) == 0,
-                                   .ns = get_median_of_rounds(c->ns, c->measured),
-                                   .least_ns = get_least_of_rounds(c->ns, c->measured)};
+                                   .ns = bench_find_median(c->ns, c->measured),
+                                   .least_ns = bench_find_least(c->ns, c->measured)};
         for (int s = 0; s < JO_STAGE_COUNT; s++)
-            timings[told].stage_ns[s] = get_median_of_rounds(c->stages[s], c->measured);
+            timings[told].stage_ns[s] = bench_find_median(c->stages[s], c->measured);
         told++;
     }
     if (told == 0)

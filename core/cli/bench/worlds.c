@@ -120,7 +120,7 @@ int bench_worlds(const BenchWorlds *def, const BenchGiven *given, BenchCase *c, 
         from.cpu_s = from.wall_s = 0.0;
         to.cpu_s = cpu;
         to.wall_s = wall;
-        bench_note(c, &from, &to);
+        bench_note(c, &from, &to, wall, cpu);
     }
     free_worlds(&w);
     return good ? JO_OK : (int)error->code;

@@ -8,6 +8,7 @@
 #include "geom/polygon.h"
 #include "jostle_tools.h"
 #include "simd/isa.h"
+#include "task/processors.h"
 #include "world/embed/argument_checks.h"
 #include "world/world.h"
 
@@ -59,6 +60,10 @@ bool jo_isa_find(const char *name, JoIsa *isa, JoError *error) {
 
 const char *jo_isa_name(JoIsa isa) {
     return jox_isa_name(jox_isa_resolve(isa));
+}
+
+uint32_t jo_count_processors(void) {
+    return jox_count_processors();
 }
 
 static JoWorld *create_in(JoxHeap *heap, const JoWorldDef *def, JoError *error) {
