@@ -55,20 +55,29 @@ function givenFor(texts, live = { news: [], scene: null, status: null }) {
     return { texts, problems: engine.check(texts, "court.yaml"), observe: async (files, seconds) => run(files, seconds), live, lessons };
 }
 
-/** Runs a lesson's files, saves the next ones over them, and returns what the workbench would know of the crowd that runs. */
-function playedLive(before, after) {
-    const scene = engine.open({ files: before, scene: "court.yaml", page: true, say() {} });
-    const take = () => scene.takeMessages().filter((m) => m.text).map((m) => JSON.parse(m.text));
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/**
+ * Runs a lesson as its reader does, who saves it over the one before, restarts and plays where `anew`. Returns what the workbench
+ * would know of the crowd that runs.
+ */
+async function playedLive(before, after, anew) {
+    const scene = engine.open({ files: anew ? after : before, scene: "court.yaml", page: true, say() {} }), live = { news: [], scene: null, status: null };
+    const take = () => scene.takeMessages().filter((m) => m.text).map((m) => JSON.parse(m.text)).forEach((m) => m.type in live && (live[m.type] = m));
     try {
         scene.turn();
-        const { news } = scene.reload(after);
+        if (!anew) live.news = scene.reload(after).news;
         scene.command({ do: "play", level: "" });
-        scene.turn();
-        const told = take(), of = (type) => told.filter((m) => m.type === type).pop() ?? null;
-        return { news, scene: of("scene"), status: of("status") };
+        for (let n = 0; n < 60; n++) { // of turns: the page's clock is the wall's
+            scene.command({ do: "input", line: "player 0 1 0" });
+            scene.turn();
+            take();
+            await pause(25);
+        }
     } finally {
         scene.close();
     }
+    return live;
 }
 
 const tests = {
@@ -188,11 +197,12 @@ const tests = {
     async "a lesson's own solution passes its check, and what it begins with does not"() {
         assert.deepEqual(Object.keys(CHECKS), lessons.map((l) => l.title));
         for (const [n, lesson] of lessons.entries()) {
-            const before = lessonFiles(lesson), live = n >= 4 ? playedLive(lessons[n - 1].after, lesson.after) : undefined;
-            const begun = await CHECKS[lesson.title](givenFor(before));
+            const begun = await CHECKS[lesson.title](givenFor(lessonFiles(lesson)));
             assert.ok(begun.some((i) => !i.holds), `${lesson.title}: passes from its beginning`);
-            const solved = await CHECKS[lesson.title](givenFor(lesson.after, live)), waits = solved.filter((i) => !i.holds && !/running|crowd that runs|is a game|You /.test(i.text));
-            assert.deepEqual(waits, [], lesson.title);
+            const live = n >= 4 ? await playedLive(lessons[n - 1].after, lesson.after, n > 4) : undefined, solved = await CHECKS[lesson.title](givenFor(lesson.after, live));
+            assert.deepEqual(solved.filter((i) => !i.holds), [], lesson.title);
+            const written = await CHECKS[lesson.title](givenFor(lesson.after));
+            assert.ok(n < 4 || written.some((i) => !i.holds), `${lesson.title}: passes without a crowd that runs`);
         }
     },
 
