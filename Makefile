@@ -132,7 +132,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm cluster-test wasm wasm-test npm npm-test matrix soak install install-built uninstall dist deb deb-check clean test-all format
+.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm cluster-test wasm wasm-test npm npm-test site site-test matrix soak install install-built uninstall dist deb deb-check clean test-all format
 LIBRARIES := jostle jostle-tools
 all: $(B)/jostle $(if $(filter 0,$(VIEW)),,$(PAGE)/main.js) $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
@@ -181,6 +181,14 @@ npm: wasm
 npm-test: npm
 	@$(MAKE) --no-print-directory $(NODE)
 	@.ci/suite npm
+# Makes the playground, a static site, in build/site: scenes and an editor in a browser's tab (scripts/site).
+site: wasm
+	@$(MAKE) --no-print-directory $(B)/jostle $(NODE)
+	$(call say,SITE,scripts/site)
+	$(Q)node scripts/site/build.mjs build/site $(B)/jostle build/wasm/out build/node
+site-test: site
+	@.ci/setup test
+	@B=$(B) JOSTLE=$(B)/jostle .ci/suite site
 # Proves that the hashes of the scenes in SCENES are the same for all threads, instruction sets, compilers and options
 # that must not change results (tests/scenes/determinism.sh).
 SCENES ?= all
@@ -384,7 +392,7 @@ install: install-built
 	install -d $(D)/share/jostle/page
 	if [ -f $(PAGE)/main.js ]; then cp -R $(PAGE)/. $(D)/share/jostle/page; fi
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
-	rm -rf $(foreach d,debian python lua wasm npm,$(D)/share/jostle/scripts/$(d))
+	rm -rf $(foreach d,debian python lua wasm npm site,$(D)/share/jostle/scripts/$(d))
 uninstall:
 	rm -rf $(D)/share/jostle
 	rm -f $(D)/bin/jostle $(L)/lua/5.4/jostle.so $(LIBRARIES:%=$(L)/lib%.a) $(LIBRARIES:%=$(L)/lib%.so*) $(HEADERS:core/%=$(D)/%)

@@ -68,11 +68,10 @@ export function cutPreview(svg) {
     return { people, svg: `<svg xmlns="http://www.w3.org/2000/svg" viewBox="${x} ${y} ${width} ${height}"><rect x="${x}" y="${y}" width="${width}" height="${height}" fill="${FLOOR}"/>${plain}</svg>\n` };
 }
 
-/** Draws a scene, unless the drawing at `path` is newer than the scene and the program. */
+/** Draws a scene, unless the drawing at `path` is newer than the scene: all of them take a minute. */
 function drawPreview(jostle, root, name, path) {
     const scene = join(root, "scenes", `${name}.yaml`), full = `${path}.full.svg`;
-    const newest = Math.max(statSync(scene).mtimeMs, statSync(jostle).mtimeMs);
-    if (!existsSync(full) || statSync(full).mtimeMs < newest) {
+    if (!existsSync(full) || statSync(full).mtimeMs < statSync(scene).mtimeMs) {
         execFileSync(jostle, ["render", scene, "--at", String(BEFORE[name] ?? OTHERWISE), "--no-mods", "--size", "960x600", "--out", full, "--quiet"], { stdio: ["ignore", "ignore", "pipe"] });
     }
     return cutPreview(readFileSync(full, "utf8"));
