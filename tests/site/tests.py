@@ -1,11 +1,8 @@
 """Tests of the playground in a browser, as a file server gives it to one: below a sub-folder, without headers of ours."""
 import base64
-import functools
-import http.server
 import io
 import os
 import sys
-import threading
 import zipfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "page"))
@@ -13,36 +10,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from selenium.webdriver.common.keys import Keys  # noqa: E402
 
 from harness import ROOT, expect, run_all, wait_for  # noqa: E402
+from server import BELOW, Server  # noqa: E402
 
-SITE = os.path.abspath(os.environ.get("SITE", os.path.join(ROOT, "build", "site")))
-BELOW = "/some/folder"  # the site is not at the server's root
 SMALL = (960, 600)  # the workbench side by side, with a small picture
-
-
-class Server:
-    """A plain file server of the site below a sub-folder."""
-
-    def __init__(self):
-        class Handler(http.server.SimpleHTTPRequestHandler):
-            def translate_path(self, path):
-                path = path.split("?")[0].split("#")[0]
-                inside = path[len(BELOW):] if path.startswith(BELOW + "/") else "/outside-of-the-site"
-                return super().translate_path(inside)
-
-            def log_message(self, *_):
-                pass
-
-        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=SITE))
-        self.thread = threading.Thread(target=self.server.serve_forever, daemon=True)
-        self.thread.start()
-        self.origin = f"http://127.0.0.1:{self.server.server_address[1]}"
-
-    def address(self, path):
-        return f"{self.origin}{BELOW}/{path}"
-
-    def stop(self):
-        self.server.shutdown()
-        self.server.server_close()
 
 
 class Workbench:
