@@ -1,8 +1,9 @@
 // Builds the playground, a static site: `make site` runs it. build.mjs OUT JOSTLE ENGINE NODE: the folder of the site, the program, the
 // folder of the engine's module (`make wasm`), and the one of npm's packages.
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
 import { createRequire } from "node:module";
-import { dirname, join, resolve } from "node:path";
+import { dirname, join, relative, resolve } from "node:path";
 import process from "node:process";
 import { fileURLToPath } from "node:url";
 import { readLessons } from "./make/lessons.mjs";
@@ -61,6 +62,16 @@ function writeData() {
     writeFileSync(join(out, "data/words.json"), JSON.stringify(words));
 }
 
+/** The service worker, and the files that it keeps: all but previews. */
+function writeOffline() {
+    const files = readdirSync(out, { recursive: true, withFileTypes: true }).filter((f) => f.isFile()).map((f) => relative(out, join(f.parentPath ?? f.path, f.name)).replaceAll("\\", "/"))
+        .filter((path) => !path.startsWith("previews/")).sort();
+    writeFileSync(join(out, "data/files.json"), JSON.stringify(["./", ...files]));
+    const build = createHash("sha256");
+    for (const path of files) build.update(path).update(readFileSync(join(out, path)));
+    writeFileSync(join(out, "offline.js"), `${readFileSync(join(here, "offline.js"), "utf8")}// ${build.digest("hex").slice(0, 16)}\n`);
+}
+
 /** The licences of what is bundled. */
 function writeLicences() {
     const names = ["three", ...readdirSync(join(packages, "@codemirror")).map((n) => `@codemirror/${n}`), ...readdirSync(join(packages, "@lezer")).map((n) => `@lezer/${n}`), "style-mod", "crelt", "w3c-keyname", "@marijn/find-cluster-break"];
@@ -78,4 +89,5 @@ await bundle();
 writeData();
 writeGallery();
 writeLicences();
+writeOffline();
 cpSync(join(root, "core/view/page/pictures/tawaf.webp"), join(out, "previews/poster.webp"));

@@ -66,5 +66,6 @@ async function start() {
     window.desk = new Desk({ engine, opened, told, notice, patient, begun: await begun.catch(() => ({ errors: [], stopped: true })) });
 }
 
+navigator.serviceWorker?.register("offline.js").catch(() => {}); // without it the site needs its server, as any other
 addEventListener("hashchange", () => location.reload());
 start().catch((error) => notice(error.message));
