@@ -39,7 +39,8 @@ OBJ := $(filter-out $(foreach s,$(WASM_LEFT_OUT),$(B)/$(basename $(s)).o),$(OBJ)
 # ---- libraries ----
 LIB_C := $(filter-out %/lua.c %/luac.c,$(wildcard $(WASM_SOURCES)/lua5.4/src/*.c)) $(wildcard $(WASM_SOURCES)/libyaml/src/*.c) \
     $(addprefix $(WASM_SOURCES)/expat/expat/lib/,xmlparse.c xmlrole.c xmltok.c) $(WASM_SOURCES)/cjson/cJSON.c
-LIB_CC := $(foreach d,LinearMath BulletCollision/* BulletDynamics/*,$(wildcard $(WASM_SOURCES)/bullet/src/$(d)/*.cpp))
+LIB_CC := $(foreach d,LinearMath BulletCollision/BroadphaseCollision BulletCollision/CollisionDispatch BulletCollision/CollisionShapes \
+    BulletCollision/NarrowPhaseCollision BulletDynamics/ConstraintSolver BulletDynamics/Dynamics,$(wildcard $(WASM_SOURCES)/bullet/src/$(d)/*.cpp))
 LIB_OBJ := $(LIB_C:$(WASM_SOURCES)/%.c=$(B)/lib/%.o) $(LIB_CC:$(WASM_SOURCES)/%.cpp=$(B)/lib/%.o)
 # Headers that Debian's packages put elsewhere than their sources do. Of SQLite only the header is used (core/wasm/no_sqlite.c).
 WASM_INCLUDE := build/wasm/include
@@ -84,6 +85,14 @@ $(WASM_OUT)/licences.txt: LICENSE $(LIB_OBJ)
 	@sed -i 's,^==== $(WASM_SOURCES)/\([^/]*\)/.*,==== \1,; s,^==== LICENSE,==== jostle,' $@.part && mv $@.part $@
 wasm-module: $(WASM_OUT)/licences.txt $(WASM_OUT)/jostle.mjs $(WASM_OUT)/engine.mjs $(WASM_OUT)/shipped.json
 wasm-objects: $(OBJ) $(LIB_OBJ)
+# The unit test of the lanes, as a program for Node.js.
+WASM_LANES := build/wasm/test/lanes.cjs
+$(WASM_LANES): tests/unit/simd_lanes.c tests/wasm/cmocka/cmocka.h core/simd/lanes_wasm.h $(B)/core/simd/packed.o
+	@mkdir -p $(@D)
+	$(call say,TEST,$<)
+	$(Q)$(CC) $(CPPFLAGS_ALL) -std=c17 -O2 $(FP) -Itests/wasm/cmocka -Itests -c $< -o $(@D)/lanes.o
+	$(Q)emcc -O1 -sENVIRONMENT=node -sSINGLE_FILE=1 $(@D)/lanes.o $(B)/core/simd/packed.o -o $(@D)/lanes.js && mv $(@D)/lanes.js $@
+wasm-tests-built: $(WASM_LANES)
 # The npm package, made of these and of scripts/npm.
 NPM := build/wasm/npm
 wasm-npm: wasm-module
@@ -92,4 +101,4 @@ wasm-npm: wasm-module
 	@sed -i 's/VERSION/$(VERSION)/' $(NPM)/package.json $(NPM)/README.md
 	$(call say,NPM,build/out/jostle-$(VERSION).tgz)
 	$(Q)cd $(NPM) && npm pack --silent --pack-destination=../../out >/dev/null
-.PHONY: wasm-module wasm-objects wasm-npm
+.PHONY: wasm-module wasm-objects wasm-npm wasm-tests-built
