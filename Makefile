@@ -173,6 +173,7 @@ wasm:
 	@bash scripts/wasm/sources.sh build/wasm/sources $$(.ci/setup wasm-sources)
 	@$(MAKE) --no-print-directory $(AT_ONCE) -f scripts/wasm/build.mk
 wasm-test: wasm
+	@$(MAKE) --no-print-directory -f scripts/wasm/build.mk wasm-tests-built
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) JOSTLE=$(B)/jostle .ci/suite wasm
 # Makes the npm package, build/out/jostle-VERSION.tgz (scripts/npm).

@@ -23,6 +23,7 @@ compare() {
     done
 }
 
+node build/wasm/test/lanes.cjs
 node tests/wasm/engine.mjs
 compare 400 ${JOSTLE_WASM_SCENES:-scenes/*.yaml}
 [ -z "${JOSTLE_WASM_LONG-}" ] || compare 5000 scenes/circle.yaml scenes/office.yaml scenes/dodgeball.yaml
