@@ -7,7 +7,7 @@ const COUNT = scene.agents, STEP = 0.05; // s, of the scene
 
 const renderer = new three.WebGLRenderer({ antialias: true });
 document.body.append(renderer.domElement);
-const camera = new three.PerspectiveCamera(40, 1, 1, 400);
+const camera = new three.PerspectiveCamera(42, 1, 1, 400);
 camera.up.set(0, 0, 1);
 const world = new three.Scene();
 world.background = new three.Color(0xdfe5ea);
@@ -50,7 +50,7 @@ renderer.setAnimationLoop((milliseconds) => {
     people.instanceMatrix.needsUpdate = people.instanceColor.needsUpdate = true;
     renderer.setSize(innerWidth, innerHeight);
     camera.aspect = innerWidth / innerHeight;
-    camera.position.set(60 * Math.sin(time / 30), -60 * Math.cos(time / 30), 42);
+    camera.position.set(76 * Math.sin(time / 30), -76 * Math.cos(time / 30), 54);
     camera.lookAt(0, 0, 0);
     camera.updateProjectionMatrix();
     renderer.render(world, camera);
