@@ -182,6 +182,11 @@ static bool write_new_file(const JoxSweepStore *former, const char *path, JoErro
     return whole;
 }
 
+/* Called when memory is out: removes the file that was begun. */
+static void remove_new_file(void *path) {
+    unlink(path);
+}
+
 bool jo_sweep_make_canonical(const char *path, JoError *error) {
     JOX_REQUIRE(path, false);
     JOX_GUARD (NULL, error)
@@ -193,6 +198,7 @@ bool jo_sweep_make_canonical(const char *path, JoError *error) {
                 jox_sweep_execute(&former, JOX_SWEEP_PLANNED, error);
     if (good) {
         unlink(fresh.data); /* of a process that was killed */
+        jox_heap_register(fresh.data, remove_new_file);
         good = write_new_file(&former, fresh.data, error);
         if (good && rename(fresh.data, path) != 0) {
             jox_error(error, JO_FAILED, "cannot replace '%.300s': %s", path, strerror(errno));
@@ -200,6 +206,7 @@ bool jo_sweep_make_canonical(const char *path, JoError *error) {
         }
         if (!good)
             unlink(fresh.data);
+        jox_heap_unregister(fresh.data);
     }
     jox_sweep_close(&former);
     jox_text_free(&fresh);

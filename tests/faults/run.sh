@@ -18,6 +18,10 @@ scene=$PWD/scenes/running-through.yaml log=$PWD/tests/data/session.input
 "$program" run "$scene" --steps 4 --quiet --record "$work/a.sqlite" --checkpoint 0.05 --checkpoint-dir "$work/saved" || exit 1
 cp -r "$work/saved" "$work/saved.first"
 "$program" sweep "$scene" --set groups.runner.set.mass=60,70 --seeds 2 --steps 2 --quiet --out "$work/runs.sqlite" || exit 1
+mkdir "$work/parts"
+for only in 1 2; do
+    "$program" sweep "$scene" --set groups.runner.set.mass=60,70 --steps 2 --quiet --only $only --out "$work/parts/$only.sqlite" || exit 1
+done
 mkdir -p "$work/claims" # of one that runs a scene for two steps
 cp "$scene" "$work/scene.yaml"
 cp behaviours/*.lua "$work/"
@@ -35,6 +39,8 @@ commands=(
     "kept run $scene --steps 3 --quiet --data out/data --checkpoint 0.05 --checkpoint-dir out/saved --record out/r.sqlite"
     "drawn run $scene --steps 2 --quiet --report out/report --no-half-step"
     "sweep sweep $scene --set groups.runner.set.mass=60,70 --steps 2 --jobs 1 --quiet --out out/runs.sqlite --csv out/runs.csv"
+    "only sweep $scene --set groups.runner.set.mass=60,70 --steps 2 --quiet --only 1 --out out/one.sqlite"
+    "merge sweep --merge $work/parts --out out/all.sqlite --canonical --quiet"
     "compare compare $work/runs.sqlite --json out/c.json"
     "bench bench $scene --steps 2 --warm-up 0 --csv out/b.csv"
     "reproduce reproduce --claims $work/claims --seeds 1 --jobs 1 --out out/all --quiet"
@@ -100,7 +106,7 @@ run() {
 # PART N COMMAND...
 once() {
     local part=$1 n=$2; shift 2
-    rm -rf out; mkdir out; cp "$work/old.yaml" out
+    rm -rf out; mkdir out
     case $part in
     memory) run env FAULT_AT="$n" LD_PRELOAD="$alloc" "$program" "$@" ;;
     *) run strace -qq -f -o "$work/trace" -e trace="$calls" -e inject="$calls:error=$error:when=$n" "$program" "$@" ;;
@@ -109,7 +115,7 @@ once() {
 # How often a part happens in a command.
 count() {
     local part=$1; shift
-    rm -rf out; mkdir out; cp "$work/old.yaml" out
+    rm -rf out; mkdir out
     case $part in
     memory) run env FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" 9>"$work/count"; sort -n "$work/count" | tail -n 1 ;; # of the command, or of a child that goes on from it
     *) run strace -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@"; grep -c "(" "$work/trace" ;;
