@@ -76,7 +76,8 @@ export class LessonPanel {
         this.next = el("button", { type: "button", onclick: () => this.go(number + 1) }, "Next lesson");
         fill(this.node, el("div", { className: "row head" }, el("span", { className: "faint" }, `Lesson ${number + 1} of ${lessons.length}`), choose,
             el("button", { type: "button", title: "Begin this lesson with the files of the one before", onclick: () => this.go(number, true) }, "Afresh")),
-        el("div", { className: "text", tabIndex: 0 }, el("h2", {}, lesson.title), number === 0 ? el("p", { className: "faint" }, HERE) : null, lesson.blocks.map((b) => this.block(b)), el("h3", {}, "What has to happen"), this.list, this.done, el("div", { className: "row" }, last ? null : this.next)));
+        el("div", { className: "text", tabIndex: 0 }, el("h2", {}, lesson.title), number === 0 ? el("p", { className: "faint" }, HERE) : null, lesson.blocks.map((b) => this.block(b))),
+        el("div", { className: "asks" }, el("h3", {}, "What has to happen"), this.list, el("div", { className: "row" }, this.done, last ? null : this.next)));
     }
 
     /** Looks at what is written and what runs, after each save. */
