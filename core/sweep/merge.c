@@ -1,8 +1,11 @@
 /* Merges the files of a sweep whose runs were spread over machines: `jostle sweep --merge`. All
    parts are first listed in memory, to find which planned runs are missing. Then each part is
    attached to the output as the database `part`, and its runs are copied. */
+#include <errno.h>
+#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
@@ -213,7 +216,19 @@ static bool find_missing_of_merge(const JoSweepMergeDef *def, uint32_t *missing,
     return good;
 }
 
-/* Merges the parts, unless runs are missing and the def does not allow that. */
+/* Brings a file to the disk; false with `error`. */
+static bool sync_file(const char *path, JoError *error) {
+    const int number = open(path, O_RDONLY | O_CLOEXEC);
+    const bool good = number >= 0 && fsync(number) == 0;
+    if (!good)
+        jox_error(error, JO_FAILED, "cannot write '%.300s': %s", path, strerror(errno));
+    if (number >= 0)
+        close(number);
+    return good;
+}
+
+/* Merges the parts, unless runs are missing and the def does not allow that. A new file is brought
+   to the disk once, at its end, and not after each part: until then the parts have all runs. */
 static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoError *error) {
     JoxSweepStore store;
     uint32_t done = 0;
@@ -227,7 +242,10 @@ static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoErr
                   counts->missing == 1 ? "it" : "them");
         return false;
     }
-    bool good = jox_sweep_open(&store, def->out, error);
+    struct stat info;
+    const bool is_new = stat(def->out, &info) != 0 || info.st_size == 0;
+    bool good = jox_sweep_open(&store, def->out, error) &&
+                (!is_new || jox_sweep_execute(&store, "PRAGMA synchronous=OFF", error));
     for (size_t p = 0; good && p < def->part_count; p++)
         good = merge_part(&store, def->parts[p], error);
     good = good && count_runs(&store, JOX_SWEEP_DONE, &done, error) &&
@@ -236,7 +254,7 @@ static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoErr
     counts->done = done + counts->troubled;
     counts->runs = counts->done + counts->failed + counts->missing;
     jox_sweep_close(&store);
-    return good;
+    return good && (!is_new || sync_file(def->out, error));
 }
 
 enum { MERGE_COOKIE = 0x4a4f4d47 };
