@@ -277,7 +277,10 @@ export class Scene {
      * @throws {JostleError} If the scene does not load.
      */
     static async load({ wasmBinary, locate, shipped, ...options }) {
-        Scene.#shared ??= Engine.create({ wasmBinary, locate, shipped });
+        Scene.#shared ??= Engine.create({ wasmBinary, locate, shipped }).catch((error) => {
+            Scene.#shared = null; // the next call tries again
+            throw error;
+        });
         return (await Scene.#shared).open(options);
     }
 

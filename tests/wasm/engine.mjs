@@ -1,6 +1,6 @@
 // Tests of the interface of the WebAssembly module (scripts/wasm/engine.mjs) under Node.js. Prints "ok NAME" or "not ok NAME".
 import assert from "node:assert/strict";
-import { Engine, JostleError } from "../../build/wasm/out/engine.mjs";
+import { Engine, JostleError, Scene } from "../../build/wasm/out/engine.mjs";
 
 const engine = await Engine.create();
 
@@ -22,6 +22,17 @@ function openYard({ files = FILES, ...options } = {}) {
     const said = [];
     return Object.assign(engine.open({ files, scene: "scenes/yard.yaml", say: (text) => said.push(text), ...options }), { said });
 }
+
+async function testLoading() {
+    const fails = Scene.load({ scene: "scenes/circle.yaml", locate: (name) => `/nowhere/${name}` });
+    await assert.rejects(fails, /nowhere/);
+    const options = { scene: "scenes/circle.yaml", set: { "groups.crossing.count": 5 }, say: () => {} };
+    const [one, other] = await Promise.all([Scene.load(options), Scene.load(options)]);
+    one.step(3);
+    other.step(3);
+    assert.equal(one.hash, other.hash);
+}
+await testLoading().then(() => console.log("ok scenes share an engine, which is tried again after a failure"), (error) => console.log(`not ok scenes share an engine: ${error.stack}`));
 
 test("scene is stepped and read", () => {
     const scene = openYard();
