@@ -9,6 +9,7 @@
 
 #include "base/confine.h"
 #include "base/file.h"
+#include "base/format/installed.h"
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "base/text.h"
@@ -24,7 +25,6 @@ static const char *const SYSTEM[] = {"/usr",
                                      "/etc/timezone",
                                      "/dev/urandom",
                                      "/var/cache/fontconfig",
-                                     JOX_DATADIR,
                                      "/proc/self",
                                      "/sys/devices/system"};
 enum { DAY = 86400, MOST_FILES = 1024 };
@@ -198,6 +198,7 @@ bool cli_confine(CliReach *reach) {
     add_home_path(&reach->reads, "XDG_CONFIG_HOME", ".config");
     for (size_t s = 0; s < sizeof SYSTEM / sizeof *SYSTEM; s++)
         cli_reach_folder(reach, SYSTEM[s]);
+    cli_reach_folder(reach, jox_data_folder());
     for (size_t a = 0; a < sizeof ALWAYS_WRITTEN / sizeof *ALWAYS_WRITTEN; a++)
         add_reach_path(&reach->writes, jox_strdup(ALWAYS_WRITTEN[a]));
     const bool good =

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/format/installed.h"
 #include "base/mem.h"
 #include "base/overlay.h"
 #include "base/text.h"
@@ -25,9 +26,10 @@ static const struct {
     {"running-through", "a runner pushes through a standing crowd"},
 };
 
-/* Folders in which scenes, and mods with scenes, are found by name. */
-static const char *const PLACES[] = {".", "scenes", JOX_DATADIR "/scenes"};
-static const char *const MOD_PLACES[] = {"mods", "scenes/mods", JOX_DATADIR "/scenes/mods"};
+/* Folders in which scenes, and mods with scenes, are found by name; then the shipped ones. */
+enum { PLACE_COUNT = 3 };
+static const char *const PLACES[PLACE_COUNT] = {".", "scenes", NULL};
+static const char *const MOD_PLACES[PLACE_COUNT] = {"mods", "scenes/mods", NULL};
 
 /* Paths that cli_scene and cli_mod_folder returned, freed by cli_scenes_free. */
 static CliPaths kept;
@@ -62,14 +64,19 @@ static const char *join_scene_path(const char *folder, const char *name, const c
     return keep_path(path.data);
 }
 
+/* Returns a folder of PLACES or MOD_PLACES; for NULL `shipped` in the folder of installed files. */
+static const char *find_place(const char *place, const char *shipped) {
+    return place ? place : join_scene_path(jox_data_folder(), shipped, "");
+}
+
 const char *cli_mod_folder(const char *mod) {
     const char *home = getenv("XDG_DATA_HOME"), *user = getenv("HOME");
     if (is_mod_folder(mod))
         return mod;
     if (strchr(mod, '/'))
         return NULL;
-    for (size_t p = 0; p < sizeof MOD_PLACES / sizeof *MOD_PLACES; p++) {
-        const char *folder = join_scene_path(MOD_PLACES[p], mod, "");
+    for (size_t p = 0; p < PLACE_COUNT; p++) {
+        const char *folder = join_scene_path(find_place(MOD_PLACES[p], "scenes/mods"), mod, "");
         if (is_mod_folder(folder))
             return folder;
     }
@@ -105,8 +112,8 @@ static void add_found_path(Found *found, const char *folder, const char *name) {
 static Found find_scene_paths(const char *given, const CliList *mods) {
     Found found = {0};
     const char *colon = strchr(given, ':'), *name = colon ? colon + 1 : given;
-    for (size_t p = 0; !colon && !found.count && p < sizeof PLACES / sizeof *PLACES; p++)
-        add_found_path(&found, PLACES[p], name);
+    for (size_t p = 0; !colon && !found.count && p < PLACE_COUNT; p++)
+        add_found_path(&found, find_place(PLACES[p], "scenes"), name);
     for (size_t m = 0; mods && m < mods->count; m++) {
         const char *folder = cli_mod_folder(mods->items[m]);
         const char *last = folder ? strrchr(folder, '/') : NULL;
@@ -140,8 +147,8 @@ static void print_missing(const CliCommand *command, const char *given, bool sce
     const size_t before = jox_path_folder(given);
     JoxText folder = {0};
     jox_text_append(&folder, given, before);
-    for (size_t p = 0; scene && p < sizeof PLACES / sizeof *PLACES; p++)
-        add_suggestions(&names, PLACES[p], true);
+    for (size_t p = 0; scene && p < PLACE_COUNT; p++)
+        add_suggestions(&names, find_place(PLACES[p], "scenes"), true);
     for (size_t m = 0; scene && mods && m < mods->count; m++)
         if (cli_mod_folder(mods->items[m]))
             add_suggestions(&names, join_scene_path(cli_mod_folder(mods->items[m]), "scenes", ""),

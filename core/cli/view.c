@@ -1,4 +1,5 @@
 /* The command `view`: shows a recording on the live page by jo_view_recording. */
+#include "base/format/installed.h"
 #include "cli/cli.h"
 
 typedef struct View {
@@ -32,7 +33,7 @@ static void confine_view(const View *view) {
     CliReach reach = {.serves = true};
     cli_reach_file(&reach, view->def.recording);
     cli_reach_scene(&reach, view->def.scene);
-    cli_reach_folder(&reach, view->def.page ? view->def.page : JOX_PAGEDIR);
+    cli_reach_folder(&reach, view->def.page ? view->def.page : jox_page_folder());
     cli_confine_work(&reach, view->trusted);
 }
 

@@ -43,6 +43,9 @@ extern "C" {
 
 /* Version of the library, such as "0.1.0". */
 JO_API const char *jo_version(void);
+/* Folder of the files that come with the library: scenes/, behaviours/, and scripts/ for `require`.
+ */
+JO_API const char *jo_data_folder(void);
 
 /* ---- errors ------------------------------------------------------------------------------ */
 

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/format/installed.h"
 #include "world/world.h"
 
 static const double FRAME = 1.0 / 65.0; /* s, least time between frames */
@@ -158,7 +159,7 @@ static void take_commands(JoxLivePage *page) {
 bool jox_live_page_open(JoxLivePage *page, const JoxViewOptions *given, JoError *error) {
     JoxViewOptions options = *given;
     JoxText why = {0};
-    options.page = options.page ? options.page : JOX_PAGEDIR;
+    options.page = options.page ? options.page : jox_page_folder();
     page->session.speed = 1.0;
     page->server = jox_view_open(&options, &why);
     if (!page->server)

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/format/installed.h"
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "base/overlay.h"
@@ -49,9 +50,11 @@ static int32_t load_machine(JoScene *scene, const char *path, JoxDiagnostics *di
 /* Finds the file of a behaviour that another names: in a mod, beside it, or in the library. */
 static bool find_behaviour_file(const JoScene *scene, const char *from, const char *name,
                                 char path[1024]) {
-    static const char *const FOLDERS[] = {"", JOX_DATADIR "/behaviours/", NULL};
+    char shipped[JOX_LONGEST_PATH];
+    const char *const folders[] = {"", shipped, NULL};
+    snprintf(shipped, sizeof shipped, "%s/behaviours/", jox_data_folder());
     return jox_mod_find(scene->mods->items, scene->mods->count, name, path) ||
-           jox_path_find(from, name, ".lua", FOLDERS, path);
+           jox_path_find(from, name, ".lua", folders, path);
 }
 
 bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,

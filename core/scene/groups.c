@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/installed.h"
 #include "base/format/path.h"
 #include "base/number/pi.h"
 #include "base/overlay.h"
@@ -20,7 +21,7 @@ static char *find_behaviour_file(const JoxSceneDraft *draft, const char *name,
     char path[JOX_LONGEST_PATH], installed[JOX_LONGEST_PATH];
     const char *const folders[] = {"", "../behaviours/", installed, NULL};
     snprintf(installed, sizeof installed, "%s/behaviours/",
-             draft->datadir ? draft->datadir : JOX_DATADIR);
+             draft->datadir ? draft->datadir : jox_data_folder());
     if (draft->options && jox_mod_find(draft->options->mods, draft->options->mod_count, name, path))
         return jox_arena_text(arena, path);
     if (jox_path_find(from, name, ".lua", folders, path)) {

@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/installed.h"
 #include "base/format/path.h"
 #include "base/format/plurals.h"
 #include "base/guard.h"
@@ -209,7 +210,7 @@ static bool search_patched_file(const JoxMods *mods, const JoxMod *mod, const Jo
     snprintf(path, 1024, "%.500s/../../%.200s.%s", mod->folder, patch->target, end);
     if (is_file(path))
         return true;
-    snprintf(path, 1024, "%s/%s/%.200s.%s", JOX_DATADIR, kind, patch->target, end);
+    snprintf(path, 1024, "%s/%s/%.200s.%s", jox_data_folder(), kind, patch->target, end);
     return is_file(path);
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "agents/parameters.h"
+#include "base/format/installed.h"
 #include "base/format/path.h"
 #include "base/format/quote.h"
 #include "base/mem.h"
@@ -62,10 +63,11 @@ static void add_deviation(Deviations *d, int parameter, const char *where, const
 /* Writes a path without the folder of installed files, which is of no interest. */
 static void shorten_path(const char *path, char out[512]) {
     char clean[1024];
-    size_t n = strlen(JOX_DATADIR);
+    const char *data = jox_data_folder();
+    size_t n = strlen(data);
     snprintf(clean, sizeof clean, "%s", path);
     jox_path_clean(clean);
-    bool installed = strncmp(clean, JOX_DATADIR, n) == 0 && clean[n] == '/';
+    bool installed = strncmp(clean, data, n) == 0 && clean[n] == '/';
     snprintf(out, 512, "%.500s", installed ? clean + n + 1 : clean);
 }
 

@@ -11,8 +11,10 @@
 
 #include <cmocka.h>
 
+#include "base/format/installed.h"
 #include "base/format/mod.h"
 #include "base/format/path.h"
+#include "jostle.h"
 
 static char root[64];
 
@@ -127,10 +129,19 @@ static void links_out_of_the_folder_are_foreign(void **state) {
     free(real);
 }
 
+static void installed_files_are_where_the_build_says(void **state) {
+    (void)state;
+    assert_string_equal(jo_data_folder(), JOX_DATADIR);
+    assert_string_equal(jox_page_folder(), JOX_PAGEDIR);
+    assert_ptr_equal(jo_data_folder(), jox_data_folder());
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_of_a_path), cmocka_unit_test(names_are_relative_to_the_file),
-        cmocka_unit_test(folders_are_searched_in_order), cmocka_unit_test(behaviours_of_mods),
-        cmocka_unit_test(links_out_of_the_folder_are_foreign)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(parts_of_a_path),
+                                       cmocka_unit_test(names_are_relative_to_the_file),
+                                       cmocka_unit_test(folders_are_searched_in_order),
+                                       cmocka_unit_test(behaviours_of_mods),
+                                       cmocka_unit_test(links_out_of_the_folder_are_foreign),
+                                       cmocka_unit_test(installed_files_are_where_the_build_says)};
     return cmocka_run_group_tests(tests, make_tree, remove_tree);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/format/installed.h"
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "base/overlay.h"
@@ -40,7 +41,7 @@ static bool find_module(lua_State *L, const char *name, char path[1024]) {
     const char *colon = strchr(name, ':');
     const char *asking = from.file ? from.file : script->vm.sources[0]->path,
                *own = script->vm.sources[0]->path;
-    char folder[512];
+    char folder[JOX_LONGEST_PATH];
     for (uint32_t m = 0; colon && m < script->scope->mod_count; m++) {
         const JoxMod *mod = &script->scope->mods[m];
         snprintf(folder, sizeof folder, "%.480s/behaviours", mod->folder);
@@ -62,7 +63,7 @@ static bool find_module(lua_State *L, const char *name, char path[1024]) {
              slash ? own : ".");
     if (is_module(script, folder, name, path))
         return true;
-    snprintf(folder, sizeof folder, "%s/scripts", JOX_DATADIR);
+    snprintf(folder, sizeof folder, "%s/scripts", jox_data_folder());
     return is_module(script, folder, name, path);
 }
 

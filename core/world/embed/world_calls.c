@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/format/installed.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
@@ -16,6 +17,10 @@ enum { WORLD_COOKIE = 0x4a4f5744 };
 
 const char *jo_version(void) {
     return JOX_VERSION;
+}
+
+const char *jo_data_folder(void) {
+    return jox_data_folder();
 }
 
 void jo_set_assert_handler(JoAssertHandler *handler) {

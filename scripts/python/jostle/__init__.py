@@ -2,7 +2,7 @@
 
     import jostle
 
-    scene = jostle.Scene("scenes/evacuation.yaml", seed=3, set={"groups.people.count": 80})
+    scene = jostle.Scene("evacuation", seed=3, set={"groups.hall.count": 60})
     scene.run(20)                                # simulated seconds; other Python threads go on meanwhile
     x, y = scene["x"], scene["y"]                # arrays of how it is now
     print(scene.summary()["density_max"], scene.probes()["door"])
@@ -10,7 +10,7 @@
 Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y north, z up.
 """
 from ._events import Events
-from ._library import Error
+from ._library import Error, data_folder
 from ._words import Word
 from .compare import Comparison, compare
 from .live import LivePage, RecordingPage
@@ -21,7 +21,7 @@ from .sweep import Sweep, sweep
 from .table import Table
 
 __all__ = ["Agent", "Body", "Comparison", "Error", "Events", "LivePage", "Picture", "Recording", "RecordingPage", "Scene", "Sweep", "Table", "Word",
-           "compare", "sweep", "version"]
+           "compare", "data_folder", "sweep", "version"]
 
 
 def version() -> str:

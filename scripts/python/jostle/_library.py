@@ -1,22 +1,34 @@
 """The shared library, and its errors as exceptions."""
 from __future__ import annotations
 
+import difflib
 import operator
 import os
+import re
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Iterator, Union
 
-from ._declarations import ffi
+try:
+    from ._declarations import ffi
+except ModuleNotFoundError as missing:
+    if missing.name != "_cffi_backend":
+        raise
+    raise ModuleNotFoundError("jostle needs cffi, which is not installed: pip install cffi, or on Debian python3-cffi",
+                              name=missing.name) from None
 
-__all__ = ["Error", "check", "ffi", "lib", "named", "path_named", "text_of", "told", "whole"]
+__all__ = ["Error", "check", "data_folder", "ffi", "lib", "named", "path_named", "scene_file", "text_of", "told", "whole"]
 
 
 def _candidates() -> list[str]:
-    """Where the library may be, the first that is there is taken: with the tools, or the engine alone."""
+    """Where the library may be, the first that is there is taken: inside the package (a wheel), in the source tree, of the
+    system; with the tools, or the engine alone."""
     named = os.environ.get("JOSTLE_LIBRARY")
     if named:
         return [named]
+    bundled = [str(path) for path in (Path(__file__).resolve().parent / "engine").glob("libjostle-tools-*.so*")]
+    if bundled:
+        return bundled
     found = ["libjostle-tools.so.0", "libjostle.so.0"]
     for folder in Path(__file__).resolve().parents:
         if (folder / "core" / "include" / "jostle.h").is_file():
@@ -68,6 +80,24 @@ def path_named(path: Union[str, "os.PathLike[str]"]) -> bytes:
     if b"\0" in name:
         raise ValueError(f"a path with a zero byte names nothing: {path!r}")
     return name
+
+
+def data_folder() -> Path:
+    """The folder of the scenes, behaviours and Lua library that come with Jostle."""
+    return Path(os.fsdecode(ffi.string(lib.jo_data_folder())))
+
+
+def scene_file(path: Union[str, "os.PathLike[str]"]) -> Union[str, "os.PathLike[str]"]:
+    """The path of a scene: a plain name such as "evacuation" that is no file here is that of a shipped scene."""
+    if isinstance(path, str) and re.fullmatch(r"[\w-]+", path) and not os.path.exists(path):
+        shipped = data_folder() / "scenes" / f"{path}.yaml"
+        if shipped.is_file():
+            return shipped
+        names = sorted(file.stem for file in shipped.parent.glob("*.yaml"))
+        near = difflib.get_close_matches(path, names, 1)
+        hint = f"did you mean {near[0]!r}?" if near else f"they are in {shipped.parent}"
+        raise Error(f"there is no file and no shipped scene {path!r}; {hint}", 3)
+    return path
 
 
 def whole(what: str, number: Any, most: int = 2**64 - 1) -> int:

@@ -13,7 +13,7 @@ from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Seque
 import numpy as np
 
 from ._events import Events, events_of
-from ._library import Error, check, ffi, lib, named, path_named, text_of, told, whole
+from ._library import Error, check, ffi, lib, named, path_named, scene_file, text_of, told, whole
 from ._words import Word, Words, column_of
 from .live import LivePage, open_page
 from .picture import Picture
@@ -67,7 +67,7 @@ class Hit(NamedTuple):
 
 
 class Scene:
-    """A scene of a YAML file. Every error of loading goes to `message`, the first is raised as an Error.
+    """A scene of a YAML file, or a shipped one by its name, as "evacuation". Every error of loading goes to `message`, the first is raised as an Error.
 
     seed, dt: in place of the scene's (dt in s). set: keys of the scene and their values, as `jostle run --set`.
     threads: 0 are all processors; they never change a result. mods: folders or names of mods, and no others.
@@ -85,6 +85,7 @@ class Scene:
             raise TypeError(f"mods are a list of folders or names, not the text {mods!r}")
         self._scene = self._page = ffi.NULL
         self._busy = self._finished = self._recorded = False
+        path = scene_file(path)
         name = path_named(path)
         self.path, self.seed, self.overrides = os.fsdecode(path), seed, dict(set or {})
         say = message or sys.stderr.write

@@ -76,6 +76,19 @@ def test_errors_have_their_place(path):
         jostle.Scene(path.parent / "none.yaml", message=said.append)
 
 
+def test_shipped_scenes_have_names(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    scene = jostle.Scene("evacuation")
+    assert str(scene.path) == str(jostle.data_folder() / "scenes" / "evacuation.yaml") and len(scene) > 10
+    (tmp_path / "circle").write_text("jostle: 1\n")  # a file of that name goes first
+    with pytest.raises(jostle.Error, match="circle"):
+        jostle.Scene("circle", message=lambda text: None)
+    with pytest.raises(jostle.Error, match="no shipped scene 'evacuatoin'; did you mean 'evacuation'"):
+        jostle.Scene("evacuatoin")
+    with pytest.raises(jostle.Error, match="no shipped scene 'xyzzy'; they are in /"):
+        jostle.Scene("xyzzy")
+
+
 def test_a_scene_is_neither_copied_nor_pickled(path):
     scene = jostle.Scene(path)
     for act in (copy.copy, copy.deepcopy, pickle.dumps):
