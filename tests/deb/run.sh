@@ -15,18 +15,13 @@ done
 
 if [ "$(id -u)" != 0 ]; then echo "ok a new root (left out: only root makes one)"; exit $failed; fi
 root=$dir/root
-cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null >"$dir/sources.list"
-cat /etc/apt/sources.list.d/*.sources 2>/dev/null >"$dir/debian.sources"
-sources=
-for file in "$dir/sources.list" "$dir/debian.sources"; do [ -s "$file" ] && sources="$sources $file"; done
-. /etc/os-release
-# Into it: the packages, a scene of one's own, and a program to compile.
-mmdebstrap --quiet --mode=root --variant=apt --include=gcc,libc6-dev,pkg-config,lua5.4 \
-    --customize-hook="mkdir -p \"\$1/packages\" && cp '$packages'/*.deb tests/install/embed.c \"\$1/packages\"" \
-    --customize-hook='chroot "$1" sh -c "apt-get install -y -q --no-install-recommends /packages/*.deb"' \
-    "$VERSION_CODENAME" "$root" $sources >"$dir/log" 2>&1
+. tests/deb/root.sh
+# Into it: the packages, and programs to compile.
+make_root "$root" gcc,g++,libc6-dev,pkg-config,cmake,make,lua5.4 \
+    "mkdir -p \"\$1/packages\" && cp -R '$packages'/*.deb tests/install/embed.c tests/install/cmake \"\$1/packages\"" \
+    'chroot "$1" sh -c "apt-get install -y -q --no-install-recommends /packages/*.deb"' >"$dir/log" 2>&1
 verdict "the packages install in a new root" $?; [ -x "$root/usr/bin/jostle" ] || { tail -20 "$dir/log"; exit 1; }
-inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 sh -c "$1" >"$dir/said" 2>&1; }
+inside() { in_root "$root" sh -c "$1" >"$dir/said" 2>&1; }
 inside 'cd /tmp && jostle run running-through --steps 20 --summary - --quiet' && grep -q '"hash"' "$dir/said"
 verdict "the program runs a scene by its name" $?
 inside 'cd /tmp && jostle new scene mine && jostle check .'
