@@ -9,7 +9,8 @@ CAIRO   ?= 1
 VIEW    ?= 1
 PREFIX  ?= /usr/local
 LIBDIR  ?= $(PREFIX)/lib
-# Folder where the program finds its Lua library, behaviours and scenes: this tree, unless it is installed.
+# Folder where the program finds its Lua library, behaviours and scenes: this tree, unless it is installed. If relative, as
+# PAGEDIR may be, too: relative to the folder of the program or shared library (core/base/format/installed.c).
 DATADIR ?= $(CURDIR)
 # Folder of the live page: core/view/page with its modules and three.js in one bundle, which needs npm. A release
 # archive (`make dist`) has the page bundled, in `bundled`.
@@ -132,7 +133,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm cluster-test wasm wasm-test npm npm-test site site-test matrix soak install install-built uninstall dist deb deb-check clean test-all format
+.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check analyse bench bench-record bench-peers bench-instructions arm cluster-test wasm wasm-test npm npm-test site site-test matrix soak install install-built uninstall dist deb deb-check wheel wheel-check container-check clean test-all format
 LIBRARIES := jostle jostle-tools
 all: $(B)/jostle $(if $(filter 0,$(VIEW)),,$(PAGE)/main.js) $(foreach l,$(LIBRARIES),$(B)/lib$(l).a $(B)/lib$(l).so.$(VERSION)) $(B)/lua/jostle.so
 
@@ -147,7 +148,7 @@ DURATION ?= 60
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory $(AT_ONCE) all tests-built
-	@B=$(B) SHARED=$(SHARED) .ci/suite check units scenes install page
+	@B=$(B) SHARED=$(SHARED) .ci/suite check units scenes install wheel page
 # Makes pictures and clips, as the live page draws them, of the shipped scenes that SCENES names (default: all).
 gallery:
 	@.ci/setup gallery
@@ -390,12 +391,13 @@ install: install-built
 	install -m 644 $(INSTALL_B)/lua/jostle.so $(L)/lua/5.4/
 	install -m 644 scripts/jostle.1 $(D)/share/man/man1/
 	$(foreach l,$(LIBRARIES),printf 'prefix=%s\nlibdir=%s\nName: %s\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${libdir} -l%s\nLibs.private: %s\n' '$(PREFIX)' '$(LIBDIR:$(PREFIX)/%=$${prefix}/%)' $(l) '$(VERSION)' $(l) '$(LIBS_$(l)) -lstdc++' > $(L)/pkgconfig/$(l).pc;)
+	DESTDIR="$(DESTDIR)" scripts/cmake/install.sh $(L)/cmake/jostle $(PREFIX) $(VERSION) $(if $(findstring 64,$(MACHINE)),8,4) "$(LIBS_jostle)" "$(LIBS_jostle-tools)"
 	install -d $(D)/share/jostle/page
 	if [ -f $(PAGE)/main.js ]; then cp -R $(PAGE)/. $(D)/share/jostle/page; fi
-	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
-	rm -rf $(foreach d,debian python lua wasm npm site,$(D)/share/jostle/scripts/$(d))
+	for d in scripts/editor scripts/cluster behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
+	cp scripts/*.* $(D)/share/jostle/scripts/
 uninstall:
-	rm -rf $(D)/share/jostle
+	rm -rf $(D)/share/jostle $(L)/cmake/jostle
 	rm -f $(D)/bin/jostle $(L)/lua/5.4/jostle.so $(LIBRARIES:%=$(L)/lib%.a) $(LIBRARIES:%=$(L)/lib%.so*) $(HEADERS:core/%=$(D)/%)
 	rm -f $(LIBRARIES:%=$(L)/pkgconfig/%.pc) $(D)/share/man/man1/jostle.1
 # Makes build/out/jostle-VERSION.tar.gz of the current commit, the same bytes each time, and its SHA-256 sum.
@@ -417,6 +419,22 @@ deb: dist
 	cd build/deb/jostle-$(VERSION) && DEB_BUILD_OPTIONS=parallel=$$(nproc) dpkg-buildpackage -us -uc -b
 deb-check: deb
 	@bash tests/deb/run.sh build/deb
+# Makes a wheel for Python with all libraries inside in build/out (scripts/python/wheel.py). `make wheel-check` installs it
+# into a root folder without a compiler, and runs scenes there.
+WHEEL_B := build/wheel$(WITHOUT)
+wheel: $(PAGE)/main.js
+	@.ci/setup wheel
+	@$(MAKE) --no-print-directory $(AT_ONCE) B=$(WHEEL_B) SHARED=$(SHARED) DATADIR=. PAGEDIR=page \
+	    PKG_LIBS="$$(/usr/bin/python3 scripts/python/wheel.py --libraries)" LDFLAGS="-Wl,--as-needed -Wl,--exclude-libs,ALL" \
+	    $(WHEEL_B)/jostle $(WHEEL_B)/libjostle-tools.so.$(VERSION)
+	@SOURCE_DATE_EPOCH=$${SOURCE_DATE_EPOCH:-$$(git log -1 --format=%ct 2>/dev/null)} /usr/bin/python3 scripts/python/wheel.py $(WHEEL_B) $(PAGE) build/out
+wheel-check: $(B)/jostle
+	@.ci/setup wheel-check
+	@B=$(B) bash tests/wheel/run.sh root | $(JUDGE)
+# Builds the image of scripts/container with Buildah, and uses it.
+container-check: $(B)/jostle
+	@.ci/setup container
+	@B=$(B) bash tests/container/run.sh | $(JUDGE)
 clean:
 	rm -rf build
 format:
