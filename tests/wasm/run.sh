@@ -25,5 +25,6 @@ compare() {
 
 node build/wasm/test/lanes.cjs || verdict "the lanes ended with an error" 1
 node tests/wasm/engine.mjs || verdict "the interface ended with an error" 1
+node tests/wasm/attacks.mjs || verdict "the hostile behaviours ended with an error" 1
 compare 400 ${JOSTLE_WASM_SCENES:-scenes/*.yaml}
 compare 5000 scenes/circle.yaml scenes/office.yaml scenes/dodgeball.yaml
