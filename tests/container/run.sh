@@ -12,7 +12,7 @@ verdict() { if [ "$2" = 0 ]; then echo "ok $1"; else echo "not ok $1"; fi; }
 server=
 trap '[ -z "$server" ] || kill $server 2>/dev/null; bud rm --all >/dev/null 2>&1; rm -rf "$dir"' EXIT
 
-base=${1-docker.io/library/debian:bookworm-slim}
+base=${1-debian:bookworm-slim}
 if [ -f "$base" ] || ! bud pull -q "$base" >"$dir/log" 2>&1; then
     root=$base
     if [ ! -f "$base" ]; then
@@ -20,7 +20,7 @@ if [ -f "$base" ] || ! bud pull -q "$base" >"$dir/log" 2>&1; then
         . tests/deb/root.sh
         root=$dir/base.tar
         make_root "$root" ca-certificates >"$dir/log" 2>&1 || { verdict "a root folder to build from" 1; tail -5 "$dir/log"; exit 1; }
-        echo "    docker.io is not reached: built from Debian's packages instead"
+        echo "    no registry is reached: built from Debian's packages instead"
     fi
     container=$(bud from scratch) && bud add -q "$container" "$root" / >/dev/null && bud commit -q "$container" localhost/debian >/dev/null
     verdict "an image to build from" $?
