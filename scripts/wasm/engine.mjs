@@ -56,6 +56,37 @@ export class JostleError extends Error {
     }
 }
 
+const MOST_STEPS = 2 ** 32 - 1; // of one call
+
+/** Whole number from 0 to `most`; throws an error that names what it is for. */
+function wholeNumber(what, value, most = Number.MAX_SAFE_INTEGER) {
+    if (!Number.isInteger(value) || value < 0 || value > most) throw new RangeError(`${what} must be a whole number from 0 to ${most}, not ${value}`);
+    return value;
+}
+
+/** Files as [path, content] pairs; throws an error that names what is wrong with one. */
+function listFiles(files) {
+    if (typeof files !== "object" || files === null || Array.isArray(files)) throw new TypeError("files must be an object: texts, or bytes, by path");
+    const list = Object.entries(files), given = new Set(list.map(([path]) => cleanParts(path).join("/")));
+    for (const [path, content] of list) {
+        const parts = cleanParts(path);
+        if (!parts.length || parts.includes("..")) throw new TypeError(`'${path}' is no path of a file: use relative ones, without ".."`);
+        if (typeof content !== "string" && !(content instanceof Uint8Array)) throw new TypeError(`'${path}' must be a text or a Uint8Array`);
+        const folder = parts.slice(1).map((_, n) => parts.slice(0, n + 1).join("/")).find((at) => given.has(at));
+        if (folder) throw new TypeError(`'${folder}' is a file, and the folder of '${path}'`);
+    }
+    return list;
+}
+
+/** The parts of a path, without "." and empty ones. */
+const cleanParts = (path) => path.split("/").filter((part) => part && part !== ".");
+
+/** A list of texts; throws an error that names what it is for. */
+function listTexts(what, list) {
+    if (!Array.isArray(list) || !list.every((item) => typeof item === "string")) throw new TypeError(`${what} must be a list of texts`);
+    return list;
+}
+
 const inNode = Boolean(globalThis.process?.versions?.node);
 
 /** Reads a file that lies beside this one, as bytes. `locate`: its address, where that is another. */
@@ -120,12 +151,15 @@ export class Engine {
      * @returns {Scene}
      * @throws {JostleError} If the scene does not load.
      */
-    open({ files = {}, scene, mods = [], set = [], seed = NaN, dt = NaN, page = false, say = (text) => console.warn(text) }) {
+    open({ files = {}, scene, mods = [], set = [], seed, dt, page = false, say = (text) => console.warn(text) } = {}) {
         if (typeof scene !== "string") throw new TypeError("open({scene}): the path of a scene is missing");
-        const sets = Array.isArray(set) ? set : Object.entries(set).map(([path, value]) => `${path}=${value}`);
+        if (seed !== undefined) wholeNumber("seed", seed);
+        if (dt !== undefined && typeof dt !== "number") throw new TypeError(`dt must be a number of seconds, not ${dt}`);
+        listTexts("mods", mods);
+        const sets = typeof set === "object" && set !== null && !Array.isArray(set) ? Object.entries(set).map(([path, value]) => `${path}=${value}`) : listTexts("set", set);
         const folder = this.#folder(files);
         const handle = this.texts([scene, sets, mods], (path, first, second) =>
-            this.module._jostle_open(path, first, sets.length, second, mods.length, seed, dt, page));
+            this.module._jostle_open(path, first, sets.length, second, mods.length, seed ?? NaN, dt ?? NaN, page));
         if (handle) return new Scene(this, handle, folder, say);
         const error = this.error();
         this.remove(folder);
@@ -199,7 +233,7 @@ export class Engine {
 
     /** Copies bytes into the module's memory, with a zero byte behind them; returns their address. @private */
     put(bytes) {
-        const address = this.module._malloc(bytes.length + 1);
+        const address = this.module._malloc(bytes.length + 1) >>> 0; // addresses come as signed numbers
         if (!address) throw new JostleError([makeFault({ message: "out of memory" })]);
         this.module.HEAPU8.set(bytes, address);
         this.module.HEAPU8[address + bytes.length] = 0;
@@ -213,14 +247,18 @@ export class Engine {
 
     /** Writes a file below a folder. @private */
     write(folder, path, content) {
-        const { FS } = this.module, parts = path.split("/").filter((part) => part && part !== ".");
-        if (!parts.length || parts.includes("..")) throw new TypeError(`'${path}' is no path of a file: use relative ones, without ".."`);
+        const { FS } = this.module, parts = cleanParts(path);
         let at = folder;
-        for (const part of parts.slice(0, -1)) {
-            at += `/${part}`;
-            if (!FS.analyzePath(at).exists) FS.mkdir(at);
+        try {
+            for (const part of parts.slice(0, -1)) {
+                at += `/${part}`;
+                if (!FS.analyzePath(at).exists) FS.mkdir(at);
+            }
+            FS.writeFile(`${at}/${parts.at(-1)}`, this.#bytes(content), { canOwn: true });
+        } catch (error) {
+            if (error.errno === undefined) throw error;
+            throw new TypeError(`'${path}' cannot be a file: a folder has this name, or a file that of its folder`, { cause: error });
         }
-        FS.writeFile(`${at}/${parts.at(-1)}`, this.#bytes(content), { canOwn: true });
     }
 
     /** Removes a folder with all that it holds. @private */
@@ -241,11 +279,12 @@ export class Engine {
 
     /** Makes a folder that holds the shipped files and those given, and makes it the current one. */
     #folder(files) {
+        const given = listFiles(files);
         const folder = `/run${++this.folders}`;
         this.module.FS.mkdir(folder);
         try {
             this.#fill(folder, this.shipped);
-            this.#fill(folder, new Map(Object.entries(files)));
+            this.#fill(folder, given);
         } catch (error) {
             this.remove(folder);
             throw error;
@@ -318,7 +357,8 @@ export class Scene {
      * @throws {JostleError} If a step fails; the scene stays as it was then.
      */
     step(count = 1) {
-        if (this.#call("step", count) < count) this.#fail();
+        wholeNumber("count", count, MOST_STEPS);
+        if (this.#call("step", count) >>> 0 < count) this.#fail();
         this.#tell();
     }
 
@@ -350,7 +390,7 @@ export class Scene {
     takeMessages() {
         const messages = [];
         for (let at; (at = this.#call("next_message")); ) {
-            const [address, length, channel] = [0, 4, 8].map((offset) => this.#module.HEAP32[(at + offset) >> 2]);
+            const [address, length, channel] = [0, 4, 8].map((offset) => this.#module.HEAP32[(at + offset) >>> 2]);
             const bytes = this.#module.HEAPU8.slice(address >>> 0, (address >>> 0) + length);
             const isText = channel < 0 || channel >= 16; // JOX_VIEW_FIRST_TEXT
             messages.push(isText ? { channel, text: this.#engine.decoder.decode(bytes) } : { channel, bytes: bytes.buffer });
@@ -367,11 +407,11 @@ export class Scene {
      *     machine, before, after, notes}, where before and after are {state, people}[], or of the scene {file, done, later}.
      */
     reload(files) {
-        const list = Object.entries(files), engine = this.#engine;
+        const list = listFiles(files), engine = this.#engine;
         const texts = list.flatMap(([path, content]) => [path, content]).map((item) => (typeof item === "string" ? engine.encoder.encode(item) : item));
         const addresses = texts.map((bytes) => engine.put(bytes));
         const table = engine.put(new Uint8Array(12 * list.length)); // JoFile: path, text, length
-        list.forEach((_, f) => this.#module.HEAPU32.set([addresses[2 * f], addresses[2 * f + 1], texts[2 * f + 1].length], (table >> 2) + 3 * f));
+        list.forEach((_, f) => this.#module.HEAPU32.set([addresses[2 * f], addresses[2 * f + 1], texts[2 * f + 1].length], (table >>> 2) + 3 * f));
         let answer;
         try {
             const live = this.#call("reload", table, list.length);
@@ -390,9 +430,13 @@ export class Scene {
      * The text of a file, as the scene has it now.
      * @param {string} path
      * @returns {string}
+     * @throws {RangeError} If the scene has no such file.
      */
     read(path) {
-        return this.#module.FS.readFile(`${this.#folder}/${path}`, { encoding: "utf8" });
+        if (!this.#handle) throw new Error("the scene is closed");
+        const at = `${this.#folder}/${path}`, { FS } = this.#module;
+        if (!FS.analyzePath(at).exists || FS.isDir(FS.stat(at).mode)) throw new RangeError(`the scene has no file '${path}'`);
+        return FS.readFile(at, { encoding: "utf8" });
     }
 
     /**
@@ -439,7 +483,7 @@ export class Scene {
      * @returns {Float32Array|Float64Array|Uint32Array|Int32Array|Uint16Array|Uint8Array|BigUint64Array}
      */
     column(name) {
-        const at = this.#engine.texts([name], (text) => this.#call("column", text)) >> 2;
+        const at = this.#engine.texts([name], (text) => this.#call("column", text)) >>> 2;
         const [data, stride, count, type] = this.#module.HEAPU32.subarray(at, at + 4);
         if (!data && this.agents) throw new RangeError(`there is no column '${name}'`);
         const Numbers = ARRAYS[type], { buffer } = this.#module.HEAPU8, size = Numbers.BYTES_PER_ELEMENT;
@@ -453,9 +497,9 @@ export class Scene {
      * `entered`, `left`, `said` and `actions`, each a list of objects. Agents are given by id, the rest by number (`name`).
      */
     events() {
-        const at = this.#call("events") >> 2, { HEAPU32, HEAPF32 } = this.#module;
+        const at = this.#call("events") >>> 2, { HEAPU32, HEAPF32 } = this.#module;
         return Object.fromEntries(EVENTS.map(({ name, fields }, kind) => {
-            const data = HEAPU32[at + kind] >> 2, count = HEAPU32[at + EVENTS.length + kind];
+            const data = HEAPU32[at + kind] >>> 2, count = HEAPU32[at + EVENTS.length + kind];
             const event = (i) => Object.fromEntries(fields.map(([type, field], f) => [field, (type === "f" ? HEAPF32 : HEAPU32)[data + i * fields.length + f]]));
             return [name, Array.from({ length: count }, (_, i) => event(i))];
         }));
@@ -468,7 +512,7 @@ export class Scene {
     bodies() {
         const bodies = [], slots = this.#call("body_slots");
         for (let slot = 0; slot < slots; slot++) {
-            const at = this.#call("body", slot) >> 3;
+            const at = this.#call("body", slot) >>> 3;
             if (at) bodies.push({ slot, name: this.name("body", slot), ...Object.fromEntries(BODY.map((key, k) => [key, this.#module.HEAPF64[at + k]])) });
         }
         return bodies;

@@ -193,3 +193,48 @@ test("lack of memory is an error, and other scenes go on", () => {
     assert.ok(failed > 10, `${failed} loads failed`);
     scene.close();
 });
+
+test("wrong arguments are named, and leave nothing behind", () => {
+    const scene = openYard(), left = engine.module.FS.readdir("/").length, open = (options) => () => openYard(options);
+    for (const count of [-1, 1.5, NaN, Infinity, "3"]) assert.throws(() => scene.step(count), /count must be a whole number/);
+    assert.throws(open({ seed: -1 }), /seed must be a whole number/);
+    assert.throws(open({ seed: "abc" }), /seed must be/);
+    assert.throws(open({ dt: "fast" }), /dt must be a number/);
+    assert.throws(open({ mods: "doubles" }), /mods must be a list of texts/);
+    assert.throws(open({ set: "a=1" }), /set must be a list of texts/);
+    assert.throws(open({ files: null }), /files must be an object/);
+    assert.throws(open({ files: { ...FILES, "a.lua": 5 } }), /'a.lua' must be a text/);
+    assert.throws(open({ files: { ...FILES, "../a.lua": "" } }), /'..\/a.lua' is no path/);
+    assert.throws(open({ files: { ...FILES, a: "", "a/b.lua": "" } }), /'a' is a file, and the folder of 'a\/b.lua'/);
+    assert.throws(open({ files: { ...FILES, scenes: "" } }), TypeError);
+    assert.throws(open({ files: { ...FILES, "scripts": "" } }), /'scripts' cannot be a file/);
+    assert.throws(() => engine.open(), /path of a scene is missing/);
+    assert.throws(() => scene.reload({ "behaviours/walk.lua": 5 }), /must be a text/);
+    assert.equal(scene.read("behaviours/walk.lua"), walk(1.5));
+    assert.throws(() => scene.read("behaviours/none.lua"), /no file 'behaviours\/none.lua'/);
+    assert.equal(scene.tick, 0);
+    assert.equal(engine.module.FS.readdir("/").length, left);
+    scene.close();
+    assert.throws(() => scene.read("behaviours/walk.lua"), /closed/);
+});
+
+async function testHighMemory() {
+    const high = await Engine.create();
+    for (let n = 0; n < 2; n++) assert.notEqual(high.module._malloc(1.2e9), 0); // untouched: no memory of the machine
+    const [scene, low] = [high, engine].map((of) => of.open({ files: FILES, scene: "scenes/yard.yaml", page: true, say: () => {} }));
+    assert.ok(scene.column("x").byteOffset > 2 ** 31);
+    for (const each of [scene, low]) {
+        each.step(20);
+        assert.equal(each.reload({ "behaviours/walk.lua": walk(0.5) }).live, true);
+        each.step(20);
+    }
+    assert.equal(scene.hash, low.hash);
+    assert.deepEqual([...scene.column("vx")], [...low.column("vx")]);
+    scene.turn();
+    assert.ok(scene.takeMessages().length > 3);
+    const court = high.open({ scene: "scenes/dodgeball.yaml", say: () => {} });
+    assert.equal(court.events().entered.length, 2);
+    assert.equal(court.bodies()[0].name, "ball");
+    for (const each of [scene, low, court]) each.close();
+}
+await testHighMemory().then(() => console.log("ok a scene runs beyond the first 2 GB of memory"), (error) => console.log(`not ok a scene runs beyond 2 GB: ${error.stack}`));
