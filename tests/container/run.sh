@@ -27,8 +27,8 @@ if [ -f "$base" ] || ! bud pull -q "$base" >"$dir/log" 2>&1; then
     bud rm "$container" >/dev/null; rm -f "$dir/base.tar"
     base=localhost/debian
 fi
-# The files of this commit, as a user has them: neither build folders nor history.
-mkdir "$dir/source" && git archive HEAD | tar -x -C "$dir/source"
+# The files of this commit and the page, as a source archive has them: a build in a container may not reach npm.
+mkdir "$dir/source" && git archive HEAD | tar -x -C "$dir/source" && cp -R "${PAGE:-build/page}" "$dir/source/bundled"
 options=()
 if [ -n "${CCACHE-}" ]; then
     options=(--volume "$CCACHE:/ccache" --env CCACHE_DIR=/ccache --build-arg MORE=ccache --build-arg CC="ccache gcc" --build-arg CXX="ccache g++")
