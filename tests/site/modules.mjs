@@ -2,7 +2,9 @@
 // under node. Prints "ok NAME" or "not ok NAME: why".
 //     node tests/site/modules.mjs [NAME...]    some of the tests; SITE: the folder of the site, default build/site
 import assert from "node:assert/strict";
+import { Buffer } from "node:buffer";
 import { execFileSync } from "node:child_process";
+import { randomBytes } from "node:crypto";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -13,11 +15,12 @@ import { complete, explain } from "../../scripts/site/editor/completion.js";
 import { placeOf } from "../../scripts/site/editor/problems.js";
 import { nodeAt, pathAt } from "../../scripts/site/editor/yaml_path.js";
 import { observe } from "../../scripts/site/engine/observe.js";
+import { makeSchedule } from "../../scripts/site/engine/schedule.js";
 import { cutPreview } from "../../scripts/site/make/scenes.mjs";
 import { Draft } from "../../scripts/site/project/draft.js";
 import { packProject, unpackProject } from "../../scripts/site/project/link.js";
-import { filesOf, modsNamed, plainPath } from "../../scripts/site/project/references.js";
-import { readZip, writeZip } from "../../scripts/site/project/zip.js";
+import { filesOf, modsNamed, plainPath, turnOnMod } from "../../scripts/site/project/references.js";
+import { deflate, readZip, writeZip } from "../../scripts/site/project/zip.js";
 import { CHECKS } from "../../scripts/site/workbench/lesson_checks.js";
 import { lessonFiles } from "../../scripts/site/workbench/opened.js";
 import { sceneOf } from "../../scripts/site/workbench/share.js";
@@ -88,6 +91,12 @@ const tests = {
         assert.ok(link.length < 300, `${link.length} characters`);
         await assert.rejects(unpackProject(link.slice(0, -9)), /damaged or cut short/);
         await assert.rejects(unpackProject(await packProject({ scene: "a.yaml", files: {} })), /lacks its scene/);
+        for (const scene of ["constructor", "__proto__"]) await assert.rejects(unpackProject(await packProject({ scene, files: {} })), /lacks its scene/);
+        for (const path of ["../b.lua", "/b.lua", "./b.lua", "", "a.yaml/b.lua"]) await assert.rejects(unpackProject(await packProject({ scene: "a.yaml", files: { "a.yaml": "", [path]: "" } })), /is damaged: "/, path);
+        const pack = async (text) => Buffer.from(await deflate(new TextEncoder().encode(text))).toString("base64url");
+        for (const text of ["null", "5"]) await assert.rejects(unpackProject(await pack(text)), /holds no project/);
+        const letters = randomBytes(1.5e6).toString("base64"); // they stay as long
+        for (const text of ["x".repeat(5e6), letters]) await assert.rejects(packProject({ scene: "a.yaml", files: { "a.yaml": text } }), /too large for a link/);
     },
 
     async "an archive is read again, by unzip too, and damage is found"() {
@@ -100,6 +109,8 @@ const tests = {
         await assert.rejects(readZip(zip), /damaged|invalid|incorrect/i);
         await assert.rejects(readZip(new Uint8Array(40)), /no zip archive/);
         await assert.rejects(readZip(await writeZip({ "../a.lua": "" })), /leads out of/);
+        await assert.rejects(readZip(await writeZip({ a: "", "a/b.lua": "" })), /"a" is a file, and the folder of/);
+        assert.deepEqual(await readZip(await writeZip({ "./a//b.lua": "" })), { "a/b.lua": "" });
         assert.equal(sceneOf({ "mods/x/mod.yaml": "jostle: 1", "a.yaml": "name: 1", "b.yaml": "jostle: 1" }), "b.yaml");
     },
 
@@ -111,6 +122,28 @@ const tests = {
         draft.keep({ "a.yaml": "1" }, { "a.yaml": "1" }, { scene: "a.yaml" });
         assert.equal(kept.size, 0);
         assert.equal(new Draft("a", { setItem() { throw new Error("full"); } }).keep({ a: "1" }, {}, {}), false);
+    },
+
+    async "what is due at once is done once, however often it is asked for"() {
+        let done = 0, channel;
+        const { MessageChannel } = globalThis;
+        globalThis.MessageChannel = class extends MessageChannel {
+            constructor() {
+                super();
+                channel = this;
+            }
+        };
+        const schedule = makeSchedule(() => done++);
+        globalThis.MessageChannel = MessageChannel;
+        for (let n = 0; n < 20; n++) schedule(0);
+        schedule(0.01);
+        await pause(60);
+        assert.equal(done, 1);
+        schedule(0.02);
+        schedule(0);
+        await pause(60);
+        assert.equal(done, 2);
+        channel.port1.close(); // it would keep node
     },
 
     "every word of the reference has a signature and an explanation"() {
@@ -173,6 +206,10 @@ const tests = {
         assert.equal(plainPath("scenes/../behaviours/./a.lua"), "behaviours/a.lua");
         assert.deepEqual(modsNamed("mods: {doubles: {}, rough: {a: 1}}\n"), ["doubles", "rough"]);
         assert.deepEqual(modsNamed("title: a\nmods:\n  doubles: {}\n  rough:\n    push: 1\ngroups: {}\n"), ["doubles", "rough"]);
+        for (const [text, mods] of [["title: a\n", []], ["mods: {a: {b: 1}}\n", ["a"]], ["mods: {}\n", []], ["mods: # of it\n  # first\n\n  a:\n    b: 1\ntitle: $&\n", ["a"]]]) {
+            assert.deepEqual(modsNamed(turnOnMod(text, "doubles")).sort(), [...mods, "doubles"]);
+            assert.equal(turnOnMod(text, "doubles").match(/^mods:/gm).length, 1, text);
+        }
         const withLibrary = await Engine.create({ shipped: { "scripts/crowd.lua": shipped["scripts/crowd.lua"] } });
         for (const scene of readdirSync("scenes").filter((name) => name.endsWith(".yaml")).map((name) => `scenes/${name}`)) {
             const journeys = /\bjourney:/.test(shipped[scene]); // made into machines that require what is installed

@@ -102,6 +102,17 @@ def edits(browser):
     bench.outcome("At the next start", "Restart, so that all of it counts")
     bench.press("Restart, so that all of it counts")
     bench.wait("return document.getElementById('crowd').contentWindow.page.crowd.everybody().length === 3", "the restart does not have three people")
+    # What is written while a scene starts does not run, and is not taken for it.
+    bench.run("const started = desk.restart(); desk.replace(arguments[0], arguments[1]); return started", LUA, begun + "-- more\n")
+    expect(bench.run("return desk.changed().join()") == LUA, "what was written during a restart counts as saved")
+    bench.write(LUA, "-- more\n", "")
+    # Names that a zip could not carry are refused; a file that is removed can be put back.
+    for name, told in (("/a.lua", "is named like"), ("scenes/dodgeball.yaml/a.lua", "is a file, and the folder of")):
+        bench.run("desk.files.add(arguments[0])", name)
+        bench.outcome(told)
+    bench.run("desk.show(arguments[0]); desk.files.remove(arguments[0])", LUA)
+    bench.press("Put it back")
+    expect(bench.text(LUA) == begun, "the file that was removed is not back")
     # The link has the whole edit; what is left unshared is kept, and told.
     link = bench.run("return desk.share.link()")
     bench.write(LUA, "version = 6", "version = 8")
@@ -147,6 +158,8 @@ def lessons(browser):
         if number < count - 1:
             bench.press("Next lesson")
     expect("That is your game" in bench.run("return desk.lesson.done.textContent"), "the end is not told")
+    bench.run("history.replaceState(null, '', '#edit=a'); desk.opened.name = 'link:1'; desk.lesson.tellAddress()")
+    expect(bench.run("return location.hash") == "#edit=a", "a link of a lesson loses its address, and a reload its files")
     bench.run("localStorage.clear()")
     expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
 
@@ -180,6 +193,8 @@ def start(browser):
     bench.run("desk.share.openZip(new File([Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0))], 'talk.zip'))", base64.b64encode(archive.getvalue()).decode())
     bench.outcome("talk.zip is opened")
     bench.wait("return document.getElementById('title').textContent === 'Talk' && document.querySelector('#said pre').textContent.includes('here I am')", "what is printed is not shown")
+    bench.press("Back to what was here")
+    bench.wait("return desk.scene === 'scenes/dodgeball.yaml' && desk.live && 'scenes/mods/doubles/mod.yaml' in desk.texts", "what the archive replaced is not back")
     bench.run("desk.share.openZip(new File(['no zip'], 'bad.zip'))")
     bench.outcome("bad.zip was not opened: this is no zip archive")
     bench.run("localStorage.clear()")

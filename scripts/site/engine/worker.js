@@ -3,6 +3,7 @@
 import { Engine } from "./engine/engine.mjs";
 import { plainPath } from "../project/references.js";
 import { observe } from "./observe.js";
+import { makeSchedule } from "./schedule.js";
 
 const TOLD = new Set(["scene", "status", "reloaded"]); // messages of which the workbench gets a copy
 const NEEDS = "This browser cannot run the engine, which needs WebAssembly with SIMD and exceptions: Chrome or Edge 95, Firefox 100, Safari 16.4, or later";
@@ -11,15 +12,7 @@ const ready = Engine.create().catch((error) => {
 });
 let scene = null, port = null;
 let answered = true; // the page has taken the last batch
-let timer = 0;
-const soon = new MessageChannel(); // timers of browsers wait 4 ms at least
-soon.port1.onmessage = () => turn();
-
-function schedule(seconds) {
-    clearTimeout(timer);
-    if (seconds > 0.001) timer = setTimeout(turn, 1000 * seconds);
-    else soon.port2.postMessage(null);
-}
+const schedule = makeSchedule(turn);
 
 function turn() {
     if (!scene) return;
@@ -51,7 +44,6 @@ function deliver() {
 }
 
 function close() {
-    clearTimeout(timer);
     scene?.close();
     scene = null;
 }

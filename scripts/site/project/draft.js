@@ -34,7 +34,7 @@ export class Draft {
     find() {
         try {
             const kept = JSON.parse(this.storage.getItem(this.key));
-            return kept && typeof kept.files === "object" && kept.scene in kept.files ? kept : null;
+            return kept && typeof kept.files === "object" && Object.hasOwn(kept.files, kept.scene) ? kept : null;
         } catch {
             return null;
         }

@@ -14,6 +14,16 @@ export function plainPath(path) {
     return parts.join("/");
 }
 
+/** What is wrong with the paths of a project, a sentence's end; null if nothing is. */
+export function pathsFault(paths) {
+    const all = new Set(paths);
+    for (const path of all) {
+        if (path === "" || path === "__proto__" || plainPath(path) !== path) return `"${path}" is no path of a file`;
+        for (let at = path.indexOf("/"); at > 0; at = path.indexOf("/", at + 1)) if (all.has(path.slice(0, at))) return `"${path.slice(0, at)}" is a file, and the folder of "${path}"`;
+    }
+    return null;
+}
+
 export const folderOf = (path) => path.slice(0, path.lastIndexOf("/") + 1);
 
 /** A text without the comments of YAML or Lua: what they name is not read. */
@@ -23,12 +33,20 @@ function withoutComments(path, text) {
 
 /** Names of mods that a scene turns on: "mods: {NAME: ...}", or lines below "mods:". */
 export function modsNamed(text) {
-    const plain = withoutComments("x.yaml", text);
+    const plain = withoutComments("x.yaml", text).replace(/^[ \t]*\n/gm, "");
     const flow = /^mods:[ \t]*\{(.*)\}/m.exec(plain)?.[1];
     if (flow !== undefined) return [...flow.replace(/\{[^}]*\}/g, "").matchAll(/([\w-]+)\s*:/g)].map((m) => m[1]);
     const block = /^mods:[ \t]*\n((?:[ \t]+[^\n]*\n?)+)/m.exec(plain)?.[1] ?? "";
     const indent = /^[ \t]+/.exec(block)?.[0];
     return indent ? block.split("\n").map((line) => new RegExp(`^${indent}([\\w-]+):`).exec(line)?.[1]).filter(Boolean) : [];
+}
+
+/** A scene's text with the mod turned on in it. */
+export function turnOnMod(text, mod) {
+    const flow = /^mods:[ \t]*\{(.*)\}/m.exec(text), block = /^mods:[ \t]*(?:#[^\n]*)?\n(?:[ \t]*(?:#[^\n]*)?\n)*([ \t]+)(?=[\w-])/m.exec(text);
+    if (flow) return text.replace(flow[0], () => `mods: {${flow[1].trim() ? `${flow[1]}, ` : ""}${mod}: {}}`);
+    if (block) return text.replace(block[0], () => `${block[0]}${mod}: {}\n${block[1]}`);
+    return `${text.trimEnd()}\nmods: {${mod}: {}}\n`;
 }
 
 /** Paths at which the engine looks for what a file names, the first that exists being read. */

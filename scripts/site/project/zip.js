@@ -1,5 +1,7 @@
 // Zip archives of texts, written and read in the browser or under node, by its own compression.
 
+import { pathsFault, plainPath } from "./references.js";
+
 const LOCAL = 0x04034b50, ENTRY = 0x02014b50, END = 0x06054b50;
 const DEFLATED = 8, UTF8 = 0x0800;
 const MOST_FILES = 500, MOST_BYTES = 16e6; // of what is read, unpacked
@@ -82,7 +84,7 @@ export async function readZip(bytes) {
         if (at + 46 > bytes.length || view.getUint32(at, true) !== ENTRY) throw new Error("the archive's directory is damaged");
         const method = view.getUint16(at + 10, true), sum = view.getUint32(at + 16, true), packed = view.getUint32(at + 20, true), size = view.getUint32(at + 24, true);
         const long = view.getUint16(at + 28, true), more = view.getUint16(at + 30, true) + view.getUint16(at + 32, true), local = view.getUint32(at + 42, true);
-        const path = coder.decode(bytes.subarray(at + 46, at + 46 + long));
+        const path = new TextDecoder().decode(bytes.subarray(at + 46, at + 46 + long)); // names of other encodings keep their ASCII
         at += 46 + long + more;
         if (path.endsWith("/")) continue;
         if (path.startsWith("/") || path.split("/").includes("..")) throw new Error(`${path} leads out of the archive`);
@@ -90,14 +92,18 @@ export async function readZip(bytes) {
         const start = local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true), content = bytes.subarray(start, start + packed);
         if (method !== 0 && method !== DEFLATED) throw new Error(`${path} is packed by method ${method}, which is not supported`);
         if (size > left) throw new Error(`it holds more than ${MOST_BYTES / 1e6} MB`);
-        const plain = method === 0 ? content : await inflate(content, left);
+        const plain = method === 0 ? content : await inflate(content, left).catch((error) => {
+            throw error instanceof TypeError ? new Error(`${path} is damaged`) : error; // a TypeError is the browser's
+        });
         if (plain.length !== size || checksum(plain) !== sum) throw new Error(`${path} is damaged`);
         left -= plain.length;
         try {
-            files[path] = coder.decode(plain);
+            files[plainPath(path)] = coder.decode(plain);
         } catch {
             continue; // no text: a picture, say
         }
     }
+    const fault = pathsFault(Object.keys(files));
+    if (fault) throw new Error(fault);
     return files;
 }

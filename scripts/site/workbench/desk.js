@@ -39,6 +39,7 @@ export class Desk {
             this.save();
         };
         for (const each of [window, byId("crowd").contentWindow]) each.addEventListener("keydown", saveByKey); // also with the focus on the crowd
+        addEventListener("storage", ({ key }) => key === this.draft.key && notice("This edit is open in another tab, too: what is written last, in either, is what comes back."));
         this.said = [];
         told.addEventListener("failed", () => {
             this.live = null;
@@ -98,12 +99,14 @@ export class Desk {
 
     /** Removes a file from the project. */
     remove(path) {
+        const text = this.texts[path];
         delete this.texts[path];
         delete this.live?.[path];
         this.show(this.scene);
         this.keep();
         this.refresh();
         this.checkSoon(0);
+        this.tell(`${path} is removed. What runs keeps it until a restart.`, el("button", { type: "button", onclick: () => this.replace(path, text) }, "Put it back"));
     }
 
     keep() {
@@ -197,13 +200,14 @@ export class Desk {
     /** Begins the scene anew with what is written. */
     async begin(done) {
         this.tell("Starting the scene ...");
-        const { errors } = await this.patient(this.engine.call("open", { files: this.texts, path: this.scene }));
+        const texts = { ...this.texts }, wasChanged = this.changed().length > 0; // what is written meanwhile is not live
+        const { errors } = await this.patient(this.engine.call("open", { files: texts, path: this.scene }));
         if (errors.length) return this.tellErrors(errors, this.live ? "Not restarted: the version before keeps running" : "Nothing runs yet");
-        if (this.live && this.changed().length) this.versions.push({ ...this.live });
-        this.live = { ...this.texts };
+        if (this.live && wasChanged) this.versions.push({ ...this.live });
+        this.live = texts;
         this.lastNews = [];
         this.later = false;
-        this.tell(`${done} with ${Object.keys(this.texts).length === 1 ? "this file" : `these ${Object.keys(this.texts).length} files`}.`);
+        this.tell(`${done} with ${Object.keys(texts).length === 1 ? "this file" : `these ${Object.keys(texts).length} files`}.`);
         this.checkSoon(0);
     }
 
@@ -264,6 +268,7 @@ export class Desk {
 
     /** Opens another project in place of this one: {scene, files}. */
     async open({ scene, files }, done) {
+        const before = { scene: this.scene, files: this.texts };
         this.scene = scene;
         this.texts = { ...files };
         this.live = null;
@@ -273,6 +278,7 @@ export class Desk {
         this.keep();
         await this.restart();
         if (this.live && done) this.tell(done);
+        byId("outcome").append(el("button", { type: "button", onclick: () => this.open(before, "What was here before is back.") }, "Back to what was here"));
     }
 
     bindDivider() {

@@ -1,6 +1,6 @@
 // The tabs of files, and what adds one: a new behaviour, a shipped one, or a mod.
 import { byId, el, fill } from "../../../core/view/page/dom.js";
-import { folderOf, modsNamed } from "../project/references.js";
+import { folderOf, modsNamed, pathsFault, plainPath, turnOnMod } from "../project/references.js";
 
 const BEHAVIOUR = (name) => `return machine {
   name = "${name}", version = 1, start = "Wait",
@@ -77,9 +77,11 @@ export class FilesBar {
     }
 
     add(name) {
-        const { desk } = this, path = name.includes("/") ? name : folderOf(desk.scene) + name;
-        if (!/^[\w./-]+\.(lua|yaml)$/.test(name) || name.split("/").includes("..")) return desk.tell("A file is named like walker.lua or hall.yaml.");
-        if (path in desk.texts) return desk.show(path);
+        const { desk } = this, path = plainPath(name.includes("/") ? name : folderOf(desk.scene) + name);
+        if (!/^(?:[\w-][\w.-]*\/)*[\w-][\w.-]*\.(lua|yaml)$/.test(name)) return desk.tell("A file is named like walker.lua or hall.yaml.");
+        if (Object.hasOwn(desk.texts, path)) return desk.show(path);
+        const fault = pathsFault([...Object.keys(desk.texts), path]);
+        if (fault) return desk.tell(`No file is added: ${fault}.`);
         return this.put(path, name.endsWith(".lua") ? BEHAVIOUR(name.split("/").pop().slice(0, -4)) : "jostle: 1\n");
     }
 
@@ -97,10 +99,8 @@ export class FilesBar {
     useMod(mod, files, here) {
         const { desk } = this;
         for (const [path, text] of Object.entries(files)) if (path.startsWith(`scenes/mods/${mod}/`)) desk.texts[here + path.slice("scenes/".length)] = text;
-        const scene = desk.texts[desk.scene], named = /^mods:[ \t]*\{(.*)\}/m.exec(scene);
-        const next = named ? scene.replace(named[0], `mods: {${named[1].trim() ? `${named[1]}, ` : ""}${mod}: {}}`) : `${scene.trimEnd()}\nmods: {${mod}: {}}\n`;
-        this.put(desk.scene, next);
-        desk.tell(`The scene turns the mod ${mod} on, in its last line. Restart, so that it counts.`, el("button", { type: "button", className: "main", onclick: () => desk.restart() }, "Restart"));
+        this.put(desk.scene, turnOnMod(desk.texts[desk.scene], mod));
+        desk.tell(`The scene turns the mod ${mod} on, by its key mods. Restart, so that it counts.`, el("button", { type: "button", className: "main", onclick: () => desk.restart() }, "Restart"));
     }
 }
 

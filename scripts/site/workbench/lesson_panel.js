@@ -23,7 +23,7 @@ export class LessonPanel {
                 if (this.watches) this.show();
             });
         }
-        history.replaceState(null, "", `#lesson=${number + 1}`);
+        this.tellAddress();
         this.draw();
         this.check();
     }
@@ -37,6 +37,11 @@ export class LessonPanel {
         return this.lesson.blocks.find((b) => b.file)?.file ?? "court.yaml";
     }
 
+    /** Puts the lesson's number into the address; that of a link stays, which opens its files. */
+    tellAddress() {
+        if (this.desk.opened.name === "lesson") history.replaceState(null, "", `#lesson=${this.number + 1}`);
+    }
+
     /** Goes to a lesson with the files as they are; `afresh` with those that it begins with. */
     async go(number, afresh = false) {
         this.number = number;
@@ -45,7 +50,7 @@ export class LessonPanel {
         this.node.dataset.done = "false";
         this.live.news = [];
         this.desk.lastNews = [];
-        history.replaceState(null, "", `#lesson=${number + 1}`);
+        this.tellAddress();
         this.draw();
         this.node.querySelector(".text").scrollTop = 0;
         if (afresh) await this.desk.open({ scene: "court.yaml", files: lessonFiles(this.lesson) });

@@ -20,13 +20,16 @@ async function openScene(name) {
     return { name: `scene:${name}`, title: titleOf(shipped[scene], scene), scene, files: Object.fromEntries(paths.map((path) => [path, shipped[path]])) };
 }
 
+/** The lesson of a number from 0, the nearest if there is none. */
+const lessonAt = (lessons, number) => Math.min(Math.max(Math.floor(Number(number)) || 0, 0), lessons.length - 1);
+
 /** The files with which a lesson begins: an empty scene in place of what the lesson is to write. */
 export function lessonFiles(lesson) {
     return { "court.yaml": "# The scene goes here.\n", ...lesson.before };
 }
 
 async function openLesson(number) {
-    const { lessons } = await fetchJson("data/lessons.json"), at = Math.min(Math.max(Number(number) || 1, 1), lessons.length) - 1;
+    const { lessons } = await fetchJson("data/lessons.json"), at = lessonAt(lessons, Number(number) - 1);
     return { name: "lesson", title: "Dodge-ball, step by step", scene: "court.yaml", files: lessonFiles(lessons[at]), lessons, lesson: at };
 }
 
@@ -34,8 +37,10 @@ async function openLink(text) {
     const { scene, files, lesson } = await unpackProject(text), name = `link:${checksum(new TextEncoder().encode(text))}`;
     if (lesson === null) return { name, title: titleOf(files[scene], scene), scene, files };
     const { lessons } = await fetchJson("data/lessons.json");
-    return { name, title: "Dodge-ball, step by step", scene, files, lessons, lesson };
+    return { name, title: "Dodge-ball, step by step", scene, files, lessons, lesson: lessonAt(lessons, lesson) };
 }
+
+const OPENERS = new Map([["scene", openScene], ["lesson", openLesson], ["edit", openLink]]);
 
 export function titleOf(text, path) {
     return /^title: *["']?(.*?)["']?\s*$/m.exec(text ?? "")?.[1] || path.split("/").pop();
@@ -49,13 +54,13 @@ export async function findOpened({ hash }) {
     const [kind, value] = /^#(\w+)=(.*)$/.exec(hash)?.slice(1) ?? ["scene", FIRST];
     let opened, fault = null;
     try {
-        opened = await ({ scene: openScene, lesson: openLesson, edit: openLink }[kind] ?? openScene)(decodeURIComponent(value));
+        opened = await (OPENERS.get(kind) ?? openScene)(decodeURIComponent(value));
     } catch (error) {
-        fault = error.message;
+        fault = error instanceof URIError ? "This address is damaged." : error.message;
         opened = await openScene(FIRST);
     }
     const kept = new Draft(opened.name).find();
     const same = kept && JSON.stringify(kept.files) === JSON.stringify(opened.files);
     const restored = kept && !same ? kept.time : null;
-    return { ...opened, fault, restored, texts: restored ? kept.files : opened.files, scene: restored ? kept.scene : opened.scene, lesson: restored && kept.lesson !== undefined ? kept.lesson : opened.lesson };
+    return { ...opened, fault, restored, texts: restored ? kept.files : opened.files, scene: restored ? kept.scene : opened.scene, lesson: restored && opened.lessons && kept.lesson !== undefined ? lessonAt(opened.lessons, kept.lesson) : opened.lesson };
 }

@@ -37,7 +37,9 @@ export class Share {
     }
 
     async copyLink() {
-        const link = await this.link(), { desk } = this, long = link.length > LONG ? ` It has ${link.length} characters, and some programs cut that: a zip has no limit.` : "";
+        const { desk } = this, link = await this.link().catch((error) => desk.tell(error.message));
+        if (!link) return;
+        const long = link.length > LONG ? ` It has ${link.length} characters, and some programs cut that: a zip has no limit.` : "";
         byId("share").open = false;
         const field = el("input", { type: "text", readOnly: true, value: link, "aria-label": "Link", onfocus: () => field.select() });
         try {
