@@ -79,6 +79,11 @@ def edits(browser):
     browser.driver.switch_to.active_element.send_keys("appr")
     bench.wait("return [...document.querySelectorAll('.cm-completionLabel')].some((n) => n.textContent === 'approach')", "no word is completed")
     browser.driver.switch_to.active_element.send_keys(Keys.ESCAPE, Keys.BACKSPACE * 4)
+    # The editor's label says how the keyboard leaves it, and so it does.
+    label = bench.run("return desk.editor.view.contentDOM.getAttribute('aria-label')")
+    expect("Escape, then Tab leaves" in label, f"the editor is called {label!r}")
+    browser.driver.switch_to.active_element.send_keys(Keys.ESCAPE, Keys.TAB)
+    expect(not bench.run("return desk.editor.view.hasFocus") and bench.text(LUA) == begun, "the keyboard does not leave the editor")
     bench.write(LUA, "steer = dodge(", "steer = dogde(")
     bench.wait("return /dodgeball.lua:\\d+:\\d+.*dogde.*Did you mean 'dodge'/.test(document.getElementById('problems').textContent)", "the error is not listed with its place and way out")
     bench.run("desk.goTo(desk.problems[0])")

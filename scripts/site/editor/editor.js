@@ -45,7 +45,7 @@ export class Editor {
             keymap.of([{ key: "Mod-s", preventDefault: true, run: () => (given.save(), true) },
                 ...closeBracketsKeymap, ...completionKeymap, ...searchKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
             EditorView.updateListener.of((update) => update.docChanged && given.change(path, update.state.doc.toString())),
-            EditorView.contentAttributes.of({ "aria-label": `Text of ${path}` }),
+            EditorView.contentAttributes.of({ "aria-label": `Text of ${path}. Tab indents; Escape, then Tab leaves` }),
         ];
     }
 
