@@ -124,7 +124,7 @@ class Browser:
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
-        self.driver.set_script_timeout(30)
+        self.driver.set_script_timeout(120)
         self.shown = set()  # arguments of sessions whose pages were drawn
         self.script = None
         self.driver.set_page_load_timeout(150)
