@@ -1,6 +1,7 @@
 /* jo_scene_reload: puts texts of a program in place of the files that a running scene is made of.
  */
 #include <stdio.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
@@ -73,14 +74,29 @@ static void take_back_texts(JoScene *scene, const JoxInputEntry *entry, const Jo
     }
 }
 
-static bool reload_texts(JoScene *scene, const JoFile *files, size_t count, JoError *error) {
-    JoxInputEntry entry = {.verb = JOX_INPUT_FILES, .number = (uint32_t)count};
-    JoError ignored = {0};
+/* Whether a later text of the list has the path of text `f`. */
+static bool has_later_text(const JoFile *files, size_t count, size_t f) {
+    for (size_t later = f + 1; later < count; later++)
+        if (strcmp(files[later].path, files[f].path) == 0)
+            return true;
+    return false;
+}
+
+/* Copies the texts into an entry: of several for one path the last. */
+static JoxInputEntry copy_texts(const JoFile *files, size_t count) {
+    JoxInputEntry entry = {.verb = JOX_INPUT_FILES};
     entry.files = jox_alloc(count + 1, sizeof *entry.files);
     for (size_t f = 0; f < count; f++)
-        entry.files[f] =
-            (JoxInputFile){jox_strdup(files[f].path), jox_strndup(files[f].text, files[f].length),
-                           files[f].length};
+        if (!has_later_text(files, count, f))
+            entry.files[entry.number++] =
+                (JoxInputFile){jox_strdup(files[f].path),
+                               jox_strndup(files[f].text, files[f].length), files[f].length};
+    return entry;
+}
+
+static bool reload_texts(JoScene *scene, const JoFile *files, size_t count, JoError *error) {
+    JoxInputEntry entry = copy_texts(files, count);
+    JoError ignored = {0};
     JoxOverlay texts = put_texts(scene, &entry);
     const JoxOverlay *before = jox_overlay_use(&scene->overlay);
     if (error)
@@ -102,7 +118,12 @@ bool jo_scene_reload(JoScene *scene, const JoFile *files, size_t count, JoError 
                 false);
     for (size_t f = 0; f < count; f++)
         JOX_REQUIRE(files[f].path && files[f].text, false);
-    JOX_GUARD (scene->heap, error)
+    JOX_GUARD (scene->heap, error) {
+        scene->world->busy = false;
         return false;
-    return reload_texts(scene, files, count, error);
+    }
+    scene->world->busy = true; /* a callback must not change what is being swapped */
+    const bool live = reload_texts(scene, files, count, error);
+    scene->world->busy = false;
+    return live;
 }

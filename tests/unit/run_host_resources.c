@@ -96,6 +96,48 @@ static void texts_replace_files_of_a_running_scene(void **state) {
     assert_true(jo_scene_reload(scene, turned, 1, &error));
     step_scene(scene, 40);
     assert_float_equal(scene->world->state.agents.vx[0], -0.5, 0.01);
+    /* of two texts for one path the last counts, and both are forgotten if it is refused */
+    const JoFile twice[] = {wrong, FILE_OF("nowhere/behaviours/pace.lua", "return 0.5 -\n"),
+                            slower};
+    assert_false(jo_scene_reload(scene, twice, 2, &error));
+    assert_true(jo_scene_reload(scene, turned, 1, &error));
+    assert_true(jo_scene_reload(scene, twice, 3, &error));
+    jo_scene_free(scene);
+}
+
+static int misuses;
+
+static void count_misuse(const char *condition, const char *file, int line) {
+    (void)condition, (void)file, (void)line;
+    misuses++;
+}
+
+static void reload_in_message(void *context, const char *text) {
+    (void)text;
+    const JoFile slower = FILE_OF("nowhere/behaviours/pace.lua", "return 0.5\n");
+    JoError error;
+    assert_false(jo_scene_reload(*(JoScene **)context, &slower, 1, &error));
+}
+
+/* A message of a reload cannot begin another one, which would swap what the first still holds. */
+static void reload_refuses_another_one_in_its_messages(void **state) {
+    (void)state;
+    const JoFile files[] = {FILE_OF("nowhere/scenes/hall.yaml", HALL),
+                            FILE_OF("nowhere/behaviours/walk.lua", WALK_ON),
+                            FILE_OF("nowhere/behaviours/pace.lua", "return 1.5\n")};
+    const JoFile other = FILE_OF("nowhere/behaviours/pace.lua", "return 1\n");
+    JoError error;
+    JoScene *scene = load_files(files, 3, true, &error);
+    assert_non_null(scene);
+    scene->message = reload_in_message;
+    scene->message_context = &scene;
+    jo_set_assert_handler(count_misuse);
+    assert_true(jo_scene_reload(scene, &other, 1, &error));
+    jo_set_assert_handler(NULL);
+    assert_true(misuses > 0);
+    scene->message = ignore_message;
+    step_scene(scene, 40);
+    assert_float_equal(scene->world->state.agents.vx[0], 1, 0.01);
     jo_scene_free(scene);
 }
 
@@ -177,6 +219,7 @@ int main(void) {
         cmocka_unit_test(missing_file_is_reported),
         cmocka_unit_test(files_only_reads_nothing_from_the_disk),
         cmocka_unit_test(texts_replace_files_of_a_running_scene),
+        cmocka_unit_test(reload_refuses_another_one_in_its_messages),
         cmocka_unit_test(loops_run_on_the_threads_of_the_program),
         cmocka_unit_test(allocator_must_be_set_before_other_calls),
     };
