@@ -77,15 +77,25 @@ static bool check_hashes(const JoxSweepStore *store, const char *part, JoError *
     return code == SQLITE_DONE;
 }
 
+/* Returns false with an `error` that the file is damaged. */
+static bool refuse_damaged_part(const JoxSweepStore *part, JoError *error) {
+    jox_error(error, JO_INPUT, "%.300s: the file is damaged: remove it, and do its runs again",
+              part->path);
+    return false;
+}
+
 /* Stores what the runs of a part share; differences from the output go to `differences`. */
 static bool compare_notes(const JoxSweepStore *store, const JoxSweepStore *part,
                           JoxText *differences, JoError *error) {
     sqlite3_stmt *s = jox_sweep_prepare(part, "SELECT key, value FROM sweep", error);
     int code = SQLITE_ERROR;
     bool good = s != NULL;
-    while (good && (code = sqlite3_step(s)) == SQLITE_ROW)
-        good = jox_sweep_note_value(store, (const char *)sqlite3_column_text(s, 0),
-                                    (const char *)sqlite3_column_text(s, 1), differences, error);
+    while (good && (code = sqlite3_step(s)) == SQLITE_ROW) {
+        const char *key = (const char *)sqlite3_column_text(s, 0);
+        const char *value = (const char *)sqlite3_column_text(s, 1);
+        good = key && value ? jox_sweep_note_value(store, key, value, differences, error)
+                            : refuse_damaged_part(part, error);
+    }
     good = good && (code == SQLITE_DONE || jox_sweep_set_error(part, error));
     jox_sweep_finalize(part, s);
     if (!good || !(s = jox_sweep_prepare(part, "SELECT path, text FROM input", error)))
@@ -93,8 +103,9 @@ static bool compare_notes(const JoxSweepStore *store, const JoxSweepStore *part,
     while (good && (code = sqlite3_step(s)) == SQLITE_ROW) {
         const char *path = (const char *)sqlite3_column_text(s, 0);
         const void *text = sqlite3_column_blob(s, 1);
-        good = path && jox_sweep_note_input(store, path, text, (size_t)sqlite3_column_bytes(s, 1),
-                                            differences, error);
+        good = path ? jox_sweep_note_input(store, path, text, (size_t)sqlite3_column_bytes(s, 1),
+                                           differences, error)
+                    : refuse_damaged_part(part, error);
     }
     good = good && (code == SQLITE_DONE || jox_sweep_set_error(part, error));
     jox_sweep_finalize(part, s);
@@ -107,8 +118,7 @@ static bool is_whole(const JoxSweepStore *part, JoError *error) {
     const int code = s ? sqlite3_step(s) : SQLITE_ERROR;
     const bool good = code == SQLITE_ROW && !strcmp((const char *)sqlite3_column_text(s, 0), "ok");
     if (s && !good)
-        jox_error(error, JO_INPUT, "%.300s: the file is damaged: remove it, and do its runs again",
-                  part->path);
+        refuse_damaged_part(part, error);
     jox_sweep_finalize(part, s);
     return good;
 }
@@ -121,6 +131,7 @@ static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError 
     bool good = jox_sweep_open_to_read(&part, path, error) && is_whole(&part, error) &&
                 compare_notes(store, &part, &differences, error);
     if (good && differences.length) {
+        differences.data[differences.length - 1] = 0; /* the last end of line */
         jox_error(error, JO_INPUT, "%.200s belongs to another sweep than %.200s:\n%.500s", path,
                   store->path, differences.data);
         good = false;
@@ -165,8 +176,15 @@ static bool count_runs(const JoxSweepStore *store, JoxSweepState state, uint32_t
 
 /* ---- missing runs ---- */
 
-/* Adds the runs that a part has to a list, which has their settings, seeds and states alone. */
+/* Adds the runs that a part has to a list, which has their settings, seeds and states alone. Fails
+   also if the part lacks another column that MOVE reads. */
 static const char LIST[] =
+    "SELECT reason, hash, steps, simulated_s, cpu_s, wall_s, summary FROM part.run LIMIT 0;"
+    "SELECT variant, seed, name, value FROM part.figure LIMIT 0;"
+    "SELECT id, name, unit FROM part.curve_name LIMIT 0;"
+    "SELECT variant, seed, curve, time, value FROM part.curve_point LIMIT 0;"
+    "SELECT variant, seed, name, unit, low_x, low_y, cell, columns, rows, cells FROM part.field"
+    " LIMIT 0; SELECT plan FROM part.variant LIMIT 0;"
     "INSERT OR IGNORE INTO main.variant(settings) SELECT settings FROM part.variant;"
     "INSERT OR IGNORE INTO main.run(variant, seed, state) SELECT v.id, p.seed, p.state"
     " FROM part.run p JOIN part.variant w ON w.id = p.variant"
@@ -196,12 +214,12 @@ static bool find_missing_of_merge(const JoSweepMergeDef *def, uint32_t *missing,
     JoxText lines = {0};
     struct stat info;
     bool good = jox_sweep_open(&list, NULL, error);
-    if (good) { /* for errors */
+    const bool has_out = stat(def->out, &info) == 0 && info.st_size > 0;
+    if (good) { /* for errors: the file that the others are compared with */
         jox_free(list.path);
-        list.path = jox_strdup(def->out);
+        list.path = jox_strdup(has_out ? def->out : def->parts[0]);
+        good = !has_out || list_part(&list, def->out, error);
     }
-    if (good && stat(def->out, &info) == 0 && info.st_size > 0)
-        good = list_part(&list, def->out, error);
     for (size_t p = 0; good && p < def->part_count; p++)
         good = list_part(&list, def->parts[p], error);
     good = good && jox_sweep_find_missing(&list, missing, &lines, error);
@@ -227,6 +245,12 @@ static bool sync_file(const char *path, JoError *error) {
     return good;
 }
 
+/* Whether two paths name one file. */
+static bool is_same_file(const char *one, const char *two) {
+    struct stat a, b;
+    return stat(one, &a) == 0 && stat(two, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 /* Merges the parts, unless runs are missing and the def does not allow that. A new file is brought
    to the disk once, at its end, and not after each part: until then the parts have all runs. */
 static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoError *error) {
@@ -247,7 +271,7 @@ static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoErr
     bool good = jox_sweep_open(&store, def->out, error) &&
                 (!is_new || jox_sweep_execute(&store, "PRAGMA synchronous=OFF", error));
     for (size_t p = 0; good && p < def->part_count; p++)
-        good = merge_part(&store, def->parts[p], error);
+        good = is_same_file(def->parts[p], def->out) || merge_part(&store, def->parts[p], error);
     good = good && count_runs(&store, JOX_SWEEP_DONE, &done, error) &&
            count_runs(&store, JOX_SWEEP_TROUBLED, &counts->troubled, error) &&
            count_runs(&store, JOX_SWEEP_FAILED, &counts->failed, error);

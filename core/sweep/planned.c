@@ -59,22 +59,6 @@ static sqlite3_stmt *select_plans(const JoxSweepStore *store, bool *none, JoErro
                                      error);
 }
 
-bool jox_sweep_copy_plans(const JoxSweepStore *from, const JoxSweepStore *to, JoError *error) {
-    bool none, good = true;
-    int code = SQLITE_ERROR;
-    sqlite3_stmt *s = select_plans(from, &none, error);
-    if (!s)
-        return none;
-    while (good && (code = sqlite3_step(s)) == SQLITE_ROW) {
-        const char *settings = (const char *)sqlite3_column_text(s, 0);
-        good = insert_plan_row(to, settings ? settings : "", sqlite3_column_int64(s, 1),
-                               sqlite3_column_int64(s, 2), error);
-    }
-    good = good && (code == SQLITE_DONE || jox_sweep_set_error(from, error));
-    jox_sweep_finalize(from, s);
-    return good;
-}
-
 /* Makes the plan of a row again; false with JO_INPUT in `error` if it makes none. Free the plan
    even then. */
 static bool read_plan_row(const JoxSweepStore *store, sqlite3_stmt *row, JoxSweepPlan *plan,
@@ -101,6 +85,31 @@ static bool read_plan_row(const JoxSweepStore *store, sqlite3_stmt *row, JoxSwee
     if (!good)
         jox_error(error, JO_INPUT, "%.300s: the plan of its runs cannot be read%s%.200s",
                   store->path, *why.text ? ": " : "", why.text);
+    return good;
+}
+
+/* Whether a plan can be made of a row; false with `error`. */
+static bool check_plan_row(const JoxSweepStore *store, sqlite3_stmt *row, JoError *error) {
+    JoxSweepPlan plan;
+    const bool good = read_plan_row(store, row, &plan, error);
+    jox_sweep_free_plan(&plan);
+    return good;
+}
+
+bool jox_sweep_copy_plans(const JoxSweepStore *from, const JoxSweepStore *to, JoError *error) {
+    bool none, good = true;
+    int code = SQLITE_ERROR;
+    sqlite3_stmt *s = select_plans(from, &none, error);
+    if (!s)
+        return none;
+    while (good && (code = sqlite3_step(s)) == SQLITE_ROW) {
+        const char *settings = (const char *)sqlite3_column_text(s, 0);
+        good = insert_plan_row(to, settings ? settings : "", sqlite3_column_int64(s, 1),
+                               sqlite3_column_int64(s, 2), error) &&
+               (sqlite3_changes(to->db->sqlite) == 0 || check_plan_row(from, s, error));
+    }
+    good = good && (code == SQLITE_DONE || jox_sweep_set_error(from, error));
+    jox_sweep_finalize(from, s);
     return good;
 }
 

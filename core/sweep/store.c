@@ -43,7 +43,7 @@ bool jox_sweep_set_error(const JoxSweepStore *store, JoError *error) {
               sqlite3_errmsg(store->db->sqlite),
               code == SQLITE_FULL || code == SQLITE_IOERR
                   ? "; finished runs are kept, and the same command continues with them"
-              : bad ? "; the file is damaged: move it away to begin the sweep anew"
+              : bad ? "; the file is damaged: move it away, and its runs are done again"
                     : "");
     return false;
 }
