@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/format/quote.h"
+#include "base/mem.h"
 
 typedef struct Lister {
     const CliSweep *sweep;
@@ -84,6 +85,45 @@ static void add_parts_folder(JoxText *folder, const char *out) {
     jox_text_printf(folder, "%.*s-parts", (int)stem, out);
 }
 
+/* Whether a command in one line can hold a text: it is UTF-8 without control characters. */
+static bool fits_in_line(const char *text) {
+    char *clean = jox_strdup(text ? text : "");
+    jox_text_clean(clean);
+    const bool fits = strcmp(clean, text ? text : "") == 0;
+    jox_free(clean);
+    return fits;
+}
+
+/* Returns the argument that no command in one line can hold; NULL: none. */
+static const char *find_unfit_argument(const CliSweep *sweep, const char *program) {
+    const JoSweepDef *def = &sweep->def;
+    const char *const single[] = {program, def->scene.path, def->out, def->scene.input_log};
+    for (size_t k = 0; k < sizeof single / sizeof *single; k++)
+        if (!fits_in_line(single[k]))
+            return single[k];
+    for (size_t s = 0; s < def->set_count; s++)
+        if (!fits_in_line(def->sets[s]))
+            return def->sets[s];
+    for (size_t m = 0; m < def->scene.mod_count; m++)
+        if (!fits_in_line(def->scene.mods[m]))
+            return def->scene.mods[m];
+    return NULL;
+}
+
+/* Reports the argument that --list cannot print; returns the exit status. */
+static int report_unfit_argument(const char *argument) {
+    JoxText why = {0}, quoted = {0};
+    jox_quote_shell(&quoted, argument);
+    jox_text_printf(&why,
+                    "--list prints each command in one line of UTF-8, which cannot hold the line "
+                    "end or other byte shown as ' ' or '?' in %.300s: rename it",
+                    quoted.data);
+    const int status = cli_report_misuse(&cli_sweep, why.data);
+    jox_text_free(&quoted);
+    jox_text_free(&why);
+    return status;
+}
+
 int cli_list_runs(const CliSweep *sweep) {
     char program[1024];
     JoError error = {0};
@@ -91,6 +131,9 @@ int cli_list_runs(const CliSweep *sweep) {
     Lister lister = {.sweep = sweep};
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     program[length > 0 ? length : 0] = 0;
+    const char *unfit = sweep->list ? find_unfit_argument(sweep, program) : NULL;
+    if (unfit)
+        return report_unfit_argument(unfit);
     add_parts_folder(&folder, sweep->def.out);
     add_shared_options(&lister.begin, sweep, program);
     int status =

@@ -136,6 +136,10 @@ test_slurm() {
     missing_by_name many-parts "a result that was removed is named"
 
     short=(scenes/rooms.yaml --set groups.hall.count=20,30 --seeds 2 --for 2)
+    cp scenes/rooms.yaml "scenes/d'été -- 2.yaml"
+    LC_ALL=C "$cluster/submit" "scenes/d'été -- 2.yaml" "${short[@]:1}" --out "l'été.sqlite" >odd.txt 2>&1
+    wait_for 60 queue_is_empty
+    [ "$(sqlite3 "l'été.sqlite" 'select count(*) from run')" = 4 ]; verdict "names with quotes, blanks and accents reach the job that merges" $?
     "$program" sweep "${short[@]}" --out step.sqlite --list >jobs
     srun --quiet -n 2 --overcommit bash "$cluster/jostle.sbatch" jobs >srun.txt 2>&1
     [ "$(count_parts step-parts)" = 4 ] && [ "$(grep -c ': 2 runs are done' srun.txt)" = 2 ]; verdict "srun: two processes do a share each" $?

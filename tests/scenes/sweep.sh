@@ -181,6 +181,18 @@ kill -TERM $child $pid; wait $pid
 expect "a file of another sweep is not merged" 3 "belongs to another sweep" "$program" sweep --merge another.sqlite --out many.sqlite
 cp many-parts/run-000001.sqlite lies.sqlite; sqlite3 lies.sqlite "update run set hash = '0000000000000000'"
 expect "a file with another result for a run is not merged" 3 "the programs that made them are not the same" "$program" sweep --merge lies.sqlite --out many.sqlite
+expect "the merged file itself among the files is left as it is" 0 "6 runs with figures" "$program" sweep --merge many.sqlite many-parts --out many.sqlite
+# odd NAME WORDS SQL...: merges a file that another program changed by SQL, which is refused by its name.
+odd() {
+    cp many-parts/run-000001.sqlite odd.sqlite; sqlite3 odd.sqlite "$3"
+    expect "$1" 3 "odd.sqlite: $2" "$program" sweep --merge odd.sqlite --out odd-merged.sqlite
+    [ ! -e odd-merged.sqlite ]; verdict "  and nothing is merged" $?
+}
+odd "a file without values of its settings is refused" "the file is damaged" 'create table s(key text primary key, value); insert into s select key, null from sweep; drop table sweep; alter table s rename to sweep'
+odd "a file without paths of inputs is refused" "the file is damaged" 'create table i(path text, sha256, text); insert into i select null, sha256, text from input; drop table input; alter table i rename to input'
+odd "a file whose plan is none is refused" "the plan of its runs cannot be read" 'update planned set seeds = 0'
+odd "a file that lacks a column is refused" "no such column" 'alter table run drop column cpu_s'
+expect "a name that no line can hold is not listed" 2 "cannot hold the line end" "$program" sweep $scene "${what[@]}" --out $'two\nlines.sqlite' --list
 
 sed -i 's/^jostle: 1/jostle: 1 # edited/' $scene
 expect "the state of runs of other inputs is not told" 3 "$scene has changed" "$program" sweep $scene "${what[@]}" --out many.sqlite --status
