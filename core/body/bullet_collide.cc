@@ -1,7 +1,7 @@
 /* Contacts of boxes with boxes and of bodies with the ground. Bullet's own algorithms for these two
    call functions of the C library whose last bits differ between systems (atan2f, sinf, cosf);
-   these do not, so that a world with bodies has one hash everywhere. All others of Bullet's that
-   bodies need are made of + - * / and sqrt. */
+   these do not, so that a world with bodies has one hash everywhere. What else of Bullet moves
+   bodies is made of + - * / and sqrt, or replaced in bullet_world.cc. */
 #include "body/bullet.h"
 
 #include <new>

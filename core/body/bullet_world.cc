@@ -93,8 +93,8 @@ void JoxBulletWorld::createPredictiveContacts(btScalar dt) {
             createPredictiveContactsInternal(&m_nonStaticRigidBodies[i], 1, dt);
 }
 
-/* Moves a fast body by Bullet, which stops it where it hits something, and turns it by the share of
-   its way that it went. */
+/* Moves a fast body by Bullet, which stops it where it hits something; Bullet's turn, by sinf and
+   cosf, is replaced by one for the share of the way that the body went. */
 void JoxBulletWorld::integrate_fast(btRigidBody *body, btScalar dt) {
     const btTransform from = body->getWorldTransform();
     integrateTransformsInternal(&body, 1, dt);

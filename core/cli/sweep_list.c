@@ -12,7 +12,7 @@
 
 typedef struct Lister {
     const CliSweep *sweep;
-    JoxText begin; /* of each command: the program, the scene and the options of all runs */
+    JoxText begin; /* begin of each command: program, scene, options of all runs */
     bool any_missing;
 } Lister;
 

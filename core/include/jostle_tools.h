@@ -373,7 +373,7 @@ typedef struct JoCompareDef {
     size_t label_count;
     const char *base;   /* the base: number of a side from 1, name or file; NULL: the first */
     const char *out;    /* folder for a page, index.html, made if it is missing; NULL: none */
-    JoReportHead head;  /* of the page of one side, whose runs differ by their seeds */
+    JoReportHead head;  /* head of the page of one side, whose runs differ by seeds */
     double share;       /* confidence level of intervals, 0.5 to below 1; default 0.95 */
     double percentile;  /* per cent, 0 to below 100: adds to the result this percentile of each
                            figure over a side's runs, an upper confidence bound for it, and the worst

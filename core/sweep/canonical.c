@@ -197,7 +197,7 @@ bool jo_sweep_make_canonical(const char *path, JoError *error) {
     bool good = jox_sweep_open(&former, path, error) &&
                 jox_sweep_execute(&former, JOX_SWEEP_PLANNED, error);
     if (good) {
-        unlink(fresh.data); /* of a process that was killed */
+        unlink(fresh.data); /* a process that was killed may have left it */
         jox_heap_register(fresh.data, remove_new_file);
         good = write_new_file(&former, fresh.data, error);
         if (good && rename(fresh.data, path) != 0) {

@@ -20,7 +20,7 @@ typedef struct States {
     const JoSweepDef *def;
     const JoxSweepPlan *plan;
     char **names;  /* by variant */
-    Input *inputs; /* those that were read */
+    Input *inputs; /* inputs read so far, with their hashes */
     size_t input_count, capacity;
     JoxSweepStore out; /* the sweep's file, if `has_out` */
     bool has_out;

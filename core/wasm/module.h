@@ -1,4 +1,4 @@
-/* What the files of the WebAssembly module share. */
+/* The answer of the last call, as all files of the WebAssembly module give it. */
 #ifndef JOX_WASM_MODULE_H
 #define JOX_WASM_MODULE_H
 

@@ -7,7 +7,7 @@
 #include "wasm/module.h"
 
 typedef struct JoxModuleScene {
-    JoxHeap *heap;     /* of the page; the scene has its own */
+    JoxHeap *heap;     /* heap of the page; the scene has its own */
     JoxScenePage page; /* its loop is the host's */
     JoViewDef def;
     char *path;

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
-static char nothing; /* what a database that could not be opened points to */
+static char nothing; /* stands for a database that could not be opened */
 
 int sqlite3_open_v2(const char *path, sqlite3 **database, int flags, const char *system) {
     (void)path, (void)flags, (void)system;

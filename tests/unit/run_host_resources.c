@@ -96,7 +96,7 @@ static void texts_replace_files_of_a_running_scene(void **state) {
     assert_true(jo_scene_reload(scene, turned, 1, &error));
     step_scene(scene, 40);
     assert_float_equal(scene->world->state.agents.vx[0], -0.5, 0.01);
-    /* of two texts for one path the last counts, and both are forgotten if it is refused */
+    /* The last of two texts for one path counts; both are forgotten if it is refused. */
     const JoFile twice[] = {wrong, FILE_OF("nowhere/behaviours/pace.lua", "return 0.5 -\n"),
                             slower};
     assert_false(jo_scene_reload(scene, twice, 2, &error));

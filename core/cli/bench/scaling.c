@@ -18,7 +18,7 @@ static const double BUSY = 1.1;
 typedef struct ScalingRow {
     const char *stage;
     double wall, least_wall;
-    double cpu, least_cpu; /* of all threads; only of all stages together, else 0 */
+    double cpu, least_cpu; /* sums over all threads; 0 but for all stages together */
     double speed_up, efficiency;
     double lost; /* wall time beyond that of perfect scaling, ns */
 } ScalingRow;
