@@ -46,7 +46,7 @@ verdict "what built it is not in it" $? ; head -2 "$dir/said"
 wanted=$("$JOSTLE" run scenes/evacuation.yaml --no-mods --for 10 --quiet --summary - | grep '^ "hash":')
 inside run evacuation --for 10 --quiet --summary - && grep -qF -- "$wanted" "$dir/said"
 verdict "a scene by its name, with the hash of the program here" $? ; tail -2 "$dir/said"
-inside run dodgeball --for 2 --quiet --record run.sqlite && inside report run.sqlite --out report --quiet
+inside run dodgeball --for 2 --quiet --record run.sqlite && inside report run.sqlite --out report
 verdict "a recording and its report, in /work" $? ; tail -3 "$dir/said"
 bud run "$container" -- jostle run evacuation --view=8793 --view-address 0.0.0.0 --view-wait 60 >"$dir/view" 2>&1 &
 server=$!
