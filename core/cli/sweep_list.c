@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/format/plurals.h"
 #include "base/format/quote.h"
 #include "base/mem.h"
 
@@ -14,6 +15,7 @@ typedef struct Lister {
     const CliSweep *sweep;
     JoxText begin; /* begin of each command: program, scene, options of all runs */
     bool any_missing;
+    uint32_t unreadable;
 } Lister;
 
 static void add_option(JoxText *out, const char *name, const char *value) {
@@ -50,8 +52,17 @@ static void add_shared_options(JoxText *out, const CliSweep *sweep, const char *
                     sweep->trusted ? " --trusted" : "", def->again ? " --again" : "");
 }
 
+/* Counts a run whose file cannot be read, and says why. */
+static void note_unreadable(Lister *l, const JoSweepRunState *run) {
+    if (!run->reason)
+        return;
+    l->unreadable++;
+    fprintf(stderr, "jostle sweep: run %u: %s: %s\n", run->number, run->part, run->reason);
+}
+
 static void print_command(void *context, const JoSweepRunState *run) {
-    const Lister *l = context;
+    Lister *l = context;
+    note_unreadable(l, run);
     const bool left =
         !strcmp(run->state, "missing") || (l->sweep->def.again && !strcmp(run->state, "failed"));
     if (l->sweep->missing && !left)
@@ -65,6 +76,7 @@ static void print_command(void *context, const JoSweepRunState *run) {
 static void print_state(void *context, const JoSweepRunState *run) {
     Lister *l = context;
     l->any_missing |= !strcmp(run->state, "missing");
+    note_unreadable(l, run);
     printf("%u\t%s\t%s%sseed %llu\t%s\n", run->number, run->state, run->variant,
            *run->variant ? ", " : "", (unsigned long long)run->seed, run->part);
 }
@@ -146,6 +158,12 @@ int cli_list_runs(const CliSweep *sweep) {
         !jo_sweep_states(&sweep->def, folder.data, sweep->list ? print_command : print_state,
                          &lister, &error))
         status = cli_report_error(&cli_sweep, &error, false);
+    if (status == JO_OK && lister.unreadable) {
+        char what[JOX_NOUN];
+        fprintf(stderr, "jostle sweep: %s cannot be read: remove each, and do its run again\n",
+                jox_noun(what, lister.unreadable, "file"));
+        status = JO_INPUT;
+    }
     jox_text_free(&folder);
     jox_text_free(&lister.begin);
     return status == JO_OK && lister.any_missing ? JO_FAILED : status;

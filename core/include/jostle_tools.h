@@ -311,13 +311,15 @@ JO_API bool jo_sweep(const JoSweepDef *def, JoSweepCounts *counts, char **summar
 /* Returns how many runs a sweep has, without doing any; 0 with `error`. */
 JO_API uint32_t jo_sweep_runs(const JoSweepDef *def, JoError *error);
 /* A run of a sweep: its number (as JoSweepDef.only takes it), seed, and state: "done", "troubled",
-   "failed", or "missing" if no file has it. The texts are valid within the call. */
+   "failed", "missing" if no file has it, or "unreadable" if its part cannot be read. The texts are
+   valid within the call. */
 typedef struct JoSweepRunState {
     uint32_t number;
     uint64_t seed;
     const char *variant; /* "count=100, speed=1.2"; "" for a single variant */
     const char *state;
-    const char *part; /* file for this run alone */
+    const char *part;   /* file for this run alone */
+    const char *reason; /* of "unreadable"; else NULL */
 } JoSweepRunState;
 typedef void JoSweepEachRun(void *context, const JoSweepRunState *run);
 /* Calls `each` for every run of a sweep in the order of their numbers, without doing any. The state

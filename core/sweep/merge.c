@@ -77,13 +77,6 @@ static bool check_hashes(const JoxSweepStore *store, const char *part, JoError *
     return code == SQLITE_DONE;
 }
 
-/* Returns false with an `error` that the file is damaged. */
-static bool refuse_damaged_part(const JoxSweepStore *part, JoError *error) {
-    jox_error(error, JO_INPUT, "%.300s: the file is damaged: remove it, and do its runs again",
-              part->path);
-    return false;
-}
-
 /* Stores what the runs of a part share; differences from the output go to `differences`. */
 static bool compare_notes(const JoxSweepStore *store, const JoxSweepStore *part,
                           JoxText *differences, JoError *error) {
@@ -94,7 +87,7 @@ static bool compare_notes(const JoxSweepStore *store, const JoxSweepStore *part,
         const char *key = (const char *)sqlite3_column_text(s, 0);
         const char *value = (const char *)sqlite3_column_text(s, 1);
         good = key && value ? jox_sweep_note_value(store, key, value, differences, error)
-                            : refuse_damaged_part(part, error);
+                            : jox_sweep_refuse_damaged(part, error);
     }
     good = good && (code == SQLITE_DONE || jox_sweep_set_error(part, error));
     jox_sweep_finalize(part, s);
@@ -105,22 +98,11 @@ static bool compare_notes(const JoxSweepStore *store, const JoxSweepStore *part,
         const void *text = sqlite3_column_blob(s, 1);
         good = path ? jox_sweep_note_input(store, path, text, (size_t)sqlite3_column_bytes(s, 1),
                                            differences, error)
-                    : refuse_damaged_part(part, error);
+                    : jox_sweep_refuse_damaged(part, error);
     }
     good = good && (code == SQLITE_DONE || jox_sweep_set_error(part, error));
     jox_sweep_finalize(part, s);
     return good && jox_sweep_copy_plans(part, store, error);
-}
-
-/* Whether all pages of a file are whole; false with `error`. */
-static bool is_whole(const JoxSweepStore *part, JoError *error) {
-    sqlite3_stmt *s = jox_sweep_prepare(part, "PRAGMA quick_check(1)", error);
-    const int code = s ? sqlite3_step(s) : SQLITE_ERROR;
-    const bool good = code == SQLITE_ROW && !strcmp((const char *)sqlite3_column_text(s, 0), "ok");
-    if (s && !good)
-        refuse_damaged_part(part, error);
-    jox_sweep_finalize(part, s);
-    return good;
 }
 
 /* Checks that a part belongs to the same sweep, and takes over what its runs share, and its plans.
@@ -128,7 +110,7 @@ static bool is_whole(const JoxSweepStore *part, JoError *error) {
 static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError *error) {
     JoxSweepStore part;
     JoxText differences = {0};
-    bool good = jox_sweep_open_to_read(&part, path, error) && is_whole(&part, error) &&
+    bool good = jox_sweep_open_to_read(&part, path, error) && jox_sweep_is_whole(&part, error) &&
                 compare_notes(store, &part, &differences, error);
     if (good && differences.length) {
         differences.data[differences.length - 1] = 0; /* the last end of line */
@@ -268,13 +250,16 @@ static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoErr
     }
     struct stat info;
     const bool is_new = stat(def->out, &info) != 0 || info.st_size == 0;
-    bool good = jox_sweep_open(&store, def->out, error) &&
+    const bool opened = jox_sweep_open(&store, def->out, error);
+    bool good = opened &&
                 (!is_new || jox_sweep_execute(&store, "PRAGMA synchronous=OFF", error));
     for (size_t p = 0; good && p < def->part_count; p++)
         good = is_same_file(def->parts[p], def->out) || merge_part(&store, def->parts[p], error);
     good = good && count_runs(&store, JOX_SWEEP_DONE, &done, error) &&
            count_runs(&store, JOX_SWEEP_TROUBLED, &counts->troubled, error) &&
            count_runs(&store, JOX_SWEEP_FAILED, &counts->failed, error);
+    if (opened && !good && is_new)
+        unlink(def->out); /* the parts have all runs */
     counts->done = done + counts->troubled;
     counts->runs = counts->done + counts->failed + counts->missing;
     jox_sweep_close(&store);

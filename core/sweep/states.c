@@ -49,12 +49,11 @@ static const char *find_input_hash(States *s, const char *path) {
     return input->sha256;
 }
 
-/* Opens a file to read, and refuses one that was made from other inputs than those on the disk.
-   Close the store even then. */
-static bool open_made_alike(States *s, const char *path, JoxSweepStore *store, JoError *error) {
+/* Checks that an open file was made from the inputs that are on the disk. False with an error:
+   *unlike tells whether it can be read, but was made from others. */
+static bool is_made_alike(States *s, const JoxSweepStore *store, bool *unlike, JoError *error) {
     JoxText differences = {0};
-    bool good = jox_sweep_open_to_read(store, path, error) &&
-                jox_sweep_note_settings(store, s->def, &differences, error);
+    bool good = jox_sweep_note_settings(store, s->def, &differences, error);
     sqlite3_stmt *rows =
         good ? jox_sweep_prepare(store, "SELECT path, sha256 FROM input ORDER BY path", error)
              : NULL;
@@ -69,29 +68,36 @@ static bool open_made_alike(States *s, const char *path, JoxSweepStore *store, J
     }
     good = good && rows && (code == SQLITE_DONE || jox_sweep_set_error(store, error));
     jox_sweep_finalize(store, rows);
-    if (good && differences.length) {
+    *unlike = good && differences.length > 0;
+    if (*unlike) {
         differences.data[differences.length - 1] = 0; /* the last end of line */
         jox_error(error, JO_INPUT,
                   "%.300s was made from other inputs: bring these back, remove it, or give another "
                   "--out:\n%.500s",
-                  path, differences.data);
+                  store->path, differences.data);
         good = false;
     }
     jox_text_free(&differences);
     return good;
 }
 
-/* Finds the state of a run in the file of this run alone; -1 if there is none. */
+/* Finds the state of a run in the file of this run alone; -1 if there is none. `reason` tells why
+   the file cannot be read; false with an error if it was made from other inputs. */
 static bool find_state_in_part(States *s, const char *part, const char *key, uint64_t seed,
-                               int *state, JoError *error) {
+                               int *state, JoError *reason, JoError *error) {
     JoxSweepStore store;
+    bool unlike = false;
     *state = -1;
     if (!has_content(part))
         return true;
-    const bool good = open_made_alike(s, part, &store, error) &&
-                      jox_sweep_find_run(&store, key, seed, state, error);
+    if (!jox_sweep_open_to_read(&store, part, reason) || !jox_sweep_is_whole(&store, reason) ||
+        !is_made_alike(s, &store, &unlike, reason) ||
+        !jox_sweep_find_run(&store, key, seed, state, reason))
+        *state = -1;
     jox_sweep_close(&store);
-    return good;
+    if (unlike)
+        *error = *reason;
+    return !unlike;
 }
 
 static bool tell_state(States *s, uint32_t variant, uint32_t n, JoError *error) {
@@ -99,17 +105,18 @@ static bool tell_state(States *s, uint32_t variant, uint32_t n, JoError *error) 
     const uint64_t seed = s->plan->first_seed + n;
     const uint32_t number = 1 + variant * s->plan->seeds + n;
     int state = -1;
+    JoError unreadable = {0};
     JoxText part = {0};
     jox_text_printf(&part, "%s/run-%06u.sqlite", s->folder, number);
     const bool good = (!s->has_out || jox_sweep_find_run(&s->out, key, seed, &state, error)) &&
-                      (state >= 0 || find_state_in_part(s, part.data, key, seed, &state, error));
+                      (state >= 0 || find_state_in_part(s, part.data, key, seed, &state,
+                                                        &unreadable, error));
+    JoSweepRunState run = {
+        .number = number, .seed = seed, .variant = s->names[variant], .part = part.data};
+    run.reason = *unreadable.text ? unreadable.text : NULL;
+    run.state = run.reason ? "unreadable" : state < 0 ? "missing" : jox_sweep_states[state];
     if (good)
-        s->each(s->context,
-                &(JoSweepRunState){.number = number,
-                                   .seed = seed,
-                                   .variant = s->names[variant],
-                                   .state = state < 0 ? "missing" : jox_sweep_states[state],
-                                   .part = part.data});
+        s->each(s->context, &run);
     jox_text_free(&part);
     return good;
 }
@@ -124,7 +131,9 @@ bool jo_sweep_states(const JoSweepDef *def, const char *folder, JoSweepEachRun *
     bool good = jox_sweep_make_plan(&plan, def->sets, def->set_count,
                                     def->scene.has_seed ? def->scene.seed : 1, def->seeds, error);
     if (good && def->out && has_content(def->out)) {
-        good = open_made_alike(&s, def->out, &s.out, error);
+        bool unlike;
+        good = jox_sweep_open_to_read(&s.out, def->out, error) &&
+               is_made_alike(&s, &s.out, &unlike, error);
         s.has_out = true;
     }
     s.names = good ? jox_sweep_name_plan(&plan) : NULL;

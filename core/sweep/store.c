@@ -190,6 +190,22 @@ bool jox_sweep_attach_part(const JoxSweepStore *store, const char *path, JoError
     return jox_sweep_step_once(store, s, error);
 }
 
+bool jox_sweep_refuse_damaged(const JoxSweepStore *part, JoError *error) {
+    jox_error(error, JO_INPUT, "%.300s: the file is damaged: remove it, and do its runs again",
+              part->path);
+    return false;
+}
+
+bool jox_sweep_is_whole(const JoxSweepStore *part, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_prepare(part, "PRAGMA quick_check(1)", error);
+    const int code = s ? sqlite3_step(s) : SQLITE_ERROR;
+    const bool good = code == SQLITE_ROW && !strcmp((const char *)sqlite3_column_text(s, 0), "ok");
+    if (s && !good)
+        jox_sweep_refuse_damaged(part, error);
+    jox_sweep_finalize(part, s);
+    return good;
+}
+
 void jox_sweep_close(JoxSweepStore *store) {
     jox_database_close(store->db);
     /* Closed after the database, because closing any descriptor of a file drops the process's locks

@@ -40,6 +40,10 @@ bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *err
 bool jox_sweep_open_in_memory(JoxSweepStore *store, const char *path, JoError *error);
 bool jox_sweep_write_file(const JoxSweepStore *store, JoError *error);
 void jox_sweep_close(JoxSweepStore *store);
+/* Returns false with an `error` that the file is damaged. */
+bool jox_sweep_refuse_damaged(const JoxSweepStore *store, JoError *error);
+/* Whether all pages of a file are whole; false with `error`. */
+bool jox_sweep_is_whole(const JoxSweepStore *store, JoError *error);
 /* Attaches the sweep's file at a path to the connection, as the database `part`. */
 bool jox_sweep_attach_part(const JoxSweepStore *store, const char *path, JoError *error);
 

@@ -158,7 +158,14 @@ table many.sqlite | cmp -s - whole.csv; verdict "  the table is that of one mach
 size=$(stat -c %s fourth.sqlite); head -c $((size / 2)) fourth.sqlite >many-parts/run-000004.sqlite
 expect "half a file is not merged" 3 "the file is damaged" "$program" sweep --merge many-parts --out half.sqlite
 grep -qF many-parts/run-000004.sqlite "$work/out" && [ ! -e half.sqlite ]; verdict "  nor any other" $?
+mv many-parts half-parts
+expect "  --status names it, and tells of the others" 3 "run 4: half-parts/run-000004.sqlite: " "$program" sweep $scene "${what[@]}" --out half.sqlite --status
+grep -q $'^4\tunreadable\t' "$work/out" && [ "$(grep -c $'\tdone\t' "$work/out")" = 5 ] && grep -q '1 file cannot be read' "$work/out"; verdict "  and counts it" $?
+mv half-parts many-parts
 cp fourth.sqlite many-parts/run-000004.sqlite
+cp fourth.sqlite other.sqlite; sqlite3 other.sqlite "update run set hash = '0123456789abcdef'"
+expect "parts that disagree are not merged" 3 "the programs that made them are not the same" "$program" sweep --merge many-parts other.sqlite --out clash.sqlite
+[ ! -e clash.sqlite ]; verdict "  and no file is left" $?
 expect "all files are merged in a canonical file" 0 "6 runs with figures" "$program" sweep --merge many-parts/*4.sqlite many-parts --out merged.sqlite --canonical
 "$program" sweep $scene "${what[@]}" --out alone.sqlite --jobs 1 --isa scalar --quiet --canonical; cmp alone.sqlite merged.sqlite; verdict "  which is that of one machine, byte for byte" $?
 "$program" sweep $scene "${what[@]}" --out many.sqlite --quiet --canonical && cmp many.sqlite merged.sqlite; verdict "  and that of a sweep that was continued" $?
