@@ -57,6 +57,13 @@ size_t jox_utf8_length(const char *string) {
     return overlong || no_character ? 0 : n;
 }
 
+size_t jox_count_characters(const char *text, size_t length) {
+    size_t count = 0;
+    for (size_t i = 0; i < length; i++)
+        count += ((unsigned char)text[i] & 0xC0) != 0x80;
+    return count;
+}
+
 void jox_text_clean(char *text) {
     for (unsigned char *s = (unsigned char *)text; *s;) {
         size_t n = jox_utf8_length((const char *)s);

@@ -20,6 +20,8 @@ void jox_text_vprintf(JoxText *text, const char *format, va_list arguments);
 /* Returns the length in bytes of the UTF-8 character at the beginning of `string`, 1 for the final
    zero; 0 if it is invalid (overlong forms, surrogates and code points beyond U+10FFFF are). */
 size_t jox_utf8_length(const char *string);
+/* Returns the number of UTF-8 characters that begin in a text of `length` bytes. */
+size_t jox_count_characters(const char *text, size_t length);
 /* Appends `string` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
 void jox_text_json(JoxText *text, const char *string);
 void jox_text_free(JoxText *text);

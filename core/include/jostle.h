@@ -58,7 +58,7 @@ typedef enum JoCode {
 
 typedef struct JoError {
     JoCode code;
-    int line, column; /* position in `file`, from 1; 0: unknown */
+    int line, column; /* position in `file`, from 1, in characters; 0: unknown */
     char file[256];   /* file that is wrong; "" if the error is in none */
     char text[1024];  /* message, with how to correct it where that is known */
 } JoError;

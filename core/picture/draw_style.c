@@ -26,16 +26,8 @@ const JoxInk jox_ink_text = {0x1f, 0x29, 0x33, 1}, jox_ink_faint = {0x52, 0x60, 
              jox_ink_path = {0x3a, 0x3a, 0x3a, 0.45f}, jox_ink_probe = {0x6a, 0x2c, 0x91, 1},
              jox_ink_exit = {0x0b, 0x6b, 0x3a, 1};
 
-/* Counts the UTF-8 characters of a text. */
-static uint32_t count_letters(const char *text) {
-    uint32_t count = 0;
-    for (; *text; text++)
-        count += ((uint8_t)*text & 0xc0) != 0x80;
-    return count;
-}
-
 float jox_draw_text_width(const char *text, float size, bool bold) {
-    return (float)count_letters(text) * size * (bold ? 0.67f : 0.6f);
+    return (float)jox_count_characters(text, strlen(text)) * size * (bold ? 0.67f : 0.6f);
 }
 
 void jox_draw_fit_text(char *out, size_t capacity, const char *text, float size, bool bold,

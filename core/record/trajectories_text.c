@@ -33,7 +33,8 @@ static void add_field_error(Text *r, int column, const char *hint, const char *f
                             const char *word, size_t length) {
     char shown[41];
     snprintf(shown, sizeof shown, "%.*s", (int)(length < 40 ? length : 40), word);
-    JoxPosition at = {r->path, r->line, column, column + (int)length};
+    JoxPosition at = {r->path, r->line, column,
+                      column + (int)jox_count_characters(word, length)};
     jox_diag_error(r->diagnostics, at, "bad-recording", hint, format, shown);
 }
 
@@ -176,7 +177,7 @@ static bool parse_field(Text *r, const char *line, const Field *fields, uint32_t
         return false;
     }
     char text[64], *end;
-    int place = (int)(fields[f].at - line) + 1;
+    const int place = (int)jox_count_characters(line, (size_t)(fields[f].at - line)) + 1;
     snprintf(text, sizeof text, "%.*s", (int)(fields[f].length < 63 ? fields[f].length : 63),
              fields[f].at);
     *out = strtod(text, &end);

@@ -8,7 +8,7 @@ export interface Fault {
     file: string;
     /** From 1; 0: unknown. */
     line: number;
-    /** From 1; counts bytes of UTF-8 in Lua, characters in other files; 0: unknown. */
+    /** From 1, in characters (code points); 0: unknown. */
     column: number;
     /** Column behind the last character. */
     end: number;

@@ -6,7 +6,7 @@
  * @typedef {Object} Fault What is wrong with a file.
  * @property {string} file
  * @property {number} line From 1; 0: unknown.
- * @property {number} column From 1; counts bytes of UTF-8 in Lua, characters in other files; 0: unknown.
+ * @property {number} column From 1, in characters (code points); 0: unknown.
  * @property {number} end Column behind the last character.
  * @property {"error"|"warning"|"note"} severity
  * @property {string} code A name of the kind, as "unknown-key".

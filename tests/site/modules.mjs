@@ -85,7 +85,7 @@ async function playedLive(before, after, anew) {
 
 const tests = {
     async "a link carries a whole project, and a damaged one says so"() {
-        const project = { scene: "court.yaml", files: { "court.yaml": "title: ä\n", "dodge.lua": "x".repeat(5000) }, lesson: 3 }, link = await packProject(project);
+        const project = { scene: "court.yaml", files: { "court.yaml": "title: "ä 🙂"\n", "dodge.lua": "x".repeat(5000) }, lesson: 3 }, link = await packProject(project);
         assert.deepEqual(await unpackProject(link), project);
         assert.match(link, /^[\w-]+$/);
         assert.ok(link.length < 300, `${link.length} characters`);
@@ -194,11 +194,11 @@ const tests = {
     },
 
     "a fault is underlined at its column, after other letters too"() {
-        const lua = 'return machine { name = "ä", version = 1, start = "A", states = { A = { steer = hodl } } }\n', [fault] = engine.check({ "u.lua": lua }, "u.lua");
-        const { from, to } = placeOf("u.lua", lua, fault);
+        const lua = 'return machine { name = "ä 🙂", version = 1, start = "A", states = { A = { steer = hodl } } }\n', [fault] = engine.check({ "u.lua": lua }, "u.lua");
+        const { from, to } = placeOf(lua, fault);
         assert.equal(lua.slice(from, to), "hodl");
         assert.match(fault.wayOut, /hold/);
-        const yaml = "jostle: 1\ntitle: ä\ngroups: {ä: {behaviour: nö.lua, at: [[0, 0]]}}\n", [missing] = engine.check({ "u.yaml": yaml }, "u.yaml"), place = placeOf("u.yaml", yaml, missing);
+        const yaml = "jostle: 1\ntitle: ä\ngroups: {"ä 🙂": {behaviour: nö.lua, at: [[0, 0]]}}\n", [missing] = engine.check({ "u.yaml": yaml }, "u.yaml"), place = placeOf(yaml, missing);
         assert.equal(yaml.slice(place.from, place.to), "nö.lua");
     },
 

@@ -326,17 +326,18 @@ static void each_kind_of_mistake_has_its_place(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-/* Compares a printed error, with the source line and context, to its text. */
+/* Compares a printed error, with the source line and context, to its text. Columns are characters,
+   also behind letters of two bytes. */
 static void an_error_is_shown_in_full(void **state) {
     (void)state;
     static const char SHEET[] =
         "return machine { name = \"tawaf\", start = \"ToStone\", states = {\n"
         "  ToStone = {\n"
-        "    { to = \"ToStone\", when = after(90) | stuk(15) } } } }";
+        "    { --[[ zurück ]] to = \"ToStone\", when = after(90) | stuk(15) } } } }";
     static const char SHOWN[] =
-        "behaviours/t.lua:3:42: unknown word 'stuk'. Did you mean 'stuck'?\n"
-        "    3 |     { to = \"ToStone\", when = after(90) | stuk(15) } } } }\n"
-        "      |                                          ^^^^\n"
+        "behaviours/t.lua:3:57: unknown word 'stuk'. Did you mean 'stuck'?\n"
+        "    3 |     { --[[ zurück ]] to = \"ToStone\", when = after(90) | stuk(15) } } } }\n"
+        "      |                                                         ^^^^\n"
         " machine tawaf > state ToStone > transition 1 (to ToStone)\n";
     JoxDiagnostics diagnostics = {0};
     JoxText text = {0};

@@ -12,14 +12,16 @@
 enum { KEPT = 20, SOURCE_SHOWN = 200 };
 
 JoxPosition jox_position_in(const char *file, const char *text, size_t offset) {
-    JoxPosition at = {file, 1, 1, 0};
-    for (const char *c = text; c < text + offset; c++) {
-        const bool goes_on = ((unsigned char)*c & 0xc0) == 0x80; /* not the first byte in UTF-8 */
-        at.column = *c == '\n' ? 1 : at.column + !goes_on;
-        at.line += *c == '\n';
-    }
-    at.end_column = at.column + 1;
-    return at;
+    int line = 1;
+    const char *line_start = text;
+    for (const char *c = text; c < text + offset; c++)
+        if (*c == '\n') {
+            line++;
+            line_start = c + 1;
+        }
+    const int column =
+        1 + (int)jox_count_characters(line_start, (size_t)(text + offset - line_start));
+    return (JoxPosition){file, line, column, column + 1};
 }
 
 bool jox_diag_has_room(const JoxDiagnostics *d, JoxSeverity severity) {
@@ -124,11 +126,12 @@ void jox_diag_attach_source(JoxDiagnostics *d, const char *file, const char *tex
 
 static void print_source(const JoxDiagnostic *item, JoxText *out) {
     jox_text_printf(out, "%5d | %s\n", item->line, item->source);
-    if (item->column < 1 || item->column > SOURCE_SHOWN)
+    const int length = (int)jox_count_characters(item->source, strlen(item->source));
+    if (item->column < 1 || item->column > length + 1)
         return;
     int width = item->end_column > item->column ? item->end_column - item->column : 1;
-    int room = (int)strlen(item->source) - item->column + 2;
-    width = width > room && room > 0 ? room : width;
+    const int room = length - item->column + 2;
+    width = width > room ? room : width;
     jox_text_printf(out, "      | %*s", item->column - 1, "");
     for (int i = 0; i < width && i < 80; i++)
         jox_text_append(out, "^", 1);

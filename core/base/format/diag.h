@@ -10,7 +10,8 @@
 
 typedef enum { JOX_SEVERITY_ERROR, JOX_SEVERITY_WARNING, JOX_SEVERITY_NOTE } JoxSeverity;
 
-/* A position in a file. Lines and columns count from 1; 0 is unknown. `end_column` is exclusive. */
+/* A position in a file. Lines and columns, which are characters, count from 1; 0 is unknown.
+   `end_column` is exclusive. */
 typedef struct JoxPosition {
     const char *file; /* as the user named it; may be NULL */
     int line, column, end_column;
@@ -38,7 +39,7 @@ typedef struct JoxDiagnostics {
     size_t limit;       /* 0: 20 */
 } JoxDiagnostics;
 
-/* Returns the position of a byte offset in a text; columns count characters. */
+/* Returns the position of a byte offset in a text. */
 JoxPosition jox_position_in(const char *file, const char *text, size_t offset);
 
 /* Whether one more would be kept; if not, callers can skip computing its hint. */

@@ -17,13 +17,14 @@ static void add_token(Scan *s, JoxTokenKind kind, const char *text, size_t lengt
     JOX_ASSERT(from >= line_start && s->at <= s->end && line >= 1);
     JoxSource *source = s->source;
     JOX_RESERVE(source->tokens, source->token_capacity, source->token_count + 1);
-    int column = (int)(from - line_start) + 1;
+    const int column = (int)jox_count_characters(line_start, (size_t)(from - line_start)) + 1;
+    const int width = (int)jox_count_characters(from, (size_t)(s->at - from));
     source->tokens[source->token_count++] = (JoxToken){.kind = kind,
                                                        .text = text,
                                                        .length = (uint32_t)length,
                                                        .line = line,
                                                        .column = column,
-                                                       .end_column = column + (int)(s->at - from)};
+                                                       .end_column = column + width};
 }
 
 static void count_newline(Scan *s) {

@@ -24,12 +24,7 @@ typedef struct WktParser {
 /* Reports an error at a place of the text. Returns false, for `return report_wkt_error(...)`. */
 static bool report_wkt_error(WktParser *p, const char *at, const char *hint, const char *format,
                              const char *word) {
-    JoxPosition position = {p->path, 1, 1, 0};
-    for (const char *c = p->text; c < at; c++) {
-        position.column = *c == '\n' ? 1 : position.column + 1;
-        position.line += *c == '\n';
-    }
-    position.end_column = position.column + 1;
+    const JoxPosition position = jox_position_in(p->path, p->text, (size_t)(at - p->text));
     jox_diag_error(p->diagnostics, position, "bad-plan", hint, format, word);
     return false;
 }

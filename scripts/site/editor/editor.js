@@ -100,13 +100,13 @@ export class Editor {
 
     mark() {
         const text = this.text();
-        const mine = this.problems.filter((p) => p.file === this.path).map((p) => ({ ...placeOf(this.path, text, p), severity: p.severity === "error" ? "error" : p.severity === "warning" ? "warning" : "info", message: problemText(p) }));
+        const mine = this.problems.filter((p) => p.file === this.path).map((p) => ({ ...placeOf(text, p), severity: p.severity === "error" ? "error" : p.severity === "warning" ? "warning" : "info", message: problemText(p) }));
         this.view.dispatch(setDiagnostics(this.view.state, mine));
     }
 
     /** Puts the caret where a problem is. */
     goTo(problem) {
-        const { from } = placeOf(this.path, this.text(), problem);
+        const { from } = placeOf(this.text(), problem);
         this.view.dispatch({ selection: { anchor: from }, effects: EditorView.scrollIntoView(from, { y: "center" }) });
         this.view.focus();
     }

@@ -1,22 +1,13 @@
 // Faults as the engine lists them (scripts/wasm/engine.mjs), in places of a text.
 
-/** Characters of a line up to a column, from 1: the engine counts bytes in Lua and characters in YAML. */
-function columnOf(path, line, column) {
-    if (!path.endsWith(".lua") || column <= 1) return Math.max(0, column - 1);
-    let bytes = 0, at = 0;
-    for (const c of line) {
-        if (bytes >= column - 1) break;
-        bytes += new TextEncoder().encode(c).length;
-        at += c.length;
-    }
-    return at;
-}
+/** Offset in a line of a column, from 1, which counts code points: a string of JavaScript has two units for some. */
+const offsetOf = (line, column) => [...line].slice(0, Math.max(0, column - 1)).join("").length;
 
 /** Returns where a problem {line, column, end} is in a text: {from, to}, at least one character where there is one. */
-export function placeOf(path, text, { line, column, end }) {
+export function placeOf(text, { line, column, end }) {
     const lines = text.split("\n"), n = Math.min(Math.max(line, 1), lines.length) - 1;
     const start = lines.slice(0, n).reduce((sum, l) => sum + l.length + 1, 0), row = lines[n];
-    const from = columnOf(path, row, column), to = end > column ? columnOf(path, row, end) : row.length;
+    const from = offsetOf(row, column), to = end > column ? offsetOf(row, end) : row.length;
     const left = column > 0 ? Math.min(from, row.length) : /^\s*/.exec(row)[0].length;
     return { from: start + left, to: start + Math.max(left, Math.min(to, row.length)) };
 }
