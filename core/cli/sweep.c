@@ -47,7 +47,8 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Sweep, missing)},
     {"status", NULL,
      "run nothing; print a line for each run: its number, its state (done, troubled, failed, "
-     "missing, unreadable), settings and seed, and the file of --list, separated by tabs. The exit status is "
+     "missing, unreadable), settings and seed, and the file of --list, separated by tabs. The exit "
+     "status is "
      "1 if a run is missing, 3 if a file cannot be read",
      CLI_TO(Sweep, status)},
     {"merge", NULL,

@@ -33,8 +33,7 @@ static void add_field_error(Text *r, int column, const char *hint, const char *f
                             const char *word, size_t length) {
     char shown[41];
     snprintf(shown, sizeof shown, "%.*s", (int)(length < 40 ? length : 40), word);
-    JoxPosition at = {r->path, r->line, column,
-                      column + (int)jox_count_characters(word, length)};
+    JoxPosition at = {r->path, r->line, column, column + (int)jox_count_characters(word, length)};
     jox_diag_error(r->diagnostics, at, "bad-recording", hint, format, shown);
 }
 

@@ -251,8 +251,7 @@ static bool merge_parts(const JoSweepMergeDef *def, JoSweepCounts *counts, JoErr
     struct stat info;
     const bool is_new = stat(def->out, &info) != 0 || info.st_size == 0;
     const bool opened = jox_sweep_open(&store, def->out, error);
-    bool good = opened &&
-                (!is_new || jox_sweep_execute(&store, "PRAGMA synchronous=OFF", error));
+    bool good = opened && (!is_new || jox_sweep_execute(&store, "PRAGMA synchronous=OFF", error));
     for (size_t p = 0; good && p < def->part_count; p++)
         good = is_same_file(def->parts[p], def->out) || merge_part(&store, def->parts[p], error);
     good = good && count_runs(&store, JOX_SWEEP_DONE, &done, error) &&

@@ -50,7 +50,7 @@ static const char *find_input_hash(States *s, const char *path) {
 }
 
 /* Checks that an open file was made from the inputs that are on the disk. False with an error:
-   *unlike tells whether it can be read, but was made from others. */
+ *unlike tells whether it can be read, but was made from others. */
 static bool is_made_alike(States *s, const JoxSweepStore *store, bool *unlike, JoError *error) {
     JoxText differences = {0};
     bool good = jox_sweep_note_settings(store, s->def, &differences, error);
@@ -108,9 +108,9 @@ static bool tell_state(States *s, uint32_t variant, uint32_t n, JoError *error) 
     JoError unreadable = {0};
     JoxText part = {0};
     jox_text_printf(&part, "%s/run-%06u.sqlite", s->folder, number);
-    const bool good = (!s->has_out || jox_sweep_find_run(&s->out, key, seed, &state, error)) &&
-                      (state >= 0 || find_state_in_part(s, part.data, key, seed, &state,
-                                                        &unreadable, error));
+    const bool good =
+        (!s->has_out || jox_sweep_find_run(&s->out, key, seed, &state, error)) &&
+        (state >= 0 || find_state_in_part(s, part.data, key, seed, &state, &unreadable, error));
     JoSweepRunState run = {
         .number = number, .seed = seed, .variant = s->names[variant], .part = part.data};
     run.reason = *unreadable.text ? unreadable.text : NULL;

@@ -198,7 +198,7 @@ const tests = {
         const { from, to } = placeOf(lua, fault);
         assert.equal(lua.slice(from, to), "hodl");
         assert.match(fault.wayOut, /hold/);
-        const yaml = "jostle: 1\ntitle: ä\ngroups: {"ä 🙂": {behaviour: nö.lua, at: [[0, 0]]}}\n", [missing] = engine.check({ "u.yaml": yaml }, "u.yaml"), place = placeOf(yaml, missing);
+        const yaml = "jostle: 1\ntitle: ä\ngroups: {'ä 🙂': {behaviour: nö.lua, at: [[0, 0]]}}\n", [missing] = engine.check({ "u.yaml": yaml }, "u.yaml"), place = placeOf(yaml, missing);
         assert.equal(yaml.slice(place.from, place.to), "nö.lua");
     },
 
