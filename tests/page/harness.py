@@ -34,6 +34,7 @@ Object.defineProperty(window, 'page', { configurable: true, set(page) {
     Object.defineProperty(window, 'page', { value: page, writable: true, configurable: true });
     const { view } = page, loop = page.loop.bind(page);
     let looping = false, drawn = false;
+    view.coming = null; // all of a picture is in the first one
     page.loop = () => {
         looping = true;
         drawn = false;

@@ -6,6 +6,7 @@ import process from "node:process";
 import { amount } from "../../core/view/page/dom.js";
 import { roundDown } from "../../core/view/page/controls/compass.js";
 import { classColour, outerStates, valueColour, wayColour } from "../../core/view/page/draw/palette.js";
+import { elevationsSeen } from "../../core/view/page/draw/figure/levels.js";
 import { ALONG, STANDING } from "../../core/view/page/draw/scenery_kinds.js";
 import { MOST_TRIANGLES, buildScenery } from "../../core/view/page/draw/scenery_mesh.js";
 import { endSentences } from "../../core/view/page/panels/end.js";
@@ -123,6 +124,12 @@ const TESTS = {
         assert.deepEqual(missing, []);
     },
     "a scale bar has a round length": () => assert.deepEqual([140, 99, 7, 0.3].map(roundDown), [100, 50, 5, 0.2]),
+    "of the pictures of people far away those in sight are drawn": () => {
+        const seen = (...range) => elevationsSeen(range, Math.PI / 8, 5);
+        assert.deepEqual(seen(10, 11, 100), [0, 1, 2, 3]);
+        assert.deepEqual([seen(1, 40, 50), seen(1, 1, 1), seen(-3, 5, 9)], [[0], [4], [0]]);
+        assert.deepEqual(seen(10, Infinity, 1), []); // nobody is in sight
+    },
     "outer states share a colour": () => {
         const states = ["Greet", "Guard.Look", "Guard.Walk", "Rest"].map((name) => ({ machine: 0, name, colour: "#000000" }));
         const outer = outerStates({ states, machines: [{ outer: [{ name: "Guard", within: [1, 2] }] }] });

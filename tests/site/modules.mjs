@@ -221,6 +221,18 @@ const tests = {
         assert.ok(engine.check(less, "scenes/evacuation.yaml").some((f) => f.severity === "error"), "a file that is missing is found");
     },
 
+    async "a scene opens with the files of its own, before all that is shipped is there"() {
+        const alone = await Engine.create({ shipped: {} }), again = await Engine.create({ shipped: {}, wasmBinary: alone.compiled });
+        for (const scene of ["dodgeball", "evacuation", "exit-lost"]) {
+            const { files, installed } = JSON.parse(read(`data/scenes/${scene}.json`));
+            again.ship(installed);
+            again.open({ files, scene: `scenes/${scene}.yaml` }).close();
+        }
+        const named = { "a.yaml": "jostle: 1\ngroups: {a: {behaviour: walker.lua, at: [[0, 0]], goal: b}}\nplaces: {b: {point: [5, 5]}}\n" }, missing = again.check(named, "a.yaml").length;
+        again.ship(shipped);
+        assert.ok(missing > again.check(named, "a.yaml").length, "what is added later is found");
+    },
+
     async "a zip of a scene runs in the native program"() {
         const folder = mkdtempSync(join(tmpdir(), "jostle-site-"));
         for (const name of ["dodgeball", "tawaf-few"]) {

@@ -61,11 +61,15 @@ export class Bar {
     /** Lays out again: everything in the bar or, in the order of ranks, less and less of it. */
     fold() {
         const focus = document.activeElement;
-        for (const rank of [Infinity, ...new Set([...this.units.map((u) => u.rank), this.worded])].sort((a, b) => b - a)) {
-            if (rank === 0) break;
-            this.place(rank);
-            if (this.node.scrollWidth <= this.node.clientWidth) break;
+        const ranks = [Infinity, ...new Set([...this.units.map((u) => u.rank), this.worded])].filter((rank) => rank > 0).sort((a, b) => b - a);
+        let most = 0, least = ranks.length - 1; // what fits is found by halves: each try is laid out
+        while (most < least) {
+            const middle = (most + least) >> 1;
+            this.place(ranks[middle]);
+            if (this.node.scrollWidth <= this.node.clientWidth) least = middle;
+            else most = middle + 1;
         }
+        this.place(ranks[least]);
         if (this.menu.childElementCount === 0) this.open(false);
         if (focus !== document.activeElement && focus?.getClientRects().length) focus.focus();
     }

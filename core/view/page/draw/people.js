@@ -2,10 +2,10 @@
 // feet. Six draw calls for any number. Records are uploaded as they come; figure/levels.js chooses who is drawn how.
 import * as THREE from "three";
 import { NOBODY, PERSON } from "../net/crowd.js";
-import { atlasOf, bakeAtlas } from "./figure/atlas.js";
+import { atlasOf, bakeAtlas, RISE, RISES } from "./figure/atlas.js";
 import { makeBody } from "./figure/body.js";
 import { ROW } from "./figure/decode.js";
-import { Levels } from "./figure/levels.js";
+import { elevationsSeen, Levels } from "./figure/levels.js";
 import { CLOTHES } from "./figure/looks.js";
 import { MESH_FRAGMENT, MESH_VERTEX } from "./figure/mesh.js";
 import { Motion } from "./figure/motion.js";
@@ -17,6 +17,7 @@ const PIXELS = [150, 84, 40]; // least height of people on the screen in each me
 // At most so many people in each mesh level; on a processor that draws by itself the least of it, and more as time allows.
 const MOST = [110, 450, 1500], LEAST = [4, 16, 60];
 const SPRITES = PIXELS.length; // list of those who are sprites; the next one is of all meshes
+const ALL_LEVELS = Array.from({ length: RISES }, (_, level) => level); // elevations of the atlas
 const ABOVE = [0.82, 0.97]; // sine of the eye's elevation between which the simulated outlines appear on the floor
 const OWN_ACTS = ["brace", "carry", "lie"]; // what people do without a state that says so
 const JUMP = 5; // s between two frames from which on nobody is seen to walk
@@ -35,7 +36,7 @@ export class People {
         this.taken = null; // the frame of the last picture
         this.fresh = 0; // new frames since then
         this.stale = this.jumped = false; // whether any frame came since; whether time jumped
-        this.baked = false; // whether the atlas is there
+        this.baked = new Set(); // elevations that the atlas has
         this.acts = new Set(OWN_ACTS.map((name) => ACTIONS.indexOf(name))); // actions that the atlas has
         this.personVersion = -1;
         this.group = new THREE.Group();
@@ -111,7 +112,7 @@ export class People {
         this.kinds.needsUpdate = true;
         const acts = (scene.states ?? []).map((state) => ACTIONS.indexOf(state.pose)).filter((action) => action > 0 && !this.acts.has(action));
         for (const action of acts) this.acts.add(action);
-        if (acts.length > 0) this.baked = false;
+        if (acts.length > 0) this.baked.clear();
     }
 
     /** Notes a frame, which the next picture takes over: of a new tick, or the newest once more. */
@@ -175,6 +176,7 @@ export class People {
         u.metre.value = metre;
         u.above.value = Math.min(1, Math.max(0, (look[10] - ABOVE[0]) / (ABOVE[1] - ABOVE[0])));
         this.levels.choose(crowd.next, matrix, from, metre, top);
+        this.wanted = this.slow ? elevationsSeen(top ? [1, 1, 1] : this.levels.range(from), RISE, RISES) : ALL_LEVELS;
         const { reach, counts } = this.levels;
         for (const { layer, list } of this.layers) {
             layer.material.uniforms.reach.value.set(Math.min(reach[list - 1] ?? 0, 1e9), Math.max(1e-3, Math.min(reach[list] ?? 1e9, 1e9)));
@@ -202,16 +204,19 @@ export class People {
 
     /** Forgets the atlas, which went with the graphics card's memory. */
     loseAtlas() {
-        this.baked = false;
+        this.baked.clear();
         this.target = this.uniforms.boxes.value = null;
     }
 
-    /** Bakes the atlas of sprites as soon as somebody is one: it takes a second of a processor that draws. */
+    /** Bakes the atlas of sprites as soon as somebody is one; where a processor draws, of the elevations in sight alone: all take it a second. */
     bakeIfNeeded(renderer) {
-        if (this.baked || this.levels.counts[SPRITES] === 0) return;
-        this.baked = true;
-        const { target, boxes } = bakeAtlas(renderer, this.atlas, makeBody(this.slow ? 2 : 1, true), !this.slow, this.acts);
-        const [clothes, body, surface] = target.textures, u = this.uniforms;
+        const levels = this.levels.counts[SPRITES] === 0 ? [] : this.wanted.filter((level) => !this.baked.has(level)), u = this.uniforms;
+        if (levels.length === 0) return;
+        const made = this.baked.size > 0 ? { target: this.target, boxes: u.boxes.value } : null;
+        const { target, boxes } = bakeAtlas(renderer, this.atlas, (this.figure ??= makeBody(this.slow ? 2 : 1, true)), { smooth: !this.slow, acts: this.acts, levels, made });
+        for (const level of levels) this.baked.add(level);
+        if (made) return;
+        const [clothes, body, surface] = target.textures;
         this.target?.dispose();
         u.boxes.value?.dispose();
         this.target = target;

@@ -11,6 +11,7 @@ THREE.ColorManagement.enabled = false; // colours are sRGB all along, as in pict
 const FIELD_OF_VIEW = 34; // degrees
 const LONGEST = 4000; // ms between pictures: longer is a pause
 const FAST = 40, SLOW = 240, COARSE = 0.5; // ms between pictures of a processor below which it draws all pixels, and above which half along a side
+const HIDDEN = 1; // layer that no camera shows
 const STILL = 400; // ms without a change, after which all pixels are drawn
 
 export class View {
@@ -39,6 +40,7 @@ export class View {
         this.slow = 0; // ms between pictures, averaged
         this.changed = 0; // ms: when the picture last changed
         this.coarse = 1; // share of the screen's pixels along a side that are drawn
+        this.coming = this.renderer.slow ? new Set() : null; // materials in the picture while they come one by one; null: all are
         this.called = 0; // ms that the calls of the last picture took; with software rendering they block
         this.useControls();
         canvas.addEventListener("webglcontextrestored", () => {
@@ -296,10 +298,12 @@ export class View {
         }
         this.people.bakeIfNeeded(this.renderer);
         this.sizeCanvas();
+        this.reveal();
         this.compile(camera);
         const begun = performance.now();
         this.renderer.render(this.scene, camera);
         this.called = performance.now() - begun;
+        if (this.coming && this.crowd.next) this.compileLayer(camera, HIDDEN); // for the next pictures
         if (this.crowd.next) this.canvas.parentElement.classList.remove("empty"); // until then it would be black
         this.spare(now, drawn);
         return true;
@@ -309,7 +313,37 @@ export class View {
     compile(camera) {
         if (this.compiled || !this.crowd.next) return;
         this.compiled = true;
-        this.scene.traverseVisible((node) => node.material && this.renderer.compile(node, camera, this.scene));
+        this.compileLayer(camera, 0);
+    }
+
+    compileLayer(camera, layer) {
+        const mask = camera.layers.mask;
+        camera.layers.set(layer);
+        this.scene.traverseVisible((node) => node.material && node.layers.test(camera.layers) && this.renderer.compile(node, camera, this.scene));
+        camera.layers.mask = mask;
+    }
+
+    /**
+     * Where a processor draws, begins with what stands and walks, and adds shades, lines and paint one program a picture: to compile each
+     * takes it up to a tenth of a second, which would keep the first picture of the crowd waiting.
+     */
+    reveal() {
+        if (!this.coming || !this.crowd.next) return;
+        const isFirst = this.coming.size === 0;
+        let added = isFirst ? 1 : 0, left = 0;
+        this.scene.traverseVisible((node) => {
+            const { material } = node;
+            if (!material) return;
+            const isNew = !this.coming.has(material), waits = isNew && added > 0 && (!isFirst || isTrimming(node));
+            if (waits) left++;
+            else if (isNew) {
+                this.coming.add(material);
+                added++;
+            }
+            node.layers.set(waits ? HIDDEN : 0);
+        });
+        if (left === 0) this.coming = null;
+        else this.dirty = true;
     }
 
     /** Draws fewer people as meshes when pictures are slow, and more when they are fast again; a processor then draws fewer pixels. */
@@ -342,6 +376,11 @@ export class View {
         const t = (z - origin.z) / direction.z;
         return Number.isFinite(t) && t > 0 ? [origin.x + t * direction.x, origin.y + t * direction.y] : null;
     }
+}
+
+/** Returns whether a part of the picture may come a little later than the crowd: lines, shades and paint. */
+function isTrimming({ isLineSegments, material, renderOrder }) {
+    return isLineSegments || material.transparent || (renderOrder < 0 && renderOrder > -1);
 }
 
 /** Returns whether the processor draws the pictures: then edges are not smoothed, to save time. */

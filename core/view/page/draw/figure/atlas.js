@@ -10,7 +10,8 @@ export const WAYS = 8; // directions around half of the body; the other half is 
 export const RISES = 5; // elevations: of the upright from the side to from above, of those who lie from their feet to their head
 export const HALF = [0.68, 1.1]; // m: half of what a cell shows, across and up
 export const MIDDLE = 0.95; // m: height of its middle
-const RISE = Math.PI / 8, LYING_RISE = Math.PI / 6; // rad between elevations
+export const RISE = Math.PI / 8; // rad between elevations
+const LYING_RISE = Math.PI / 6;
 const EDGE = 0.04; // share of a cell around the figure that belongs to it
 
 // Gaits whose phases the atlas has, as rows of the texture of poses; it also has one who stands, and the actions.
@@ -57,7 +58,7 @@ precision highp int;
 in vec3 position, normal, model; // moved by the pose; in the pose of the model
 in uint part;
 in vec3 eye, right, up;          // of the column: towards the eye, right and up of it
-in float row;
+in float column, row;
 uniform vec2 grid;               // cells across and up
 out vec3 facing, where;
 out vec2 inside;
@@ -68,7 +69,7 @@ void main() {
     facing = normal;
     where = model;
     of = part;
-    gl_Position = vec4((vec2(gl_InstanceID, row) + 0.5 + 0.5 * inside) / grid * 2.0 - 1.0, -dot(at, eye) / 4.0, 1.0);
+    gl_Position = vec4((vec2(column, row) + 0.5 + 0.5 * inside) / grid * 2.0 - 1.0, -dot(at, eye) / 4.0, 1.0);
 }`;
 
 const BAKE_FRAGMENT = `
@@ -100,10 +101,10 @@ function indexOf(mesh, robe) {
     return new THREE.BufferAttribute(new Uint16Array(out), 1);
 }
 
-/** The axes of the cells of a row, as attributes of instances. */
+/** Cells of a row and their axes, as attributes of instances. */
 function axisAttributes(columns, lies) {
-    const axes = Array.from({ length: columns }, (_, column) => axesOf(column, lies));
-    return Object.fromEntries(["eye", "right", "up"].map((name) => [name, new THREE.InstancedBufferAttribute(new Float32Array(axes.flatMap((a) => a[name])), 3)]));
+    const axes = columns.map((column) => axesOf(column, lies)), attribute = (numbers, size) => new THREE.InstancedBufferAttribute(new Float32Array(numbers), size);
+    return { column: attribute(columns, 1), ...Object.fromEntries(["eye", "right", "up"].map((name) => [name, attribute(axes.flatMap((a) => a[name]), 3)])) };
 }
 
 /** A geometry of attributes, which several share. */
@@ -117,48 +118,57 @@ function geometryOf(index, attributes, instances) {
 
 /**
  * Bakes an atlas by a renderer from a mesh without hat and bag: {target of three textures, boxes: what figures cover of cells};
- * `smooth`: whether texels are interpolated; `acts`: numbers of the actions that anybody may do, the others are left out.
+ * `smooth`: whether texels are interpolated; `acts`: numbers of the actions that anybody may do, the others are left out; `levels`: the
+ * elevations to bake, which are added to those of `made` if that is given.
  */
-export function bakeAtlas(renderer, atlas, mesh, smooth, acts) {
-    const { cell, columns, rows, poses } = atlas, scene = new THREE.Scene(), boxes = new Float32Array(4 * columns * rows);
+export function bakeAtlas(renderer, atlas, mesh, { smooth, acts, levels, made = null }) {
+    const { columns, rows, poses } = atlas, scene = new THREE.Scene(), { target, boxes } = made ?? emptyAtlas(atlas, smooth);
+    const some = levels.flatMap((level) => Array.from({ length: WAYS }, (_, way) => WAYS * level + way)), all = Array.from({ length: columns }, (_, column) => column);
     const material = new THREE.RawShaderMaterial({
         glslVersion: THREE.GLSL3, vertexShader: BAKE_VERTEX, fragmentShader: BAKE_FRAGMENT, blending: THREE.NoBlending,
         uniforms: { grid: { value: new THREE.Vector2(columns, rows) } },
     });
     const parts = new THREE.BufferAttribute(mesh.bone.filter((_, i) => i % 4 === 3), 1), model = new THREE.BufferAttribute(mesh.position, 3);
     parts.gpuType = THREE.IntType;
-    const outfits = [false, true].map((robe) => indexOf(mesh, robe)), [upright, lying] = [false, true].map((lies) => axisAttributes(columns, lies));
+    const outfits = [false, true].map((robe) => indexOf(mesh, robe)), [upright, lying] = [[some, false], [all, true]].map(([of, lies]) => axisAttributes(of, lies));
     listPoses(atlas).forEach(([of, frame], pose) => {
         const action = pose - WALKS.length * atlas.phases;
-        if (action > 0 && !acts.has(action)) return;
-        const moved = skinMesh(mesh, poseOf(of, frame)), lies = pose === poses - 1;
+        const lies = pose === poses - 1, taken = lies ? all : some;
+        if ((action > 0 && !acts.has(action)) || (lies && made)) return;
+        const moved = skinMesh(mesh, poseOf(of, frame));
         const position = new THREE.BufferAttribute(moved.position, 3), normal = new THREE.BufferAttribute(moved.normal, 3);
         outfits.forEach((index, outfit) => {
-            const row = pose + outfit * poses, ofRow = new THREE.InstancedBufferAttribute(new Float32Array([row]), 1, false, columns);
-            const drawn = new THREE.Mesh(geometryOf(index, { position, normal, model, part: parts, row: ofRow, ...(lies ? lying : upright) }, columns), material);
+            const row = pose + outfit * poses, ofRow = new THREE.InstancedBufferAttribute(new Float32Array([row]), 1, false, taken.length);
+            const drawn = new THREE.Mesh(geometryOf(index, { position, normal, model, part: parts, row: ofRow, ...(lies ? lying : upright) }, taken.length), material);
             drawn.frustumCulled = false;
             scene.add(drawn);
-            for (let column = 0; column < columns; column++) boxes.set(boxOf(moved.position, index.array, axesOf(column, lies)), 4 * (row * columns + column));
+            for (const column of taken) boxes.image.data.set(boxOf(moved.position, index.array, axesOf(column, lies)), 4 * (row * columns + column));
         });
     });
+    drawInto(renderer, target, scene, !made);
+    for (const drawn of scene.children) drawn.geometry.dispose();
+    material.dispose();
+    boxes.needsUpdate = true;
+    return { target, boxes };
+}
+
+/** The textures of an atlas that nothing is in yet. */
+function emptyAtlas({ cell, columns, rows }, smooth) {
     const target = new THREE.WebGLRenderTarget(columns * cell[0], rows * cell[1], {
         count: 3, generateMipmaps: true, depthBuffer: true,
         minFilter: smooth ? THREE.LinearMipmapNearestFilter : THREE.NearestMipmapNearestFilter, magFilter: smooth ? THREE.LinearFilter : THREE.NearestFilter,
     });
-    drawInto(renderer, target, scene);
-    for (const drawn of scene.children) drawn.geometry.dispose();
-    material.dispose();
-    const covered = new THREE.DataTexture(boxes, columns, rows, THREE.RGBAFormat, THREE.FloatType);
-    covered.needsUpdate = true;
-    return { target, boxes: covered };
+    return { target, boxes: new THREE.DataTexture(new Float32Array(4 * columns * rows), columns, rows, THREE.RGBAFormat, THREE.FloatType) };
 }
 
-function drawInto(renderer, target, scene) {
+/** Draws a scene into a target; `empty`: over nothing, else over what is there. */
+function drawInto(renderer, target, scene, empty) {
     const colour = renderer.getClearColor(new THREE.Color()), alpha = renderer.getClearAlpha();
     renderer.setClearColor(0, 0);
     renderer.setRenderTarget(target);
-    renderer.clear();
+    renderer.autoClear = empty;
     renderer.render(scene, new THREE.Camera());
+    renderer.autoClear = true;
     renderer.setRenderTarget(null);
     renderer.setClearColor(colour, alpha);
 }

@@ -6,7 +6,18 @@ export const BAND = 0.06; // share of a level's reach over which it fades into t
 const RINGS = 256; // of equal width, of the histogram of distances
 const MIDDLE = 0.9; // m, height of a person's middle
 const AROUND = 1.2; // m around it that may be drawn
+const MARGIN = 1; // m that people may be nearer or farther in the picture than in the newest frame
 const SETTLE = 0.25; // share of the way to its new value that a reach goes each picture, when it grows
+
+/**
+ * Elevations, from 0 to `count` - 1 and `rise` rad apart, from which people are seen whose middles are `above` m below the eye and from
+ * `near` to `far` m away.
+ */
+export function elevationsSeen([above, near, far], rise, count) {
+    const of = (away) => Math.min(count - 1, Math.max(0, Math.floor(Math.asin(Math.min(1, Math.max(0, above / away))) / rise + 0.5)));
+    const [low, high] = [of(far), of(near)];
+    return Array.from({ length: high - low + 1 }, (_, i) => low + i);
+}
 
 export class Levels {
     /** `pixels`: least height of people on the screen in each mesh level; `most`: people in each, at most. */
@@ -46,6 +57,7 @@ export class Levels {
             return wanted > now && now > 0 && Number.isFinite(wanted) ? now + SETTLE * (wanted - now) : wanted;
         });
         for (let level = 1; level < this.reach.length; level++) this.reach[level] = Math.max(this.reach[level], this.reach[level - 1]);
+        this.count = count;
         this.deal(count);
     }
 
@@ -66,6 +78,17 @@ export class Levels {
             away[count++] = Math.sqrt(dx * dx + dy * dy + rise);
         }
         return count;
+    }
+
+    /** Height of an eye at `from` above the middles of people, and how far away the nearest and the farthest in sight are, m. */
+    range(from) {
+        const { count, away } = this, above = from.z - MIDDLE;
+        let near = Infinity, far = 0;
+        for (let i = 0; i < count; i++) {
+            if (away[i] < near) near = away[i];
+            if (away[i] > far) far = away[i];
+        }
+        return [above, Math.max(0.1, near - MARGIN), far + MARGIN];
     }
 
     /** Counts who is in each ring up to `far` m; returns `far`. */
