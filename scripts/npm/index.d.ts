@@ -27,8 +27,8 @@ export class JostleError extends Error {
 }
 
 export interface EngineOptions {
-    /** The module, if it is loaded already. */
-    wasmBinary?: ArrayBuffer | ArrayBufferView;
+    /** The module, if it is loaded already, or also compiled: `compiled` of another engine. */
+    wasmBinary?: ArrayBuffer | ArrayBufferView | WebAssembly.Module;
     /** Returns the address of "jostle.wasm" or "shipped.json"; default: beside engine.mjs. */
     locate?: (name: string) => string;
     /** Library, behaviours and scenes; default: those of shipped.json. */

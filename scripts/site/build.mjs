@@ -3,12 +3,13 @@
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createHash } from "node:crypto";
 import { createRequire } from "node:module";
-import { dirname, join, relative, resolve } from "node:path";
+import { basename, dirname, join, relative, resolve } from "node:path";
 import process from "node:process";
 import { fileURLToPath } from "node:url";
 import { readLessons } from "./make/lessons.mjs";
 import { makeGallery } from "./make/scenes.mjs";
 import { readDefinitions, readSchema } from "./make/words.mjs";
+import { filesOf } from "./project/references.js";
 
 const here = dirname(fileURLToPath(import.meta.url)), root = resolve(here, "../..");
 const [out, jostle, engine, node] = process.argv.slice(2).map((path) => resolve(path));
@@ -26,13 +27,20 @@ const connection = {
         build.onResolve({ filter: /net\/connection\.js$/ }, ({ importer }) => (importer.startsWith(here) ? undefined : { path: join(here, "page/connection.js") }));
     },
 };
+/** Finds what Emscripten has made, beside which the engine's interface lies once it is built. */
+const module = {
+    name: "module",
+    setup(build) {
+        build.onResolve({ filter: /^\.\/jostle\.mjs$/ }, () => ({ path: join(engine, "jostle.mjs") }));
+    },
+};
 const common = { bundle: true, format: "esm", minify: true, legalComments: "none", logLevel: "warning", nodePaths: [packages], charset: "utf8" };
 
 async function bundle() {
     const outdir = out;
     await Promise.all([
         esbuild.build({ ...common, entryPoints: [join(root, "core/view/page/main.js")], outfile: join(out, "page/main.js"), plugins: [connection] }),
-        esbuild.build({ ...common, entryPoints: { worker: join(here, "engine/worker.js") }, outdir, external: ["./engine/engine.mjs"] }),
+        esbuild.build({ ...common, entryPoints: { worker: join(here, "engine/worker.js") }, outdir, plugins: [module] }),
         esbuild.build({ ...common, entryPoints: { gallery: join(here, "gallery/gallery.js") }, outdir }),
         // The editor is a module of its own, which main.js loads when the crowd moves.
         esbuild.build({ ...common, entryPoints: { workbench: join(here, "workbench/main.js") }, outdir, external: ["./desk.js"] }),
@@ -62,6 +70,16 @@ function writeData() {
     writeFileSync(join(out, "data/words.json"), JSON.stringify(words));
 }
 
+/** The files that each scene reads, so that it begins before all that is shipped is loaded. */
+function writeScenes() {
+    const shipped = JSON.parse(readFileSync(join(engine, "shipped.json"), "utf8")), among = (paths) => Object.fromEntries(paths.map((path) => [path, shipped[path]]));
+    mkdirSync(join(out, "data/scenes"), { recursive: true });
+    for (const scene of Object.keys(shipped).filter((path) => /^scenes\/[^/]+\.yaml$/.test(path))) {
+        const files = among(filesOf(scene, (path) => shipped[path], (folder) => Object.keys(shipped).filter((path) => path.startsWith(folder))));
+        writeFileSync(join(out, "data/scenes", `${basename(scene, ".yaml")}.json`), JSON.stringify({ files, installed: among(["scripts/crowd.lua"]) })); // which machines of journeys require
+    }
+}
+
 /** The service worker, and the files that it keeps: all but previews. */
 function writeOffline() {
     const files = readdirSync(out, { recursive: true, withFileTypes: true }).filter((f) => f.isFile()).map((f) => relative(out, join(f.parentPath ?? f.path, f.name)).replaceAll("\\", "/"))
@@ -87,6 +105,7 @@ cpSync(join(here, "site.css"), join(out, "site.css"));
 cpSync(join(here, "workbench/workbench.html"), join(out, "workbench.html"));
 await bundle();
 writeData();
+writeScenes();
 writeGallery();
 writeLicences();
 writeOffline();

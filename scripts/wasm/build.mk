@@ -65,7 +65,7 @@ $(B)/lib/%.o: $(WASM_SOURCES)/%.cpp
 # ---- the module ----
 WASM_OUT := build/wasm/out
 WASM_LINK := -O2 $(WASM_LONGJMP) -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB \
-    -sINITIAL_MEMORY=32MB -sSTRICT=1 -sFILESYSTEM=1 -sFORCE_FILESYSTEM=1 -sNO_EXIT_RUNTIME=1 -sINCOMING_MODULE_JS_API=wasmBinary,locateFile,print,printErr \
+    -sINITIAL_MEMORY=32MB -sSTRICT=1 -sFILESYSTEM=1 -sFORCE_FILESYSTEM=1 -sNO_EXIT_RUNTIME=1 -sINCOMING_MODULE_JS_API=instantiateWasm,print,printErr \
     -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=FS,UTF8ToString,stringToUTF8,lengthBytesUTF8 --no-entry
 $(WASM_OUT)/jostle.mjs: $(OBJ) $(LIB_OBJ)
 	@mkdir -p $(@D)

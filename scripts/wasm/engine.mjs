@@ -89,9 +89,11 @@ function listTexts(what, list) {
 
 const inNode = Boolean(globalThis.process?.versions?.node);
 
-/** Reads a file that lies beside this one, as bytes. `locate`: its address, where that is another. */
-async function readBeside(name, locate) {
-    const address = locate ? locate(name) : new URL(name, import.meta.url).href;
+/** The address of a file that lies beside this one; `locate`: its address, where that is another. */
+const addressOf = (name, locate) => (locate ? locate(name) : new URL(name, import.meta.url).href);
+
+/** Reads a file of an address: its bytes, or the server's answer that has them. */
+async function readFrom(address) {
     if (inNode && !/^https?:/.test(address)) {
         const files = "node:fs/promises"; // a name that bundlers for browsers do not follow
         const { readFile } = await import(files);
@@ -99,7 +101,20 @@ async function readBeside(name, locate) {
     }
     const answer = await fetch(address);
     if (!answer.ok) throw new Error(`${address} cannot be loaded: ${answer.status} ${answer.statusText}`);
-    return new Uint8Array(await answer.arrayBuffer());
+    return answer;
+}
+
+const readTexts = async (address) => {
+    const read = await readFrom(address);
+    return read instanceof Uint8Array ? JSON.parse(new TextDecoder().decode(read)) : read.json();
+};
+
+/** Compiles the module at an address, while it comes if the server says what it is. */
+async function compileFrom(address) {
+    const read = await readFrom(address);
+    if (read instanceof Uint8Array) return WebAssembly.compile(read);
+    const type = read.headers.get("Content-Type") ?? "";
+    return /^application\/wasm/.test(type) ? WebAssembly.compileStreaming(read) : WebAssembly.compile(await read.arrayBuffer());
 }
 
 /** One engine: a WebAssembly module with its memory. Scenes of an engine take turns in one thread. */
@@ -107,29 +122,46 @@ export class Engine {
     /**
      * Loads the engine.
      * @param {Object} [options]
-     * @param {BufferSource} [options.wasmBinary] The module, if it is loaded already.
+     * @param {BufferSource|WebAssembly.Module} [options.wasmBinary] The module, if it is loaded already, or also compiled: that of
+     *     another engine (`compiled`), say, in another worker.
      * @param {(name: string) => string} [options.locate] Returns the address of "jostle.wasm" or "shipped.json"; default:
      *     beside this file.
      * @param {Files} [options.shipped] Library, behaviours and scenes that come with the engine; default: those of shipped.json.
      * @returns {Promise<Engine>}
      */
     static async create({ wasmBinary, locate, shipped } = {}) {
-        const [binary, texts] = await Promise.all([
-            wasmBinary ?? readBeside("jostle.wasm", locate),
-            shipped ?? readBeside("shipped.json", locate).then((bytes) => JSON.parse(new TextDecoder().decode(bytes))),
+        const [compiled, texts] = await Promise.all([
+            wasmBinary instanceof WebAssembly.Module ? wasmBinary : wasmBinary ? WebAssembly.compile(wasmBinary) : compileFrom(addressOf("jostle.wasm", locate)),
+            shipped ?? readTexts(addressOf("shipped.json", locate)),
         ]);
-        const module = await createModule({ wasmBinary: binary, print: console.log, printErr: console.warn });
-        return new Engine(module, texts);
+        const module = await new Promise((resolve, reject) => {
+            createModule({ print: console.log, printErr: console.warn, instantiateWasm(imports, take) {
+                WebAssembly.instantiate(compiled, imports).then((instance) => take(instance, compiled)).catch(reject);
+                return {}; // what it needs comes by take()
+            } }).then(resolve, reject);
+        });
+        return new Engine(module, texts, compiled);
     }
 
     /** @private */
-    constructor(module, shipped) {
+    constructor(module, shipped, compiled) {
         this.module = module;
+        this.compiled = compiled;
         this.encoder = new TextEncoder();
         this.decoder = new TextDecoder();
         this.folders = 0;
-        this.shipped = new Map(Object.entries(shipped).map(([path, text]) => [path, this.#bytes(text)]));
-        this.#fill("/jostle", this.shipped);
+        this.shipped = new Map();
+        this.ship(shipped);
+    }
+
+    /**
+     * Adds files to those that come with the engine: scenes that are opened from now on find them.
+     * @param {Files} files As of `create`'s `shipped`.
+     */
+    ship(files) {
+        const texts = Object.entries(files).map(([path, content]) => [path, this.#bytes(content)]);
+        this.#fill("/jostle", texts);
+        for (const [path, bytes] of texts) this.shipped.set(path, bytes);
     }
 
     /** Version of the engine, as "0.1.0". */

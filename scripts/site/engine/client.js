@@ -1,11 +1,11 @@
 // The engine in a worker: calls with answers, and what it tells by itself.
 
 export class EngineClient {
-    /** `tell(event)`: takes {event: "scene" | "status" | "reloaded" | "said" | "failed", ...}. */
-    constructor(address, tell = () => {}) {
+    /** `worker`: that of worker.js. `tell(event)`: takes {event: "scene" | "status" | "reloaded" | "said" | "failed", ...}. */
+    constructor(worker, tell = () => {}) {
         this.calls = new Map();
         this.count = 0;
-        this.worker = new Worker(address, { type: "module" });
+        this.worker = worker;
         this.worker.onmessage = ({ data }) => (data.id === undefined ? tell(data) : this.answer(data));
         this.worker.onerror = (event) => {
             event.preventDefault();

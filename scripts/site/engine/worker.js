@@ -1,21 +1,27 @@
 // The engine's worker: runs one scene turn by turn, feeds the live page by a port, and checks texts. A second one of it, without a page,
-// checks what is being written and tries lessons, so that a large crowd makes neither wait.
-import { Engine } from "./engine/engine.mjs";
+// checks what is being written and tries lessons, so that a large crowd makes neither wait; it is called "second", and gets the module
+// that the first one has compiled.
+import { Engine } from "../../wasm/engine.mjs";
 import { plainPath } from "../project/references.js";
 import { observe } from "./observe.js";
 import { makeSchedule } from "./schedule.js";
 
 const TOLD = new Set(["scene", "status", "reloaded"]); // messages of which the workbench gets a copy
 const NEEDS = "This browser cannot run the engine, which needs WebAssembly with SIMD and exceptions: Chrome or Edge 95, Firefox 100, Safari 16.4, or later";
-const ready = Engine.create().catch((error) => {
+const locate = (name) => new URL(`engine/${name}`, location.href).href;
+let takeModule;
+const module = self.name === "second" ? new Promise((resolve) => (takeModule = resolve)) : null; // null: loaded and compiled here
+const ready = Promise.resolve(module).then((wasmBinary) => Engine.create({ wasmBinary, locate, shipped: {} })).catch((error) => {
     throw error instanceof WebAssembly.CompileError ? new Error(`${NEEDS}. ${error.message}`) : error;
 });
+let library = null; // promise: the engine has all shipped files
 let scene = null, port = null;
 let answered = true; // the page has taken the last batch
+let begun = false; // it has drawn a picture: until then the crowd waits, as to prepare that takes all processors
 const schedule = makeSchedule(turn);
 
 function turn() {
-    if (!scene) return;
+    if (!scene || (!begun && (!port || !answered))) return;
     let wait;
     try {
         wait = scene.turn();
@@ -48,6 +54,18 @@ function close() {
     scene = null;
 }
 
+/** Gives the engine all shipped files, once: texts may name any of them. Returns it. */
+async function withLibrary() {
+    library ??= Promise.all([ready, fetch(locate("shipped.json")).then((answer) => {
+        if (!answer.ok) throw new Error("The playground lacks engine/shipped.json.");
+        return answer.json();
+    })]).then(([engine, files]) => (engine.ship(files), engine)).catch((error) => {
+        library = null; // the next call tries again
+        throw error;
+    });
+    return library;
+}
+
 /** Faults with paths as the project has them: "behaviours/a.lua" for "scenes/../behaviours/a.lua". */
 const named = (faults) => faults.map((fault) => ({ ...fault, file: plainPath(fault.file) }));
 
@@ -66,15 +84,20 @@ const calls = {
             if (data.command) scene?.command(data.command);
             else answered = true;
             deliver();
-            if (data.command) schedule(0);
+            if (data.command || !begun) schedule(0);
+            begun ||= Boolean(data.drawn);
         };
         if (scene) greet();
         return null;
     },
 
-    /** Opens a scene in place of the one that runs; if it has errors, that one goes on. Returns {errors}. */
-    async open({ files, path }) {
-        const engine = await ready;
+    /**
+     * Opens a scene in place of the one that runs; if it has errors, that one goes on. Returns {errors}. `installed`: the shipped files
+     * that it needs besides `files`, where they are known; without, all are loaded first.
+     */
+    async open({ files, path, installed }) {
+        const engine = await (installed && !library ? ready : withLibrary());
+        if (installed) engine.ship(installed);
         let next;
         try {
             next = engine.open({ files, scene: path, page: true, say: (text) => postMessage({ event: "said", text }) });
@@ -88,19 +111,20 @@ const calls = {
     },
 
     /** Loads changed files into the scene that runs. Returns {news, errors}; with errors nothing has changed. */
-    reload({ files }) {
+    async reload({ files }) {
+        await withLibrary();
         const { live, errors, news } = scene.reload(files);
         schedule(0);
         return { errors: live ? [] : named(errors.filter((fault) => fault.severity === "error")), news };
     },
 
     async check({ files, path }) {
-        return named((await ready).check(files, path));
+        return named((await withLibrary()).check(files, path));
     },
 
     /** Runs a scene without a page; returns what observe() says of it, or {errors}. */
     async observe({ files, path, seconds }) {
-        const engine = await ready;
+        const engine = await withLibrary();
         let tried;
         try {
             tried = engine.open({ files, scene: path, say() {} });
@@ -114,8 +138,14 @@ const calls = {
         }
     },
 
-    async load() {
-        await ready;
+    /** Loads all shipped files; returns the module, for another worker. */
+    async module() {
+        return (await withLibrary()).compiled;
+    },
+
+    /** Takes the module, in the worker that waits for it. */
+    begin({ module: given }) {
+        takeModule(given);
         return null;
     },
 };

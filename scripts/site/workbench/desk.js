@@ -23,7 +23,7 @@ export class Desk {
         this.live = begun.errors.length || begun.stopped ? null : { ...opened.texts }; // as they run; null: nothing runs
         this.versions = []; // what ran before each save, the latest last
         this.words = { words: [], keys: [], spaces: { other: [], own: [] }, methods: [], scene: {}, behaviours: [] };
-        this.checker = new EngineClient(new URL("worker.js", location.href), ({ event, text }) => event === "failed" && notice(`Errors are not checked while you write: ${text}`));
+        this.checker = this.startChecker();
         this.draft = new Draft(opened.name);
         this.editor = new Editor(byId("editor"), {
             words: () => this.words, texts: () => this.texts, change: (path, text) => this.change(path, text), save: () => this.save(),
@@ -54,6 +54,14 @@ export class Desk {
         if (opened.restored) this.tellRestored();
         this.refresh();
         this.checkSoon(0);
+    }
+
+    /** Starts the second worker, which gets the module from the first one: that has compiled it. */
+    startChecker() {
+        const tell = (text) => this.notice(`Errors are not checked while you write: ${text}`);
+        const checker = new EngineClient(new Worker("worker.js", { type: "module", name: "second" }), ({ event, text }) => event === "failed" && tell(text));
+        this.engine.call("module").then((module) => checker.call("begin", { module })).catch((error) => tell(error.message));
+        return checker;
     }
 
     async loadWords() {

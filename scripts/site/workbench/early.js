@@ -1,4 +1,15 @@
-// Runs before the modules: the page in the frame may ask for the engine first, and modules of files do not run at all.
+// Runs before the modules: starts the engine's worker and loads the scene that the address names, which both take longer than the modules.
+// The page in the frame may ask for the engine before they run, and of files they do not run at all.
+if (location.protocol !== "file:") {
+    window.engineWorker = new Worker("worker.js", { type: "module", name: "first" });
+    const scene = location.hash ? /^#scene=([\w-]+)$/.exec(location.hash)?.[1] : "dodgeball";
+    if (scene) {
+        const path = `data/scenes/${scene}.json`;
+        window.earlyAnswer = { path, answer: fetch(path) };
+        window.earlyAnswer.answer.catch(() => {}); // told by who takes it
+    }
+}
+
 addEventListener("message", (event) => {
     if (event.origin !== location.origin || event.data?.jostle !== "connect") return;
     window.pagePort = event.ports[0];

@@ -3,14 +3,13 @@ import { byId, say } from "../../../core/view/page/dom.js";
 import { EngineClient } from "../engine/client.js";
 import { findOpened } from "./opened.js";
 
-const STOPPED = "jostle-stopped"; // key of the tab's storage: open nothing
 const LONG = 15000; // ms after which an answer of the engine is late
 const LATEST = 6000; // ms after which the editor is loaded though no crowd moves: what is opened may have errors
 
 const told = new EventTarget(); // "scene", "status", "reloaded", "said" and "failed" of the engine
 let hasMoved;
 const moved = new Promise((resolve) => (hasMoved = resolve));
-const engine = new EngineClient(new URL("worker.js", location.href), (event) => {
+const engine = new EngineClient(window.engineWorker, (event) => {
     told.dispatchEvent(new CustomEvent(event.event, { detail: event.message ?? event.text }));
 });
 
@@ -38,7 +37,7 @@ function notice(text, ...acts) {
 /** Waits for an answer of the engine; if it is late, offers to go on without what makes it busy. */
 async function patient(answer) {
     const stop = Object.assign(document.createElement("button"), { type: "button", textContent: "Stop it, and edit", onclick: () => {
-        sessionStorage.setItem(STOPPED, "1");
+        history.replaceState({ stopped: true }, ""); // kept over the reload, also where the browser forbids storage
         location.reload();
     } });
     const late = setTimeout(() => notice("The engine has been busy with this scene for long.", stop), LONG);
@@ -52,20 +51,20 @@ async function patient(answer) {
 
 async function start() {
     connectPage();
-    const stopped = sessionStorage.getItem(STOPPED);
-    sessionStorage.removeItem(STOPPED);
+    const stopped = history.state?.stopped; // open nothing
+    history.replaceState(null, "");
     const opened = await findOpened(location);
     say(byId("title"), opened.title);
     document.title = `${opened.title} – Jostle`;
     if (opened.fault) notice(opened.fault);
-    const begun = stopped ? Promise.resolve({ errors: [], stopped }) : patient(engine.call("open", { files: opened.texts, path: opened.scene }));
+    const begun = stopped ? Promise.resolve({ errors: [], stopped }) : patient(engine.call("open", { files: opened.texts, path: opened.scene, installed: opened.installed }));
     begun.catch((error) => notice(error.message));
     told.addEventListener("failed", ({ detail }) => notice(`The engine stopped: ${detail}`));
     await Promise.race([moved, new Promise((resolve) => setTimeout(resolve, LATEST)), begun.then(({ errors }) => (errors.length || stopped ? null : moved), () => null)]);
     const { Desk } = await import("./desk.js");
     window.desk = new Desk({ engine, opened, told, notice, patient, begun: await begun.catch(() => ({ errors: [], stopped: true })) });
+    navigator.serviceWorker?.register("offline.js").catch(() => {}); // it loads all files; without it the site needs its server, as any other
 }
 
-navigator.serviceWorker?.register("offline.js").catch(() => {}); // without it the site needs its server, as any other
 addEventListener("hashchange", () => location.reload());
 start().catch((error) => notice(error.message));

@@ -2,22 +2,23 @@
 // left unsaved there comes back.
 import { Draft } from "../project/draft.js";
 import { unpackProject } from "../project/link.js";
-import { filesOf } from "../project/references.js";
 import { checksum } from "../project/zip.js";
 
 const FIRST = "dodgeball"; // the scene of an address that names none
 
-async function fetchJson(path) {
-    const answer = await fetch(path);
-    if (!answer.ok) throw new Error(`The playground lacks ${path}.`);
+/** Loads JSON; `missing`: what to say if the server has no such file. */
+async function fetchJson(path, missing = `The playground lacks ${path}.`) {
+    const early = globalThis.earlyAnswer; // that early.js has asked for
+    globalThis.earlyAnswer = null;
+    const answer = await (early?.path === path ? early.answer : fetch(path));
+    if (!answer.ok) throw new Error(missing);
     return answer.json();
 }
 
 async function openScene(name) {
-    const shipped = await fetchJson("engine/shipped.json"), scene = `scenes/${name}.yaml`;
-    if (!(scene in shipped)) throw new Error(`There is no scene "${name}".`);
-    const paths = filesOf(scene, (path) => shipped[path], (folder) => Object.keys(shipped).filter((path) => path.startsWith(folder)));
-    return { name: `scene:${name}`, title: titleOf(shipped[scene], scene), scene, files: Object.fromEntries(paths.map((path) => [path, shipped[path]])) };
+    const scene = `scenes/${name}.yaml`, { files, installed } = /^[\w-]+$/.test(name) ? await fetchJson(`data/scenes/${name}.json`, `There is no scene "${name}".`) : {};
+    if (!files) throw new Error(`There is no scene "${name}".`);
+    return { name: `scene:${name}`, title: titleOf(files[scene], scene), scene, files, installed };
 }
 
 /** The lesson of a number from 0, the nearest if there is none. */
@@ -47,8 +48,9 @@ export function titleOf(text, path) {
 }
 
 /**
- * Finds what an address opens: {name, title, scene, files, texts, lessons, lesson, restored, fault}. `files` is what it names, `texts`
- * what is shown: work that was left, from the time `restored` (ms since 1970), else the same.
+ * Finds what an address opens: {name, title, scene, files, installed, texts, lessons, lesson, restored, fault}. `files` is what it
+ * names, `installed` the shipped files that these need (undefined: not known), `texts` what is shown: work that was left, from the time
+ * `restored` (ms since 1970), else the same.
  */
 export async function findOpened({ hash }) {
     const [kind, value] = /^#(\w+)=(.*)$/.exec(hash)?.slice(1) ?? ["scene", FIRST];
@@ -62,5 +64,5 @@ export async function findOpened({ hash }) {
     const kept = new Draft(opened.name).find();
     const same = kept && JSON.stringify(kept.files) === JSON.stringify(opened.files);
     const restored = kept && !same ? kept.time : null;
-    return { ...opened, fault, restored, texts: restored ? kept.files : opened.files, scene: restored ? kept.scene : opened.scene, lesson: restored && opened.lessons && kept.lesson !== undefined ? lessonAt(opened.lessons, kept.lesson) : opened.lesson };
+    return { ...opened, fault, restored, installed: restored ? undefined : opened.installed, texts: restored ? kept.files : opened.files, scene: restored ? kept.scene : opened.scene, lesson: restored && opened.lessons && kept.lesson !== undefined ? lessonAt(opened.lessons, kept.lesson) : opened.lesson };
 }

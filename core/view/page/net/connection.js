@@ -11,11 +11,15 @@ function token() {
     const inPath = /^\/([0-9a-f]{32})\//.exec(location.pathname);
     if (inPath) return inPath[1];
     const given = new URLSearchParams(location.search).get("token");
-    if (given) {
-        sessionStorage.setItem(KEY, given);
-        history.replaceState(null, "", location.pathname + location.hash);
+    try {
+        if (given) {
+            sessionStorage.setItem(KEY, given);
+            history.replaceState(null, "", location.pathname + location.hash);
+        }
+        return sessionStorage.getItem(KEY) ?? "";
+    } catch {
+        return given ?? ""; // this browser keeps nothing: the token stays in the address
     }
-    return sessionStorage.getItem(KEY) ?? "";
 }
 
 /**
