@@ -17,9 +17,10 @@ import { nodeAt, pathAt } from "../../scripts/site/editor/yaml_path.js";
 import { observe } from "../../scripts/site/engine/observe.js";
 import { makeSchedule } from "../../scripts/site/engine/schedule.js";
 import { cutPreview } from "../../scripts/site/make/scenes.mjs";
-import { Draft } from "../../scripts/site/project/draft.js";
+import { addressOf, Draft, listDrafts, MOST_DRAFTS } from "../../scripts/site/project/draft.js";
 import { packProject, unpackProject } from "../../scripts/site/project/link.js";
-import { filesOf, modsNamed, plainPath, turnOnMod } from "../../scripts/site/project/references.js";
+import { filesOf, isFileName, modsNamed, plainPath, renamedIn, turnOnMod } from "../../scripts/site/project/references.js";
+import { faultsSaid, unreadSaid } from "../../scripts/site/project/said.js";
 import { deflate, readZip, writeZip } from "../../scripts/site/project/zip.js";
 import { CHECKS } from "../../scripts/site/workbench/lesson_checks.js";
 import { lessonFiles } from "../../scripts/site/workbench/opened.js";
@@ -101,27 +102,79 @@ const tests = {
 
     async "an archive is read again, by unzip too, and damage is found"() {
         const files = { "scenes/ä.yaml": "jostle: 1\n", "behaviours/b.lua": "return 1\n".repeat(999) }, zip = await writeZip(files), folder = mkdtempSync(join(tmpdir(), "jostle-site-"));
-        assert.deepEqual(await readZip(zip), files);
+        assert.deepEqual(await readZip(zip), { files, left: [] });
         writeFileSync(join(folder, "a.zip"), zip);
         execFileSync("python3", ["-c", "import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None and z.namelist() == ['scenes/ä.yaml', 'behaviours/b.lua']", join(folder, "a.zip")]);
-        rmSync(folder, { recursive: true });
         zip[45] ^= 1;
         await assert.rejects(readZip(zip), /damaged|invalid|incorrect/i);
         await assert.rejects(readZip(new Uint8Array(40)), /no zip archive/);
         await assert.rejects(readZip(await writeZip({ "../a.lua": "" })), /leads out of/);
         await assert.rejects(readZip(await writeZip({ a: "", "a/b.lua": "" })), /"a" is a file, and the folder of/);
-        assert.deepEqual(await readZip(await writeZip({ "./a//b.lua": "" })), { "a/b.lua": "" });
+        assert.deepEqual((await readZip(await writeZip({ "./a//b.lua": "", "c\\d.lua": "" }))).files, { "a/b.lua": "", "c/d.lua": "" });
+        for (const [made, told] of [[{ "a.lua": "", "./a.lua": "" }, /two files a.lua/], [{ "b/__proto__": "" }, null], [JSON.parse('{"__proto__": "1"}'), /is no path/], [{ "a\\..\\..\\b.lua": "" }, /leads out of/],
+            [{ "a.lua": "x".repeat(17e6) }, /more than 16 MB/], [Object.fromEntries(Array.from({ length: 501 }, (_, n) => [`${n}.lua`, ""])), /501 files/]]) {
+            const packed = await writeZip(made);
+            if (told) await assert.rejects(readZip(packed), told);
+            else assert.deepEqual((await readZip(packed)).files, made);
+        }
+        const script = "import sys, zipfile; z = zipfile.ZipFile(sys.argv[1], 'w'); z.writestr('in.zip', bytes(range(256))); z.writestr('a.yaml', 'jostle: 1'); z.close()";
+        execFileSync("python3", ["-c", script, join(folder, "b.zip")]);
+        assert.deepEqual(await readZip(new Uint8Array(readFileSync(join(folder, "b.zip")))), { files: { "a.yaml": "jostle: 1" }, left: ["in.zip"] });
+        const locked = await writeZip({ "a.lua": "" });
+        locked[locked.length - 22 - 46 - 5 + 8] |= 1;
+        await assert.rejects(readZip(locked), /locked by a password/);
+        rmSync(folder, { recursive: true });
         assert.equal(sceneOf({ "mods/x/mod.yaml": "jostle: 1", "a.yaml": "name: 1", "b.yaml": "jostle: 1" }), "b.yaml");
     },
 
     "work is kept until it equals what was opened"() {
-        const kept = new Map(), storage = { getItem: (k) => kept.get(k) ?? null, setItem: (k, v) => kept.set(k, v), removeItem: (k) => kept.delete(k) }, draft = new Draft("a", storage);
+        const kept = new Map(), storage = { getItem: (k) => kept.get(k) ?? null, setItem: (k, v) => kept.set(k, v), removeItem: (k) => kept.delete(k), key: (n) => [...kept.keys()][n], get length() { return kept.size; } };
+        const draft = new Draft("a", storage);
         assert.equal(draft.find(), null);
-        assert.ok(draft.keep({ "a.yaml": "2" }, { "a.yaml": "1" }, { scene: "a.yaml", lesson: 2 }));
+        assert.ok(draft.keep({ "a.yaml": "2" }, { "a.yaml": "1" }, { scene: "a.yaml", lesson: 2 }).kept);
         assert.deepEqual([draft.find().files, draft.find().lesson], [{ "a.yaml": "2" }, 2]);
         draft.keep({ "a.yaml": "1" }, { "a.yaml": "1" }, { scene: "a.yaml" });
         assert.equal(kept.size, 0);
-        assert.equal(new Draft("a", { setItem() { throw new Error("full"); } }).keep({ a: "1" }, {}, {}), false);
+        assert.equal(new Draft("a", { setItem() { throw new Error("full"); } }).keep({ a: "1" }, {}, {}).kept, false);
+        assert.equal(new Draft("a", null).keep({ a: "1" }, {}, {}).why, "This browser keeps nothing");
+        assert.match(new Draft("a", storage).keep({ a: "x".repeat(3e6) }, {}, {}).why, /at most 2 MB/);
+        // Beyond a number the oldest work goes, and is told; what is there can be listed, opened and removed.
+        kept.set("another", "1");
+        const keep = (n) => new Draft(`link:${n}`, storage).keep({ "a.yaml": String(n) }, {}, { scene: "a.yaml", title: `T${n}` });
+        const { now } = Date;
+        let time = 0;
+        Date.now = () => ++time;
+        for (let n = 0; n < MOST_DRAFTS; n++) assert.deepEqual(keep(n).dropped, []);
+        assert.deepEqual(keep(MOST_DRAFTS).dropped, ["T0"]);
+        Date.now = now;
+        assert.deepEqual([listDrafts(storage).length, listDrafts(storage)[0].title, kept.get("another")], [MOST_DRAFTS, `T${MOST_DRAFTS}`, "1"]);
+        assert.deepEqual(["scene:office", "lesson", "link:5"].map((name) => addressOf({ name, lesson: 2 })), ["#scene=office", "#lesson=3", "#work=link%3A5"]);
+    },
+
+    "what a run prints is read: errors of functions with their place, files that nothing reads"() {
+        const lua = (body) => `return machine { name = "a", version = 1, start = "A", states = { A = {\n  steer = function(me)\n    ${body}\n    return 0, 0\n  end } } }\n`, said = [];
+        const files = { "b/a.lua": lua("local x = me.x + nil"), "s.yaml": "jostle: 1\ngroups: {one: {behaviour: b/a.lua, at: [[0, 0], [2, 0]]}}\n" };
+        const scene = engine.open({ files, scene: "s.yaml", say: (text) => said.push(text) });
+        scene.step(45);
+        scene.reload({ "none.lua": "return 1" });
+        scene.close();
+        const [fault, ...more] = said.flatMap(faultsSaid);
+        assert.deepEqual([fault.file, fault.line, more.length], ["b/a.lua", 3, 0]);
+        assert.match(fault.text, /^attempt to perform arithmetic on a nil value \(machine a > state A > steer, while it runs\)$/);
+        const { from, to } = placeOf(files["b/a.lua"], fault);
+        assert.equal(files["b/a.lua"].slice(from, to), "local x = me.x + nil");
+        assert.deepEqual(said.flatMap(unreadSaid), ["none.lua"]);
+        assert.deepEqual(faultsSaid("b/a.lua:4:63: warning: no transition leads out\n machine a > state B"), []);
+    },
+
+    "a file is renamed, also where others name it"() {
+        const texts = { "scenes/a.yaml": "include: b.yaml\ngroups: {x: {behaviour: w.lua}}\n# w.lua, ow.lua\n", "scenes/b.yaml": "", "behaviours/w.lua": 'local c = require "c"\n', "behaviours/c.lua": "" };
+        assert.match(renamedIn(texts, "behaviours/w.lua", "behaviours/läufer 2.lua")["scenes/a.yaml"], /behaviour: läufer 2.lua}}\n# läufer 2.lua, ow.lua/);
+        assert.match(renamedIn(texts, "behaviours/w.lua", "mine/w.lua")["scenes/a.yaml"], /behaviour: \.\.\/mine\/w\.lua}/);
+        assert.match(renamedIn(texts, "scenes/b.yaml", "scenes/$&.yaml")["scenes/a.yaml"], /^include: \$&\.yaml/);
+        assert.equal(renamedIn(texts, "behaviours/c.lua", "behaviours/d.lua")["behaviours/w.lua"], 'local c = require "d"\n');
+        const good = ["a.lua", "läufer.lua", "scenes/見本.yaml", "hall 2.wkt", "a/b/c.geojson"], bad = ["", ".lua", "a", "a.txt", "a.csv", "../a.lua", "/a.lua", "a//b.lua", "a\\b.lua", "a/.b.lua", "a\n.lua", "a\".lua"];
+        assert.deepEqual([...good, ...bad].filter(isFileName), good);
     },
 
     async "what is due at once is done once, however often it is asked for"() {

@@ -122,6 +122,9 @@ def edits(browser):
     link = bench.run("return desk.share.link()")
     bench.write(LUA, "version = 6", "version = 8")
     browser.driver.get("about:blank")
+    # The first page lists it, with its address.
+    browser.driver.get(SERVER.address("index.html"))
+    expect(bench.run("return [...document.querySelectorAll('#kept a')].map((a) => a.getAttribute('href')).join()") == "workbench.html#scene=dodgeball", "kept work is not listed")
     bench = Workbench(browser, SERVER, "scene=dodgeball")
     bench.wait("return document.getElementById('notice').textContent.includes('is here again')", "work that comes back is not told")
     expect("version = 8" in bench.text(LUA), "the work is not back")
@@ -129,7 +132,22 @@ def edits(browser):
     bench.wait("return window.desk && desk.texts[arguments[0]] === arguments[1]", "the work is not discarded", LUA, begun)
     bench = Workbench(browser, SERVER, link.split("#")[1])
     expect("[[4, 0], [5, 2]]" in bench.text("scenes/dodgeball.yaml") and bench.text(LUA) == begun, "the link does not have the edit")
+    # Work on a link is opened again without the link.
+    bench.write(LUA, "version = 6", "version = 9")
+    browser.driver.get(SERVER.address("index.html"))
+    address = bench.run("return document.querySelector('#kept a').getAttribute('href')")
+    bench = Workbench(browser, SERVER, address.split("#")[1])
+    expect("version = 9" in bench.text(LUA), "work on a link is not opened from the list")
     bench.run("localStorage.clear()")
+    # Where the browser forbids storage the workbench is the same, and says that nothing is kept.
+    forbid = "for (const name of ['localStorage', 'sessionStorage']) Object.defineProperty(window, name, { get() { throw new DOMException('forbidden', 'SecurityError'); } })"
+    hidden = browser.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": forbid})["identifier"]
+    bench = Workbench(browser, SERVER, "scene=dodgeball")
+    bench.write(LUA, "version = 6", "version = 7")
+    bench.save()
+    bench.outcome("dodgeball.lua is live")
+    bench.wait("return document.getElementById('notice').textContent.includes('This browser keeps nothing')", "it is not told that nothing is kept")
+    browser.driver.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", {"identifier": hidden})
     # Nothing was asked of another server; and without any, the crowd and the editor go on.
     asked = bench.run("return [window, document.getElementById('crowd').contentWindow].flatMap((w) => w.performance.getEntriesByType('resource').map((e) => e.name))")
     foreign = [name for name in asked if not name.startswith(SERVER.origin + BELOW) and not name.startswith(("blob:", "data:"))]
@@ -193,12 +211,25 @@ def start(browser):
     # An archive of another program is opened, and what its behaviour prints is shown.
     archive = io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as packed:
-        packed.writestr("game/talk.lua", 'return machine { name = "talk", version = 1, start = "A", states = { A = { steer = hold, on_enter = function() print "here I am" end } } }\n')
+        packed.writestr("game/talk.lua", 'return machine { name = "talk", version = 1, start = "A", states = { A = {\n  steer = function(me) return me.x + nil, 0 end,\n  on_enter = function() print "here I am" end } } }\n')
+        packed.writestr("game/picture.png", bytes(range(256)))
         packed.writestr("game/talk.yaml", "jostle: 1\ntitle: Talk\ngroups: {one: {behaviour: talk.lua, at: [[0, 0]]}}\n")
     bench.run("desk.share.openZip(new File([Uint8Array.from(atob(arguments[0]), (c) => c.charCodeAt(0))], 'talk.zip'))", base64.b64encode(archive.getvalue()).decode())
-    bench.outcome("talk.zip is opened")
+    bench.outcome("talk.zip is opened", "Left out, as they are no texts: game/picture.png")
     bench.wait("return document.getElementById('title').textContent === 'Talk' && document.querySelector('#said pre').textContent.includes('here I am')", "what is printed is not shown")
-    bench.press("Back to what was here")
+    # An error of a function is among the errors, at its line, until it is mended; the file is renamed, also in the scene.
+    bench.wait("return /talk.lua:2 .*arithmetic on a nil value.*while it runs/.test(document.getElementById('problems').textContent)", "an error of a function is not among the errors")
+    bench.run("desk.show('game/talk.lua'); desk.files.rename('game/talk.lua', 'rédt.lua')")
+    expect("behaviour: rédt.lua" in bench.text("game/talk.yaml") and bench.run("return desk.path") == "game/rédt.lua", "the file is not renamed in the scene")
+    bench.write("game/rédt.lua", "me.x + nil", "0")
+    bench.press("Restart")
+    bench.outcome("Started anew")
+    bench.wait("return document.getElementById('problems').hidden", "an error that is mended stays")
+    bench.write("game/talk.yaml", "title: Talk", "title: Talks")
+    bench.run("desk.files.add('none.lua'); return desk.save()")
+    bench.outcome("Nothing that runs reads game/none.lua")
+    bench.run("document.getElementById('share').open = true")
+    bench.press("Back to what was here before")
     bench.wait("return desk.scene === 'scenes/dodgeball.yaml' && desk.live && 'scenes/mods/doubles/mod.yaml' in desk.texts", "what the archive replaced is not back")
     bench.run("desk.share.openZip(new File(['no zip'], 'bad.zip'))")
     bench.outcome("bad.zip was not opened: this is no zip archive")

@@ -86,6 +86,12 @@ export class Editor {
         }
     }
 
+    /** Forgets the state of a file, which has another name now. */
+    drop(path) {
+        this.states.delete(path);
+        if (this.path === path) this.path = null;
+    }
+
     /** Forgets the states of files: another project is opened. */
     forget() {
         this.states.clear();

@@ -66,13 +66,13 @@ async function withLibrary() {
     return library;
 }
 
-/** Faults with paths as the project has them: "behaviours/a.lua" for "scenes/../behaviours/a.lua". */
-const named = (faults) => faults.map((fault) => ({ ...fault, file: plainPath(fault.file) }));
+/** Faults with paths as the project has them: "behaviours/a.lua" for "scenes/../behaviours/a.lua"; `path` where a fault names no file. */
+const named = (faults, path) => faults.map((fault) => ({ ...fault, file: plainPath(fault.file) || path }));
 
 /** Faults of an error that the engine threw for what is in files; another error is thrown on. */
-function faultsOf(error) {
+function faultsOf(error, path) {
     if (!error.errors) throw error;
-    return named(error.errors);
+    return named(error.errors, path);
 }
 
 const calls = {
@@ -102,7 +102,7 @@ const calls = {
         try {
             next = engine.open({ files, scene: path, page: true, say: (text) => postMessage({ event: "said", text }) });
         } catch (error) {
-            return { errors: faultsOf(error) };
+            return { errors: faultsOf(error, path) };
         }
         close();
         scene = next;
@@ -115,11 +115,11 @@ const calls = {
         await withLibrary();
         const { live, errors, news } = scene.reload(files);
         schedule(0);
-        return { errors: live ? [] : named(errors.filter((fault) => fault.severity === "error")), news };
+        return { errors: live ? [] : named(errors.filter((fault) => fault.severity === "error"), Object.keys(files)[0]), news };
     },
 
     async check({ files, path }) {
-        return named((await withLibrary()).check(files, path));
+        return named((await withLibrary()).check(files, path), path);
     },
 
     /** Runs a scene without a page; returns what observe() says of it, or {errors}. */
@@ -129,7 +129,7 @@ const calls = {
         try {
             tried = engine.open({ files, scene: path, say() {} });
         } catch (error) {
-            return { errors: faultsOf(error) };
+            return { errors: faultsOf(error, path) };
         }
         try {
             return { errors: [], ...observe(tried, seconds) };

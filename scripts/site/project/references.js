@@ -1,6 +1,8 @@
 // Which files a scene reads: behaviours, included scenes, walls, inputs, modules and mods, found by their names in the texts.
 
-const NAME = /[\w./-]+\.(?:lua|yaml|wkt|dxf|geojson|json|xml|input)\b/g;
+const NAME = /[\p{L}\p{N}_./-]+\.(?:lua|yaml|wkt|dxf|geojson|json|xml|input)\b/gu;
+/** Endings of files that the engine reads. */
+export const ENDINGS = ["lua", "yaml", "wkt", "dxf", "geojson", "json", "xml", "input"];
 const BECOME = /\bbecome\s*=\s*["']([\w-]+)["']/g;
 const REQUIRE = /\brequire\s*\(?\s*["']([\w.-]+)["']/g;
 
@@ -13,6 +15,9 @@ export function plainPath(path) {
     }
     return parts.join("/");
 }
+
+/** Whether a name can be that of a new file: a path without odd characters, of a kind that the engine reads. */
+export const isFileName = (name) => /^(?:[\p{L}\p{N}_-][\p{L}\p{M}\p{N} _.-]*\/)*[\p{L}\p{N}_-][\p{L}\p{M}\p{N} _.-]*$/u.test(name) && ENDINGS.includes(name.split(".").pop()) && !/^\.|\/\./.test(name);
 
 /** What is wrong with the paths of a project, a sentence's end; null if nothing is. */
 export function pathsFault(paths) {
@@ -53,6 +58,27 @@ export function turnOnMod(text, mod) {
 function candidates(path, name) {
     const here = folderOf(path);
     return [here + name, `${here}../behaviours/${name}`, `behaviours/${name}`].map(plainPath);
+}
+
+/** The name by which a file in the folder `here` reads the one at `path`. */
+function nameFrom(here, path) {
+    const from = here.split("/").slice(0, -1), to = path.split("/");
+    let same = 0;
+    while (same < from.length && same < to.length - 1 && from[same] === to[same]) same++;
+    return [...from.slice(same).map(() => ".."), ...to.slice(same)].join("/");
+}
+
+/** Texts {path: text} in which the file at `path` has the name that it has at `to`. */
+export function renamedIn(texts, path, to) {
+    const has = (other) => Object.hasOwn(texts, other), base = to.slice(folderOf(to).length), stays = folderOf(path) === folderOf(to);
+    const renamed = ([own, text]) => {
+        const here = folderOf(own);
+        if (own.endsWith(".lua")) {
+            return text.replace(REQUIRE, (found, module) => ([`${here}${module}.lua`, `scripts/${module}.lua`].map(plainPath).find(has) === path ? found.replace(module, () => base.replace(/\.lua$/, "")) : found));
+        }
+        return text.replace(NAME, (name) => (candidates(own, name).find(has) !== path ? name : stays ? folderOf(name) + base : nameFrom(here, to)));
+    };
+    return Object.fromEntries(Object.entries(texts).map((entry) => [entry[0], renamed(entry)]));
 }
 
 /**

@@ -3,8 +3,9 @@
 import { pathsFault, plainPath } from "./references.js";
 
 const LOCAL = 0x04034b50, ENTRY = 0x02014b50, END = 0x06054b50;
-const DEFLATED = 8, UTF8 = 0x0800;
+const DEFLATED = 8, UTF8 = 0x0800, LOCKED = 1;
 const MOST_FILES = 500, MOST_BYTES = 16e6; // of what is read, unpacked
+export const MOST_PACKED = 32e6; // bytes of an archive that is read
 
 const TABLE = Uint32Array.from({ length: 256 }, (_, n) => {
     let c = n;
@@ -71,39 +72,42 @@ export async function writeZip(files) {
     return new Uint8Array(await new Blob(all).arrayBuffer());
 }
 
-/** Reads the texts of a zip archive: {path: text}. Throws an error that says what is wrong with it. */
+/** Reads a zip archive: {files: {path: text}, left: paths of what is no text}. Throws an error that says what is wrong with it. */
 export async function readZip(bytes) {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), coder = new TextDecoder("utf-8", { fatal: true });
     let end = bytes.length - 22;
     while (end >= 0 && view.getUint32(end, true) !== END) end--;
     if (end < 0) throw new Error("this is no zip archive");
-    const files = {}, count = view.getUint16(end + 10, true);
+    const files = new Map(), left = [], count = view.getUint16(end + 10, true);
     if (count > MOST_FILES) throw new Error(`the archive has ${count} files, ${MOST_FILES} is the limit`);
-    let at = view.getUint32(end + 16, true), left = MOST_BYTES;
+    let at = view.getUint32(end + 16, true), rest = MOST_BYTES;
     for (let n = 0; n < count; n++) {
         if (at + 46 > bytes.length || view.getUint32(at, true) !== ENTRY) throw new Error("the archive's directory is damaged");
-        const method = view.getUint16(at + 10, true), sum = view.getUint32(at + 16, true), packed = view.getUint32(at + 20, true), size = view.getUint32(at + 24, true);
+        const isLocked = view.getUint16(at + 8, true) & LOCKED, method = view.getUint16(at + 10, true), sum = view.getUint32(at + 16, true), packed = view.getUint32(at + 20, true), size = view.getUint32(at + 24, true);
         const long = view.getUint16(at + 28, true), more = view.getUint16(at + 30, true) + view.getUint16(at + 32, true), local = view.getUint32(at + 42, true);
-        const path = new TextDecoder().decode(bytes.subarray(at + 46, at + 46 + long)); // names of other encodings keep their ASCII
+        const path = new TextDecoder().decode(bytes.subarray(at + 46, at + 46 + long)).replaceAll("\\", "/"); // names of other encodings keep their ASCII
         at += 46 + long + more;
         if (path.endsWith("/")) continue;
+        if (isLocked) throw new Error(`${path} is locked by a password`);
         if (path.startsWith("/") || path.split("/").includes("..")) throw new Error(`${path} leads out of the archive`);
         if (local + 30 > bytes.length) throw new Error(`${path} is cut short`);
         const start = local + 30 + view.getUint16(local + 26, true) + view.getUint16(local + 28, true), content = bytes.subarray(start, start + packed);
         if (method !== 0 && method !== DEFLATED) throw new Error(`${path} is packed by method ${method}, which is not supported`);
-        if (size > left) throw new Error(`it holds more than ${MOST_BYTES / 1e6} MB`);
-        const plain = method === 0 ? content : await inflate(content, left).catch((error) => {
+        if (size > rest) throw new Error(`it holds more than ${MOST_BYTES / 1e6} MB`);
+        const plain = method === 0 ? content : await inflate(content, rest).catch((error) => {
             throw error instanceof TypeError ? new Error(`${path} is damaged`) : error; // a TypeError is the browser's
         });
         if (plain.length !== size || checksum(plain) !== sum) throw new Error(`${path} is damaged`);
-        left -= plain.length;
+        rest -= plain.length;
+        const name = plainPath(path);
+        if (files.has(name)) throw new Error(`it has two files ${name}`);
         try {
-            files[plainPath(path)] = coder.decode(plain);
+            files.set(name, coder.decode(plain));
         } catch {
-            continue; // no text: a picture, say
+            left.push(path); // no text: a picture, or an archive
         }
     }
-    const fault = pathsFault(Object.keys(files));
+    const fault = pathsFault([...files.keys()]);
     if (fault) throw new Error(fault);
-    return files;
+    return { files: Object.fromEntries(files), left };
 }

@@ -4,7 +4,9 @@ import { newsLines } from "../../../core/view/page/panels/news.js";
 import { Editor } from "../editor/editor.js";
 import { placeText, problemText } from "../editor/problems.js";
 import { EngineClient } from "../engine/client.js";
-import { Draft } from "../project/draft.js";
+import { Draft, MOST_DRAFTS } from "../project/draft.js";
+import { renamedIn } from "../project/references.js";
+import { faultsSaid, unreadSaid } from "../project/said.js";
 import { FilesBar } from "./files_bar.js";
 import { LessonPanel } from "./lesson_panel.js";
 import { titleOf } from "./opened.js";
@@ -41,10 +43,12 @@ export class Desk {
         for (const each of [window, byId("crowd").contentWindow]) each.addEventListener("keydown", saveByKey); // also with the focus on the crowd
         addEventListener("storage", ({ key }) => key === this.draft.key && notice("This edit is open in another tab, too: what is written last, in either, is what comes back."));
         this.said = [];
+        this.faults = []; // errors of functions while the crowd runs
         told.addEventListener("failed", () => {
             this.live = null;
             this.refresh();
         });
+        for (const text of told.heard.splice(0)) this.hear(text);
         told.addEventListener("said", ({ detail }) => this.hear(detail));
         this.lesson = opened.lessons ? new LessonPanel(this, opened.lessons, opened.lesson) : null;
         this.show(this.lesson?.file() ?? this.files.paths().find((path) => path.endsWith(".lua")) ?? this.scene);
@@ -68,6 +72,7 @@ export class Desk {
         const answer = await fetch("data/words.json");
         if (answer.ok) this.words = await answer.json();
         else this.notice("Words are not completed: data/words.json is missing.");
+        this.shipped = await this.files.library().catch(() => null); // told where somebody asks for it
     }
 
     tellRestored() {
@@ -107,19 +112,38 @@ export class Desk {
 
     /** Removes a file from the project. */
     remove(path) {
-        const text = this.texts[path];
+        const text = this.texts[path], shipped = this.shipped?.[path];
         delete this.texts[path];
         delete this.live?.[path];
         this.show(this.scene);
         this.keep();
         this.refresh();
         this.checkSoon(0);
-        this.tell(`${path} is removed. What runs keeps it until a restart.`, el("button", { type: "button", onclick: () => this.replace(path, text) }, "Put it back"));
+        const later = shipped === undefined ? "" : " A scene that names it gets the one that comes with the engine then.";
+        this.tell(`${path} is removed. What runs keeps it until a restart.${later}`, el("button", { type: "button", onclick: () => this.replace(path, text) }, "Put it back"));
     }
 
+    /** Gives a file another path, and puts it into the texts that name it. */
+    rename(path, to) {
+        const before = this.texts, { [path]: own, ...others } = renamedIn(before, path, to);
+        const changed = Object.keys(others).filter((other) => others[other] !== before[other]);
+        this.texts = { ...others, [to]: own };
+        if (this.scene === path) this.scene = to;
+        for (const other of changed) this.editor.replace(other, others[other]);
+        this.editor.drop(path);
+        this.show(to);
+        this.keep();
+        this.refresh();
+        this.checkSoon(0);
+        this.tell(`${path} is ${to} now${changed.length ? `, also in ${changed.join(", ")}` : ""}. Restart, so that it counts.`,
+            el("button", { type: "button", className: "main", onclick: () => this.restart() }, "Restart"));
+    }
+
+    /** Keeps what is written in the browser; says what it cannot keep, or no longer. */
     keep() {
-        const kept = this.draft.keep(this.texts, this.opened.files, { scene: this.scene, lesson: this.lesson?.number });
-        if (!kept && !this.warned) this.notice("This browser keeps nothing: download your work before you close the tab.");
+        const { kept, dropped, why } = this.draft.keep(this.texts, this.opened.files, { scene: this.scene, lesson: this.lesson?.number, title: this.opened.title });
+        if (dropped.length) this.notice(`The browser keeps ${MOST_DRAFTS} pieces of work: that on ${dropped.join(", ")}, the oldest, is no longer kept.`);
+        if (!kept && !this.warned) this.notice(`${why}: download your work before you close the tab.`);
         this.warned ||= !kept;
     }
 
@@ -158,7 +182,10 @@ export class Desk {
         return problems;
     }
 
-    setProblems(problems) {
+    /** Shows what is wrong: in the texts, and what went wrong while they ran. */
+    setProblems(checked) {
+        this.checked = checked;
+        const problems = [...this.faults, ...checked];
         this.problems = problems;
         this.editor.setProblems(problems);
         const node = byId("problems"), errors = problems.filter((p) => p.severity === "error").length;
@@ -169,9 +196,16 @@ export class Desk {
     }
 
     goTo(problem) {
-        if (!(problem.file in this.texts)) return;
+        if (!(problem.file in this.texts)) return this.tellAbsent(problem.file);
         this.show(problem.file);
         if (problem.line) this.editor.goTo(problem);
+    }
+
+    /** Tells of a file that is not among the texts, and offers it where it is shipped. */
+    tellAbsent(file) {
+        const text = this.shipped?.[file];
+        this.tell(`${file} is not among these files${text === undefined ? "." : ": it is the one that comes with the engine."}`,
+            text === undefined ? [] : el("button", { type: "button", onclick: () => this.replace(file, text) }, "Add it, to change it"));
     }
 
     /** Saves: loads changed files into the crowd that runs, or begins it. */
@@ -194,12 +228,14 @@ export class Desk {
     /** Loads files into the crowd that runs; with `back`, as the way back from a save. */
     async reload(changed, back = false) {
         const files = Object.fromEntries(changed.map((path) => [path, this.texts[path]])), before = { ...this.live };
+        this.unread = [];
         const { errors, news } = await this.patient(this.engine.call("reload", { files }));
         if (errors.length) return this.tellErrors(errors, "Not live: the version before keeps running");
         this.live = { ...this.live, ...files };
         this.later ||= news.some((item) => item.later);
         if (!back) this.versions.push(before);
-        this.setProblems((this.problems ?? []).filter((p) => p.severity !== "error"));
+        this.faults = []; // those that are left come again
+        this.setProblems((this.checked ?? []).filter((p) => p.severity !== "error"));
         this.tellNews(news, back);
         this.checkSoon(0);
         this.lastNews = news;
@@ -208,13 +244,19 @@ export class Desk {
     /** Begins the scene anew with what is written. */
     async begin(done) {
         this.tell("Starting the scene ...");
+        const { faults } = this;
+        this.faults = [];
         const texts = { ...this.texts }, wasChanged = this.changed().length > 0; // what is written meanwhile is not live
         const { errors } = await this.patient(this.engine.call("open", { files: texts, path: this.scene }));
-        if (errors.length) return this.tellErrors(errors, this.live ? "Not restarted: the version before keeps running" : "Nothing runs yet");
+        if (errors.length) {
+            this.faults = faults; // what runs is as before
+            return this.tellErrors(errors, this.live ? "Not restarted: the version before keeps running" : "Nothing runs yet");
+        }
         if (this.live && wasChanged) this.versions.push({ ...this.live });
         this.live = texts;
         this.lastNews = [];
         this.later = false;
+        this.setProblems(this.checked ?? []);
         this.tell(`${done} with ${Object.keys(texts).length === 1 ? "this file" : `these ${Object.keys(texts).length} files`}.`);
         this.checkSoon(0);
     }
@@ -243,8 +285,14 @@ export class Desk {
         this.refresh();
     }
 
-    /** Shows what the engine and behaviours print, as natively the terminal does. */
+    /** Shows what the engine and behaviours print, as natively the terminal does; errors of functions also among the problems. */
     hear(text) {
+        this.unread?.push(...unreadSaid(text));
+        const known = new Set(this.faults.map((f) => `${f.file}:${f.line}`)), faults = faultsSaid(text).filter((f) => !known.has(`${f.file}:${f.line}`));
+        if (faults.length && this.faults.length < MOST) {
+            this.faults.push(...faults);
+            this.setProblems(this.checked ?? []);
+        }
         this.said = [...this.said, ...text.split("\n")].slice(-LINES);
         const node = byId("said"), lines = node.querySelector("pre"), follows = lines.scrollTop + lines.clientHeight >= lines.scrollHeight - 4;
         node.hidden = false;
@@ -267,8 +315,9 @@ export class Desk {
 
     /** Tells what a save changed: people by state before and after, and what needs a restart. */
     tellNews(news, back) {
-        const later = news.some((item) => item.later);
+        const later = news.some((item) => item.later), { unread } = this;
         const rows = news.map((item) => el("div", { className: "item" }, el("strong", {}, `${item.file.split("/").pop()} is ${back ? "as before" : "live"}`), el("ul", {}, newsLines(item).map((line) => el("li", {}, line)))));
+        if (unread.length) rows.push(el("p", {}, `Nothing that runs reads ${unread.join(", ")}: a scene or a behaviour has to name it.`));
         this.tell(rows.length ? "" : back ? "The save is taken back." : "Saved.", rows, el("div", { className: "row" },
             later ? el("button", { type: "button", className: "main", onclick: () => this.restart() }, "Restart, so that all of it counts") : null,
             back ? null : el("button", { type: "button", onclick: () => this.undo() }, "Undo this save")));
@@ -286,12 +335,17 @@ export class Desk {
         this.keep();
         await this.restart();
         if (this.live && done) this.tell(done);
+        this.share.offerBack(before);
         byId("outcome").append(el("button", { type: "button", onclick: () => this.open(before, "What was here before is back.") }, "Back to what was here"));
     }
 
     bindDivider() {
         const divider = byId("divider"), main = divider.parentElement;
-        const set = (share) => main.style.setProperty("--desk", `${Math.min(75, Math.max(20, share)).toFixed(1)}%`);
+        const set = (share) => {
+            const kept = Math.min(75, Math.max(20, share));
+            main.style.setProperty("--desk", `${kept.toFixed(1)}%`);
+            divider.setAttribute("aria-valuenow", String(Math.round(kept)));
+        };
         divider.onpointerdown = (event) => {
             divider.setPointerCapture(event.pointerId);
             document.body.classList.add("dragging"); // the frame would take the pointer

@@ -1,6 +1,6 @@
 // The tabs of files, and what adds one: a new behaviour, a shipped one, or a mod.
 import { byId, el, fill } from "../../../core/view/page/dom.js";
-import { folderOf, modsNamed, pathsFault, plainPath, turnOnMod } from "../project/references.js";
+import { ENDINGS, folderOf, isFileName, modsNamed, pathsFault, plainPath, turnOnMod } from "../project/references.js";
 
 const BEHAVIOUR = (name) => `return machine {
   name = "${name}", version = 1, start = "Wait",
@@ -9,6 +9,8 @@ const BEHAVIOUR = (name) => `return machine {
   },
 }
 `;
+
+const NAMED = `A file is named like walker.lua or hall.yaml: letters, digits, spaces, "-", "_" and "."; it ends in ${ENDINGS.map((ending) => `.${ending}`).join(", ")}.`;
 
 export class FilesBar {
     constructor(desk) {
@@ -65,9 +67,13 @@ export class FilesBar {
         const choose = el("select", { "aria-label": "A shipped behaviour" }, lua.map((path) => el("option", { value: path }, path.split("/").pop())));
         const used = modsNamed(desk.texts[desk.scene]), names = [...new Set(Object.keys(files).map((path) => /^scenes\/mods\/([\w-]+)\//.exec(path)?.[1]).filter(Boolean))];
         const mods = names.filter((mod) => !used.includes(mod) && this.fits(files, mod));
-        const shown = desk.path, remove = shown === desk.scene ? null : el("button", { type: "button", onclick: () => this.remove(shown) }, `Remove ${shown.split("/").pop()}`);
+        const shown = desk.path, other = el("input", { type: "text", value: shown, "aria-label": `Another name for ${shown}`, spellcheck: false });
+        const rename = el("form", { onsubmit: (event) => {
+            event.preventDefault();
+            this.rename(shown, other.value.trim());
+        } }, other, el("button", { type: "submit" }, "Rename"), shown === desk.scene ? null : el("button", { type: "button", onclick: () => this.remove(shown) }, `Remove ${shown.split("/").pop()}`));
         return fill(node, form, el("div", { className: "row" }, el("label", {}, "Shipped behaviour ", choose), el("button", { type: "button", onclick: () => this.put(choose.value, files[choose.value]) }, "Add")),
-            mods.map((mod) => el("div", { className: "row" }, el("button", { type: "button", onclick: () => this.useMod(mod, files, here) }, `Use the mod ${mod}`), el("span", { className: "faint" }, titleOfMod(files, mod)))), remove);
+            mods.map((mod) => el("div", { className: "row" }, el("button", { type: "button", onclick: () => this.useMod(mod, files, here) }, `Use the mod ${mod}`), el("span", { className: "faint" }, titleOfMod(files, mod)))), el("hr"), el("p", { className: "faint" }, "The file that is shown"), rename);
     }
 
     /** Whether a mod patches a file of this project. */
@@ -78,11 +84,24 @@ export class FilesBar {
 
     add(name) {
         const { desk } = this, path = plainPath(name.includes("/") ? name : folderOf(desk.scene) + name);
-        if (!/^(?:[\w-][\w.-]*\/)*[\w-][\w.-]*\.(lua|yaml)$/.test(name)) return desk.tell("A file is named like walker.lua or hall.yaml.");
+        if (!isFileName(name)) return desk.tell(NAMED);
         if (Object.hasOwn(desk.texts, path)) return desk.show(path);
         const fault = pathsFault([...Object.keys(desk.texts), path]);
         if (fault) return desk.tell(`No file is added: ${fault}.`);
-        return this.put(path, name.endsWith(".lua") ? BEHAVIOUR(name.split("/").pop().slice(0, -4)) : "jostle: 1\n");
+        return this.put(path, name.endsWith(".lua") ? BEHAVIOUR(name.split("/").pop().slice(0, -4)) : name.endsWith(".yaml") ? "jostle: 1\n" : "");
+    }
+
+    /** Gives a file another name, in its folder unless that names another one. */
+    rename(path, name) {
+        const { desk } = this, to = plainPath(name.includes("/") ? name : folderOf(path) + name), ending = (of) => of.split(".").pop();
+        byId("add").open = false;
+        if (to === path) return undefined;
+        if (!isFileName(name)) return desk.tell(NAMED);
+        if (ending(to) !== ending(path)) return desk.tell(`${path} is not renamed: its name ends in .${ending(path)}, by which it is read.`);
+        if (Object.hasOwn(desk.texts, to)) return desk.tell(`${path} is not renamed: there is a file ${to}.`);
+        const fault = pathsFault([...Object.keys(desk.texts).filter((other) => other !== path), to]);
+        if (fault) return desk.tell(`${path} is not renamed: ${fault}.`);
+        return desk.rename(path, to);
     }
 
     remove(path) {

@@ -6,10 +6,11 @@ import { findOpened } from "./opened.js";
 const LONG = 15000; // ms after which an answer of the engine is late
 const LATEST = 6000; // ms after which the editor is loaded though no crowd moves: what is opened may have errors
 
-const told = new EventTarget(); // "scene", "status", "reloaded", "said" and "failed" of the engine
+const told = Object.assign(new EventTarget(), { heard: [] }); // "scene", "status", "reloaded", "said" and "failed" of the engine; what it said before the desk was there
 let hasMoved;
 const moved = new Promise((resolve) => (hasMoved = resolve));
 const engine = new EngineClient(window.engineWorker, (event) => {
+    if (event.event === "said" && !window.desk) told.heard.push(event.text);
     told.dispatchEvent(new CustomEvent(event.event, { detail: event.message ?? event.text }));
 });
 

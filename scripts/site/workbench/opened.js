@@ -1,5 +1,5 @@
-// What an address opens: "#scene=NAME" a shipped scene, "#lesson=N" a lesson, "#edit=..." the edit that a link carries. Work that was
-// left unsaved there comes back.
+// What an address opens: "#scene=NAME" a shipped scene, "#lesson=N" a lesson, "#edit=..." the edit that a link carries, "#work=NAME" work
+// on such an edit that the browser keeps. Work that was left unsaved on a scene, a lesson or a link comes back.
 import { Draft } from "../project/draft.js";
 import { unpackProject } from "../project/link.js";
 import { checksum } from "../project/zip.js";
@@ -41,7 +41,14 @@ async function openLink(text) {
     return { name, title: "Dodge-ball, step by step", scene, files, lessons, lesson: lessonAt(lessons, lesson) };
 }
 
-const OPENERS = new Map([["scene", openScene], ["lesson", openLesson], ["edit", openLink]]);
+async function openWork(name) {
+    const kept = new Draft(name).find();
+    if (!kept) throw new Error("This browser no longer keeps that work.");
+    const { lessons } = kept.lesson === undefined ? {} : await fetchJson("data/lessons.json");
+    return { name, title: kept.title ?? titleOf(kept.files[kept.scene], kept.scene), scene: kept.scene, files: {}, ...(lessons ? { lessons, lesson: lessonAt(lessons, kept.lesson) } : {}) };
+}
+
+const OPENERS = new Map([["scene", openScene], ["lesson", openLesson], ["edit", openLink], ["work", openWork]]);
 
 export function titleOf(text, path) {
     return /^title: *["']?(.*?)["']?\s*$/m.exec(text ?? "")?.[1] || path.split("/").pop();

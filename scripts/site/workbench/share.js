@@ -1,8 +1,9 @@
 // Sharing: a link whose fragment carries all files, and a zip that the native program runs as it is.
 import { byId, el, fill } from "../../../core/view/page/dom.js";
 import { packProject } from "../project/link.js";
-import { readZip, writeZip } from "../project/zip.js";
+import { MOST_PACKED, readZip, writeZip } from "../project/zip.js";
 
+const FEW = 3; // files named that an archive has in vain
 const LONG = 8000; // characters of a link that some programs cut
 
 /** The scene of an archive: the first file in YAML that begins one, outside of mods. */
@@ -14,10 +15,18 @@ export class Share {
     constructor(desk) {
         this.desk = desk;
         const button = (text, onclick) => el("button", { type: "button", onclick }, text);
+        this.back = button("Back to what was here before", () => this.before && desk.open(this.before, "What was here before is back."));
+        this.back.hidden = true;
         this.file = el("input", { type: "file", accept: ".zip,application/zip", hidden: true, onchange: () => this.file.files[0] && this.openZip(this.file.files[0]) });
         fill(byId("share").querySelector("div"), button("Copy a link", () => this.copyLink()), button("Download a zip", () => this.download()),
-            button("Open a zip", () => this.file.click()), this.file, el("p", { className: "faint" }, "Both carry all files. The zip runs natively, too: unpack it, and ", el("code", {}, "jostle run SCENE --view"), "."));
+            button("Open a zip", () => this.file.click()), this.file, this.back, el("p", { className: "faint" }, "Both carry all files. The zip runs natively, too: unpack it, and ", el("code", {}, "jostle run SCENE --view"), "."));
         this.takeDrops(byId("left"));
+    }
+
+    /** Offers what another project has replaced: {scene, files}. */
+    offerBack(before) {
+        this.before = before;
+        this.back.hidden = false;
     }
 
     /** Opens an archive that is dropped on the texts. */
@@ -65,9 +74,11 @@ export class Share {
         const { desk } = this;
         byId("share").open = false;
         try {
-            const files = await readZip(new Uint8Array(await file.arrayBuffer())), scene = sceneOf(files);
+            if (file.size > MOST_PACKED) throw new Error(`it has ${Math.round(file.size / 1e6)} MB, ${MOST_PACKED / 1e6} MB is the limit`);
+            const { files, left } = await readZip(new Uint8Array(await file.arrayBuffer())), scene = sceneOf(files);
             if (!scene) throw new Error("it has no scene: a .yaml file that begins with 'jostle: 1'");
-            await desk.open({ scene, files }, `${file.name} is opened.`);
+            const few = left.slice(0, FEW).join(", "), more = left.length > FEW ? ` and ${left.length - FEW} more` : "";
+            await desk.open({ scene, files }, `${file.name} is opened.${left.length ? ` Left out, as they are no texts: ${few}${more}.` : ""}`);
         } catch (error) {
             desk.tell(`${file.name} was not opened: ${error.message}.`);
         }
