@@ -109,4 +109,4 @@ writeScenes();
 writeGallery();
 writeLicences();
 writeOffline();
-cpSync(join(root, "core/view/page/pictures/tawaf.webp"), join(out, "previews/poster.webp"));
+cpSync(join(here, "pictures/poster.webp"), join(out, "previews/poster.webp"));

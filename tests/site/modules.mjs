@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { Buffer } from "node:buffer";
 import { execFileSync } from "node:child_process";
 import { randomBytes } from "node:crypto";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { gzipSync } from "node:zlib";
@@ -312,6 +312,12 @@ const tests = {
         const loaded = ["engine/engine.mjs", "engine/jostle.mjs", "engine/jostle.wasm", "engine/shipped.json", "page/index.html", "page/main.js", "page/style.css", "site.css", "worker.js", "workbench.html", "workbench.js"];
         const sizes = loaded.map((path) => gzipSync(readFileSync(join(SITE, path)), { level: 9 }).length), all = sizes.reduce((sum, size) => sum + size, 0);
         assert.ok(all <= 1.5e6, `${all} bytes: ${loaded.map((path, n) => `${path} ${sizes[n]}`).join(", ")}`);
+    },
+
+    "pictures of the first page are small, and come when they are in sight"() {
+        const large = readdirSync(join(SITE, "previews")).filter((name) => statSync(join(SITE, "previews", name)).size > 60e3), page = read("index.html");
+        assert.deepEqual(large, []);
+        assert.equal(page.match(/<img /g).length, page.match(/loading="lazy"/g).length + 1, "all but the first one");
     },
 
     "previews are cut to the crowd"() {
