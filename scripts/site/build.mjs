@@ -14,7 +14,7 @@ import { filesOf } from "./project/references.js";
 const here = dirname(fileURLToPath(import.meta.url)), root = resolve(here, "../..");
 const [out, jostle, engine, node] = process.argv.slice(2).map((path) => resolve(path));
 const esbuild = createRequire(join(node, "package.json"))("esbuild");
-const LAST_LESSON = "A game that you play"; // the sections after it need a terminal
+const LEFT = ["A test"]; // sections of the tutorial that need a terminal
 
 const read = (path) => (existsSync(join(root, path)) ? readFileSync(join(root, path), "utf8") : undefined);
 const escape = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
@@ -63,8 +63,7 @@ function writeGallery() {
 
 function writeData() {
     mkdirSync(join(out, "data"), { recursive: true });
-    const all = readLessons(read("behaviours/README.md")), lessons = all.slice(0, all.findIndex(({ title }) => title === LAST_LESSON) + 1);
-    writeFileSync(join(out, "data/lessons.json"), JSON.stringify({ lessons }));
+    writeFileSync(join(out, "data/lessons.json"), JSON.stringify({ lessons: readLessons(read("behaviours/README.md"), LEFT) }));
     const words = { ...readDefinitions(read("scripts/editor/jostle.lua")), scene: readSchema(JSON.parse(read("scripts/scene.schema.json"))),
         behaviours: readdirSync(join(root, "behaviours")).filter((name) => name.endsWith(".lua")) };
     writeFileSync(join(out, "data/words.json"), JSON.stringify(words));

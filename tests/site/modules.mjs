@@ -41,12 +41,12 @@ function sceneFiles(scene) {
 const labels = (found) => found?.options.map((o) => o.label) ?? [];
 const completed = (path, before, files = {}) => labels(complete({ path, before, text: before, words, files, asked: false }));
 
-/** What the workbench gives a lesson's check, without a crowd that runs. */
-function givenFor(texts, live = { news: [], scene: null, status: null }) {
-    const run = (files, seconds) => {
+/** What the workbench gives the check of a lesson with this scene, without a crowd that runs. */
+function givenFor(lesson, texts, live = { news: [], scene: null, status: null, inspect: null }) {
+    const run = (files, seconds, path) => {
         let scene;
         try {
-            scene = engine.open({ files, scene: "court.yaml", say() {} });
+            scene = engine.open({ files, scene: path, say() {} });
         } catch (error) {
             return { errors: error.errors };
         }
@@ -56,24 +56,25 @@ function givenFor(texts, live = { news: [], scene: null, status: null }) {
             scene.close();
         }
     };
-    return { texts, problems: engine.check(texts, "court.yaml"), observe: async (files, seconds) => run(files, seconds), live, lessons };
+    return { texts, problems: engine.check(texts, lesson.scene), observe: async (...given) => run(...given), live, lessons, scene: lesson.scene };
 }
 
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
 /**
- * Runs a lesson as its reader does, who saves it over the one before, restarts and plays where `anew`. Returns what the workbench
- * would know of the crowd that runs.
+ * Runs a lesson as its reader does, who saves it over the one before, restarts and plays where `anew`, and at last chooses a player and
+ * stops the time. Returns what the workbench would know of the crowd that runs.
  */
-async function playedLive(before, after, anew) {
-    const scene = engine.open({ files: anew ? after : before, scene: "court.yaml", page: true, say() {} }), live = { news: [], scene: null, status: null };
+async function playedLive(lesson, before, anew) {
+    const scene = engine.open({ files: anew ? lesson.after : before, scene: lesson.scene, page: true, say() {} }), live = { news: [], scene: null, status: null, inspect: null };
     const take = () => scene.takeMessages().filter((m) => m.text).map((m) => JSON.parse(m.text)).forEach((m) => m.type in live && (live[m.type] = m));
     try {
         scene.turn();
-        if (!anew) live.news = scene.reload(after).news;
+        if (!anew) live.news = scene.reload(lesson.after).news;
         scene.command({ do: "play", level: "" });
         for (let n = 0; n < 60; n++) { // of turns: the page's clock is the wall's
-            scene.command({ do: "input", line: "player 0 1 0" });
+            if (scene.plan().groups.some(({ name }) => name === "red")) scene.command({ do: "input", line: "player 0 1 0" });
+            if (lesson.title === "Why not?" && n > 40) [{ do: "inspect", find: "3" }, { do: "pause", on: true }].forEach((command) => scene.command(command));
             scene.turn();
             take();
             await pause(25);
@@ -299,11 +300,11 @@ const tests = {
     async "a lesson's own solution passes its check, and what it begins with does not"() {
         assert.deepEqual(Object.keys(CHECKS), lessons.map((l) => l.title));
         for (const [n, lesson] of lessons.entries()) {
-            const begun = await CHECKS[lesson.title](givenFor(lessonFiles(lesson)));
+            const begun = await CHECKS[lesson.title](givenFor(lesson, lessonFiles(lesson)));
             assert.ok(begun.some((i) => !i.holds), `${lesson.title}: passes from its beginning`);
-            const live = n >= 4 ? await playedLive(lessons[n - 1].after, lesson.after, n > 4) : undefined, solved = await CHECKS[lesson.title](givenFor(lesson.after, live));
+            const live = n >= 4 ? await playedLive(lesson, lessons[n - 1].after, n > 4) : undefined, solved = await CHECKS[lesson.title](givenFor(lesson, lesson.after, live));
             assert.deepEqual(solved.filter((i) => !i.holds), [], lesson.title);
-            const written = await CHECKS[lesson.title](givenFor(lesson.after));
+            const written = await CHECKS[lesson.title](givenFor(lesson, lesson.after));
             assert.ok(n < 4 || written.some((i) => !i.holds), `${lesson.title}: passes without a crowd that runs`);
         }
     },

@@ -1,7 +1,7 @@
 // The engine in a worker: calls with answers, and what it tells by itself.
 
 export class EngineClient {
-    /** `worker`: that of worker.js. `tell(event)`: takes {event: "scene" | "status" | "reloaded" | "said" | "failed", ...}. */
+    /** `worker`: that of worker.js. `tell(event)`: takes {event: "scene" | "status" | "reloaded" | "inspect" | "said" | "failed", ...}. */
     constructor(worker, tell = () => {}) {
         this.calls = new Map();
         this.count = 0;

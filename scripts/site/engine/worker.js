@@ -6,7 +6,7 @@ import { plainPath } from "../project/references.js";
 import { observe } from "./observe.js";
 import { makeSchedule } from "./schedule.js";
 
-const TOLD = new Set(["scene", "status", "reloaded"]); // messages of which the workbench gets a copy
+const TOLD = new Set(["scene", "status", "reloaded", "inspect"]); // messages of which the workbench gets a copy
 const NEEDS = "This browser cannot run the engine, which needs WebAssembly with SIMD and exceptions: Chrome or Edge 95, Firefox 100, Safari 16.4, or later";
 const locate = (name) => new URL(`engine/${name}`, location.href).href;
 let takeModule;

@@ -16,14 +16,14 @@ export function readInline(text) {
     return parts;
 }
 
-/** Blocks of a section: {text: parts}, {file, language, code}, {shell}. Pictures are left out: the crowd is beside the text. */
+/** Blocks of a section: {text: parts}, {file, language, code}, {shell}: also tests. Pictures are left out: the crowd is beside the text. */
 function readBlocks(text) {
     const blocks = [], lines = text.split("\n");
     for (let n = 0; n < lines.length; n++) {
         const fence = /^```(\w+)(?: (\S+))?$/.exec(lines[n]);
         if (fence) {
             const end = lines.indexOf("```", n + 1), code = `${lines.slice(n + 1, end).join("\n")}\n`;
-            blocks.push(fence[1] === "sh" ? { shell: code.trim() } : { file: fence[2], language: fence[1], code });
+            blocks.push(fence[1] === "sh" || fence[2].endsWith("_test.lua") ? { shell: code.trim() } : { file: fence[2], language: fence[1], code });
             n = end;
         } else if (lines[n].trim() && !lines[n].startsWith("![")) {
             let end = n;
@@ -36,14 +36,18 @@ function readBlocks(text) {
     return blocks;
 }
 
-/** Returns the sections of the tutorial: [{title, blocks, before, after}], `before` and `after` being the files {path: text}. */
-export function readLessons(markdown) {
+/**
+ * Returns the sections of the tutorial but those whose titles are in `left`: [{title, blocks, scene, before, after}]. `scene`: the path of
+ * the first scene that it writes, else that of the section before; `before` and `after`: files {path: text}.
+ */
+export function readLessons(markdown, left = []) {
     const start = HEADING.exec(markdown).index;
-    let files = {};
-    return markdown.slice(start).split(/^### /m).slice(1).filter((section) => /^\d+\. /.test(section)).map((section) => {
-        const [heading, ...rest] = section.split("\n");
-        const blocks = readBlocks(rest.join("\n")), before = files;
+    let files = {}, scene = null;
+    const sections = markdown.slice(start).split(/^### /m).slice(1).map((section) => section.split("\n")).filter(([heading]) => /^\d+\. /.test(heading));
+    return sections.map(([heading, ...rest]) => [heading.replace(/^\d+\. /, ""), rest.join("\n")]).filter(([title]) => !left.includes(title)).map(([title, text]) => {
+        const blocks = readBlocks(text), before = files;
         files = { ...files, ...Object.fromEntries(blocks.filter((b) => b.file).map((b) => [b.file, b.code])) };
-        return { title: heading.replace(/^\d+\. /, ""), blocks, before, after: files };
+        scene = blocks.find((b) => b.file?.endsWith(".yaml"))?.file ?? scene;
+        return { title, blocks, scene, before, after: files };
     });
 }

@@ -100,6 +100,18 @@ export class Desk {
         this.checkSoon(PAUSE);
     }
 
+    /** Chooses the scene that runs from the next start on: nothing is live until then. */
+    chooseScene(path) {
+        if (path === this.scene) return;
+        this.scene = path;
+        this.live = null;
+        this.versions = [];
+        this.faults = [];
+        this.keep();
+        this.refresh();
+        this.checkSoon(0);
+    }
+
     /** Replaces the text of a file by another one, which the editor can take back. */
     replace(path, text) {
         const isNew = !(path in this.texts);

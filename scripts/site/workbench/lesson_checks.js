@@ -9,16 +9,16 @@ const moved = (box) => (box ? Math.hypot(box.right - box.left, box.high - box.lo
 const sum = (census) => census.reduce((all, { people }) => all + people, 0);
 
 /** Runs what is written; {} with nobody in it where it has errors. */
-async function run(given, seconds = SECONDS, texts = given.texts) {
-    const tried = await given.observe(texts, seconds);
+async function run(given, seconds = SECONDS, texts = given.texts, scene = given.scene) {
+    const tried = await given.observe(texts, seconds, scene);
     return { people: {}, transitions: [], kicks: [], hits: [], reach: {}, bodies: {}, ...tried };
 }
 
 const item = (text, holds, why = "") => ({ text, holds: Boolean(holds), why });
 
 /**
- * Checks by title. Each gets {texts, problems, observe(texts, seconds), live: {news, scene, status}, lessons} and returns
- * [{text, holds, why}].
+ * Checks by title. Each gets {texts, problems, observe(texts, seconds, scene), live: {news, scene, status, inspect}, lessons, scene: the
+ * path of the lesson's} and returns [{text, holds, why}].
  */
 export const CHECKS = {
     async "A court"(given) {
@@ -86,7 +86,41 @@ export const CHECKS = {
             item("You drive a player of red", (status?.game?.on && peopleIn(scene, status, "Play") > 0), "Use WASD or the arrow keys; click the picture first"),
         ];
     },
+
+    async "Why not?"({ live: { status, inspect } }) {
+        const { agent, why } = inspect ?? {};
+        return [
+            item("A player is chosen", agent, "Click one in the picture, or find its number in the tab Person below it"),
+            item("The transitions out of its state are listed there", agent && why?.transitions?.length > 0, "A state without transitions has none: choose a player who attacks or defends"),
+            item("The time stands still, and the list is the same", agent && status?.paused, "Press Space in the picture, or the button at its top"),
+        ];
+    },
+
+    async "A machine that a state runs"(given) {
+        const tried = await run(given, 20), of = tried.transitions.filter((t) => t.group === "referee");
+        return [
+            item("The referee runs the patrol: it seeks a court and waits there", of.some((t) => /^Patrol\.\d.* wait/.test(t.to))),
+            item("Near the ball it stands and watches", goesTo(tried, "referee", "Watch")),
+            item("Then it goes back to the step that it left", of.some((t, n) => t.from === "Watch" && n > 0 && t.to === of[n - 1].from)),
+            item("The scene runs in the picture", given.live.scene?.machines?.some((m) => m.name === "referee"), "Start it: it is another scene"),
+        ];
+    },
+
+    async "People who know each other"(given) {
+        const tag = await run(given, 30), lost = await run(given, 30, given.texts, "lost.yaml");
+        const chasers = new Set(tag.transitions.filter((t) => t.to === "Chase").map((t) => t.group));
+        return [
+            item("In yard.yaml somebody chooses whom to chase, and catches them", tag.transitions.some((t) => t.from === "Chase" && t.to === "Walk")),
+            item("Who is caught is told so, and chases then", chasers.size === 2),
+            item("In lost.yaml somebody asks the way, and is answered", goesTo(lost, "lost", "Go")),
+            item("They arrive", goesTo(lost, "lost", "There")),
+            item("One of the two scenes runs in the picture", given.live.scene?.machines?.some((m) => m.name === "tag" || m.name === "lost"), "Start it: it is another scene"),
+        ];
+    },
 };
+
+/** What is said at the end of lessons at which something is finished. */
+export const ENDS = { "A game that you play": "That is your game. Share it by a link or a zip, at the top; the next lessons show what else there is." };
 
 /** People in the states of this name, by a scene message and a status. */
 function peopleIn(scene, status, state) {

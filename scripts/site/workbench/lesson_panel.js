@@ -1,7 +1,7 @@
 // The walk through the tutorial: a lesson's text, what it asks for, and the way to the next one.
 import { byId, el, fill } from "../../../core/view/page/dom.js";
 import { lessonFiles } from "./opened.js";
-import { CHECKS } from "./lesson_checks.js";
+import { CHECKS, ENDS } from "./lesson_checks.js";
 
 const HERE = "You need no terminal here: the list below the editor says what jostle check says, and Save loads the files into the crowd beside it.";
 
@@ -14,10 +14,10 @@ export class LessonPanel {
         this.desk = desk;
         this.lessons = lessons;
         this.number = number;
-        this.live = { news: [], scene: null, status: null };
+        this.live = { news: [], scene: null, status: null, inspect: null };
         this.node = byId("lesson");
         this.node.hidden = false;
-        for (const event of ["scene", "status"]) {
+        for (const event of ["scene", "status", "inspect"]) {
             desk.told.addEventListener(event, ({ detail }) => {
                 this.live[event] = detail;
                 if (this.watches) this.show();
@@ -32,9 +32,10 @@ export class LessonPanel {
         return this.lessons[this.number];
     }
 
-    /** The file that this lesson writes first. */
+    /** The file to show: the one that this lesson writes first, once it is there. */
     file() {
-        return this.lesson.blocks.find((b) => b.file)?.file ?? "court.yaml";
+        const first = this.lesson.blocks.find((b) => b.file)?.file;
+        return first in this.desk.texts ? first : this.lesson.scene;
     }
 
     /** Puts the lesson's number into the address; that of a link stays, which opens its files. */
@@ -53,10 +54,11 @@ export class LessonPanel {
         this.tellAddress();
         this.draw();
         this.node.querySelector(".text").scrollTop = 0;
-        if (afresh) await this.desk.open({ scene: "court.yaml", files: lessonFiles(this.lesson) });
+        if (afresh) await this.desk.open({ scene: this.lesson.scene, files: lessonFiles(this.lesson) });
         const missing = Object.entries(lessonFiles(this.lesson)).filter(([path]) => !(path in this.desk.texts));
         for (const [path, text] of missing) this.desk.replace(path, text);
-        this.desk.show(this.file() in this.desk.texts ? this.file() : "court.yaml");
+        this.desk.chooseScene(this.lesson.scene);
+        this.desk.show(this.file());
         this.desk.keep();
         await this.check();
     }
@@ -69,7 +71,8 @@ export class LessonPanel {
 
     write({ file, code }) {
         this.desk.replace(file, code);
-        this.desk.tell(`${file} is written, and not saved yet. Save loads it into the crowd (Ctrl+S).`);
+        if (/^jostle:/m.test(code)) this.desk.chooseScene(file);
+        this.desk.tell(`${file} is written, and not saved yet. ${this.desk.live ? "Save loads it into the crowd" : "Start runs it"} (Ctrl+S).`);
     }
 
     draw() {
@@ -91,19 +94,19 @@ export class LessonPanel {
         const tried = new Map();
         let problems;
         try {
-            problems = await desk.checker.call("check", { files: desk.live ?? desk.texts, path: desk.scene });
+            problems = await desk.checker.call("check", { files: desk.live ?? desk.texts, path: lesson.scene });
         } catch {
             return; // told by the desk
         }
         this.live.news = desk.lastNews ?? [];
         const texts = { ...(desk.live ?? desk.texts) };
-        const observe = (files, seconds) => {
-            const key = JSON.stringify([files, seconds]);
-            if (!tried.has(key)) tried.set(key, desk.checker.call("observe", { files, path: desk.scene, seconds }));
+        const observe = (files, seconds, path) => {
+            const key = JSON.stringify([files, seconds, path]);
+            if (!tried.has(key)) tried.set(key, desk.checker.call("observe", { files, path, seconds }));
             return tried.get(key);
         };
         const { lessons, live } = this;
-        this.look = () => CHECKS[lesson.title]({ texts, problems, observe, live, lessons });
+        this.look = () => CHECKS[lesson.title]({ texts, problems, observe, live, lessons, scene: lesson.scene });
         this.watches = false;
         const items = await this.look();
         if (asked !== this.asked) return;
@@ -127,7 +130,7 @@ export class LessonPanel {
         const all = items.every((i) => i.holds), last = this.number === this.lessons.length - 1;
         this.node.dataset.done = String(all);
         fill(this.list, items.map(({ text, holds, why }) => el("li", { "data-holds": String(holds) }, text, !holds && why ? el("span", { className: "faint" }, ` ${why}`) : null)));
-        this.done.textContent = all ? (last ? "That is your game. Share it by a link or a zip, at the top." : "Done.") : "";
+        this.done.textContent = all ? ENDS[this.lesson.title] ?? (last ? "That was the last lesson." : "Done.") : "";
         this.next.classList.toggle("main", all);
     }
 }

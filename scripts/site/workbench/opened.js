@@ -26,12 +26,12 @@ const lessonAt = (lessons, number) => Math.min(Math.max(Math.floor(Number(number
 
 /** The files with which a lesson begins: an empty scene in place of what the lesson is to write. */
 export function lessonFiles(lesson) {
-    return { "court.yaml": "# The scene goes here.\n", ...lesson.before };
+    return { [lesson.scene]: "# The scene goes here.\n", ...lesson.before };
 }
 
 async function openLesson(number) {
     const { lessons } = await fetchJson("data/lessons.json"), at = lessonAt(lessons, Number(number) - 1);
-    return { name: "lesson", title: "Dodge-ball, step by step", scene: "court.yaml", files: lessonFiles(lessons[at]), lessons, lesson: at };
+    return { name: "lesson", title: "Dodge-ball, step by step", scene: lessons[at].scene, files: lessonFiles(lessons[at]), lessons, lesson: at };
 }
 
 async function openLink(text) {
