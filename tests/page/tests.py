@@ -448,7 +448,7 @@ def given_colours(browser, folder):
         people.levels.pixels = [1e9, 1e9, 1e9];
         view.dirty = true;
         view.draw(performance.now());
-        return [1, 5, 6].map((action) => people.uniforms.boxes.value.image.data[4 * (3 * phases + action) * columns] !== 0);""")
+        return [1, 5, 6].map((action) => people.uniforms.boxes.value.image.data.slice(4 * (3 * phases + action) * columns, 4 * (3 * phases + action + 1) * columns).some(Boolean));""")
     expect(covers == [True, True, False], f"of brace, point and sit the atlas has {covers}")
     write(folder, "scene.yaml", WALKERS["scene.yaml"].replace("count: 60,", "count: 60, colour: vermilion,"))
     browser.wait("return page.scene.groups[0].colour === '#d55e00'", "the colour of a group does not come")

@@ -111,6 +111,17 @@ def edits(browser):
     bench.run("const started = desk.restart(); desk.replace(arguments[0], arguments[1]); return started", LUA, begun + "-- more\n")
     expect(bench.run("return desk.changed().join()") == LUA, "what was written during a restart counts as saved")
     bench.write(LUA, "-- more\n", "")
+    # After the end of a run a save is one press away from being seen.
+    bench.write("scenes/dodgeball.yaml", "duration: 70", "duration: 1")
+    bench.run("return desk.restart()")
+    bench.wait("return desk.isOver", "the run does not end")
+    bench.write(LUA, "version = 6", "version = 7")
+    bench.save()
+    bench.outcome("dodgeball.lua is live", "The run is over: restart")
+    bench.write("scenes/dodgeball.yaml", "duration: 1", "duration: 70")
+    bench.write(LUA, "version = 7", "version = 6")
+    bench.press("The run is over: restart")
+    bench.wait("return desk.changed().length === 0 && !desk.isOver", "the restart does not count")
     # Names that a zip could not carry are refused; a file that is removed can be put back.
     for name, told in (("/a.lua", "is named like"), ("scenes/dodgeball.yaml/a.lua", "is a file, and the folder of")):
         bench.run("desk.files.add(arguments[0])", name)

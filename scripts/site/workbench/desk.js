@@ -48,6 +48,7 @@ export class Desk {
             this.live = null;
             this.refresh();
         });
+        told.addEventListener("status", ({ detail }) => (this.isOver = Boolean(detail.end)));
         for (const text of told.heard.splice(0)) this.hear(text);
         told.addEventListener("said", ({ detail }) => this.hear(detail));
         this.lesson = opened.lessons ? new LessonPanel(this, opened.lessons, opened.lesson) : null;
@@ -331,7 +332,7 @@ export class Desk {
         const rows = news.map((item) => el("div", { className: "item" }, el("strong", {}, `${item.file.split("/").pop()} is ${back ? "as before" : "live"}`), el("ul", {}, newsLines(item).map((line) => el("li", {}, line)))));
         if (unread.length) rows.push(el("p", {}, `Nothing that runs reads ${unread.join(", ")}: a scene or a behaviour has to name it.`));
         this.tell(rows.length ? "" : back ? "The save is taken back." : "Saved.", rows, el("div", { className: "row" },
-            later ? el("button", { type: "button", className: "main", onclick: () => this.restart() }, "Restart, so that all of it counts") : null,
+            later || this.isOver ? el("button", { type: "button", className: "main", onclick: () => this.restart() }, later ? "Restart, so that all of it counts" : "The run is over: restart") : null,
             back ? null : el("button", { type: "button", onclick: () => this.undo() }, "Undo this save")));
     }
 
