@@ -71,7 +71,6 @@ void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
     Growth growth = {a->count, capacity};
     visit_columns(a, COLUMN_SCRATCH, grow_column, &growth);
     growth.old = 0;
-    grow_column(&growth, &a->scratch, sizeof(uint64_t));
     grow_column(&growth, &a->spare, sizeof(uint32_t));
     a->capacity = capacity;
     jox_shared_create(a);
@@ -169,35 +168,30 @@ typedef struct Gather {
     JoxAgents *agents;
     const uint32_t *order;
     uint32_t count;
+    void *room; /* 8 bytes per agent */
 } Gather;
 
-/* Makes a gathered buffer the column, and the column the next buffer. */
-static void swap_buffers(void **column, void **gathered) {
-    void *before = *column;
-    *column = *gathered;
-    *gathered = before;
-}
-
-/* Permute columns of 4 and of 8 bytes per agent into the buffer, which becomes the column. */
+/* Permutes a column of 4 bytes per agent into the spare one, which then takes its place. */
 static void gather_words(const Gather *gather, void **column) {
     uint32_t *to = gather->agents->spare;
     const uint32_t *from = *column;
     for (uint32_t i = 0; i < gather->count; i++)
         to[i] = from[gather->order[i]];
-    swap_buffers(column, &gather->agents->spare);
+    gather->agents->spare = *column;
+    *column = to;
 }
 
-static void gather_long_words(const Gather *gather, void **column) {
-    uint64_t *to = gather->agents->scratch;
-    const uint64_t *from = *column;
+/* Permutes a column of 8 bytes per agent. */
+static void gather_long_words(const Gather *gather, uint64_t *column) {
+    uint64_t *to = gather->room;
     for (uint32_t i = 0; i < gather->count; i++)
-        to[i] = from[gather->order[i]];
-    swap_buffers(column, &gather->agents->scratch);
+        to[i] = column[gather->order[i]];
+    memcpy(column, to, gather->count * sizeof *column);
 }
 
-/* Permutes a narrow column by way of the scratch buffer. */
+/* Permutes a narrow column. */
 static void gather_bytes(const Gather *gather, char *column, size_t size) {
-    char *to = gather->agents->scratch;
+    char *to = gather->room;
     for (uint32_t i = 0; i < gather->count; i++)
         memcpy(to + i * size, column + gather->order[i] * size, size);
     memcpy(column, to, gather->count * size);
@@ -230,7 +224,7 @@ static void gather_column(void *context, void **column, size_t size) {
     if (size == sizeof(uint32_t)) /* nearly all columns */
         gather_words(gather, column);
     else if (size == sizeof(uint64_t))
-        gather_long_words(gather, column);
+        gather_long_words(gather, *column);
     else if (size < sizeof(uint32_t))
         gather_bytes(gather, rows, size);
     else
@@ -270,8 +264,8 @@ static void check_agents(const JoxAgents *a) {
         check_shared(a->own[s].cells, a->own[s].mask, sizeof(double));
 }
 
-void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
-    Gather gather = {a, order, a->count};
+void jox_agents_permute(JoxAgents *a, const uint32_t *order, void *room) {
+    Gather gather = {a, order, a->count, room};
     uint32_t same = 0;
     while (same < a->count && order[same] == same)
         same++;
@@ -381,7 +375,6 @@ static void free_column(void *context, void **column, size_t size) {
 
 void jox_agents_free(JoxAgents *a) {
     visit_common(a, COLUMN_SCRATCH, free_column, NULL);
-    jox_free(a->scratch);
     jox_free(a->spare);
     jox_free(a->memory);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)

@@ -197,8 +197,8 @@ typedef struct JoxAgents {
     /* Periodic edges: agents that leave at one side come in at the other. Origin and lengths of the
        period, m; 0 along an axis without. Positions stay within [origin, origin + period). */
     JoxV2 origin, period;
-    void *scratch, *spare; /* for permuting: columns of 8 and of 4 bytes per agent */
-    void *row;             /* for permuting: one wider entry */
+    void *spare; /* for permuting: a column of 4 bytes per agent */
+    void *row;   /* for permuting: one wider entry */
     uint32_t *order;
 } JoxAgents;
 
@@ -295,8 +295,8 @@ float jox_param_greatest(const JoxAgents *agents, JoxParameter p);
 /* Deletes all agents with `removed` set and keeps the order of the others. Returns how many. */
 uint32_t jox_agents_compact(JoxAgents *agents);
 /* Permutes the agents: the new agent i is the old agent order[i]. Columns marked SCRATCH hold
-   nothing afterwards. */
-void jox_agents_permute(JoxAgents *agents, const uint32_t *order);
+   nothing afterwards. `room`: 8 bytes per agent, aligned to 8, to work in. */
+void jox_agents_permute(JoxAgents *agents, const uint32_t *order, void *room);
 /* Writes the indices of all agents by ascending id to out[0 .. count - 1]. For single ranks read
    agents->by_rank. */
 void jox_agents_by_id(const JoxAgents *agents, uint32_t *out);

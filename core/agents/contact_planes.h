@@ -25,12 +25,12 @@ typedef struct JoxContactPlane {
 typedef struct JoxContactPlanes {
     /* Half-planes of agent i: planes[starts[i]] and following, people[i] for agents, then bodies[i]
        for bodies. `people` and `bodies` are readable for one packet behind the last agent. */
-    uint32_t *starts;
+    uint32_t *starts, *own_starts; /* starts: own ones where agents touch bodies */
     uint8_t *people, *bodies;
     JoxContactPlane *planes;
     uint32_t agents; /* number of agents with half-planes; 0: contacts were not searched in this
                         step */
-    size_t starts_capacity, people_capacity, bodies_capacity, plane_capacity;
+    size_t starts_capacity, people_capacity, bodies_capacity;
 } JoxContactPlanes;
 
 #endif

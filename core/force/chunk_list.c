@@ -4,17 +4,23 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-void jox_chunks_reserve(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size) {
+void jox_chunk_memory_reserve(JoxChunkMemory *memory, size_t bytes) {
+    if (bytes <= memory->capacity)
+        return;
+    /* No realloc: nothing has to be kept, and pages that are not written stay unused. */
+    jox_free(memory->bytes);
+    memory->bytes = jox_alloc(memory->capacity = bytes + bytes / 2, 1);
+}
+
+void jox_chunks_reserve(JoxChunkList *list, JoxChunkMemory *shared, uint32_t chunks, uint32_t room,
+                        size_t size) {
+    JoxChunkMemory *memory = shared ? shared : &list->own;
     const size_t need = (size_t)chunks * room * size;
-    if (need > list->capacity) {
-        /* No realloc: nothing has to be kept, and pages that are not written stay unused. */
-        jox_free(list->items);
-        list->capacity = need + need / 2;
-        list->items = jox_alloc(list->capacity, 1);
-    }
+    jox_chunk_memory_reserve(memory, need);
+    list->items = memory->bytes;
     JOX_RESERVE(list->counts, list->chunk_capacity, chunks);
     list->room = room;
-    JOX_ASSERT(!need || (list->items && list->capacity >= need));
+    JOX_ASSERT(!need || (list->items && memory->capacity >= need));
 }
 
 uint32_t jox_chunks_count(const JoxChunkList *list, uint32_t chunks) {
@@ -24,7 +30,11 @@ uint32_t jox_chunks_count(const JoxChunkList *list, uint32_t chunks) {
     return sum;
 }
 
+void jox_chunk_memory_free(JoxChunkMemory *memory) {
+    jox_free(memory->bytes);
+}
+
 void jox_chunks_free(JoxChunkList *list) {
-    jox_free(list->items);
+    jox_chunk_memory_free(&list->own);
     jox_free(list->counts);
 }

@@ -31,9 +31,14 @@ struct JoxForces {
     JoIsa isa;      /* instruction set of the kernels */
     JoxDecay decay; /* that of the first agent in a step, as most agents have its damping */
     JoxStageMemory *memory, own_memory; /* from begin on; own_memory: used where none was given */
-    JoxAgentRecord *records;            /* per agent, for finding contacts; in stage memory */
-    float widest;                       /* bound of the distance of surfaces from centres, m */
-    bool has_bodies;                    /* there are bodies that agents can meet */
+    /* Per agent, for finding contacts; in stage memory, which the motions of the solve then use. */
+    JoxAgentRecord *records;
+    /* Memory that several use in turn. found_memory: the transfers of pushes until they are sorted,
+       the pairs found until they are laid out, then contact planes until the next pushes.
+       pair_memory: the pairs until plans are borne, then the transfers of infer. */
+    JoxChunkMemory found_memory, pair_memory;
+    float widest;    /* bound of the distance of surfaces from centres, m */
+    bool has_bodies; /* there are bodies that agents can meet */
 
     JoxTransfers transfers;
     JoxImpulses impulses; /* on bodies */

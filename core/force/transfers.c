@@ -3,20 +3,18 @@
 #include "base/mem.h"
 #include "force/forces.h"
 
-/* Length of a run, in which the list of a chunk is split. The first runs of all chunks are stored
-   together, then the second ones, and so on: with few transfers per chunk, few pages are
-   written. */
-enum { RUN_LENGTH = 16 };
+enum { RUN_LENGTH = 16 }; /* of the runs that the list of a chunk is split into */
 
-void jox_transfers_reserve(JoxForces *f) {
+void jox_transfers_reserve(JoxForces *f, JoxChunkMemory *memory) {
     const uint32_t most = jox_most_chunk_agents(f) * (f->step.neighbours->stride + 1);
-    jox_chunks_reserve(&f->transfers.list, f->chunks,
+    jox_chunks_reserve(&f->transfers.list, memory, f->chunks,
                        (most + RUN_LENGTH - 1) / RUN_LENGTH * RUN_LENGTH, sizeof(JoxTransfer));
 }
 
 /* Returns the first entry of a run of a chunk. */
 static JoxTransfer *get_run(const JoxForces *f, uint32_t chunk, uint32_t run) {
-    return (JoxTransfer *)f->transfers.list.items + ((size_t)run * f->chunks + chunk) * RUN_LENGTH;
+    return (JoxTransfer *)f->transfers.list.items +
+           jox_chunk_run_place(f->chunks, chunk, run * RUN_LENGTH, RUN_LENGTH);
 }
 
 /* Returns how many entries are in a run of a chunk; 0 behind its last run. */

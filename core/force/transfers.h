@@ -22,8 +22,8 @@ typedef struct JoxTransfers {
     size_t start_capacity, sorted_capacity;
 } JoxTransfers;
 
-/* Makes room for the transfers of a stage. */
-void jox_transfers_reserve(struct JoxForces *forces);
+/* Makes room for the transfers of a stage, until they are sorted. */
+void jox_transfers_reserve(struct JoxForces *forces, JoxChunkMemory *memory);
 /* Adds a force, N, that agent i of a chunk gives agent `to`. */
 void jox_transfers_add(struct JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to,
                        JoxV2 force);

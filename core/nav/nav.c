@@ -107,7 +107,7 @@ void jox_nav_free(JoxNav *nav) {
     jox_free(nav->cell_first);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);
-    jox_free(nav->headings);
+    jox_free(nav->walker_headings);
     jox_free(nav->chunk_reach);
     jox_free(nav->unhidden2);
     jox_free(nav->gap_draws);
@@ -121,7 +121,6 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     uint32_t n = nav->capacity = count + count / 4 + 64;
     nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(JoxDrift));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
-    nav->headings = jox_realloc(nav->headings, n, sizeof(JoxHeading));
     nav->chunk_reach = jox_realloc(nav->chunk_reach, n / JOX_NAV_GRAIN + 1, sizeof(float));
     nav->unhidden2 = jox_realloc(nav->unhidden2, n + JOX_LANES, sizeof(float));
 }

@@ -69,7 +69,10 @@ struct JoxNav {
     uint32_t capacity;
     JoxDrift *chunk_drift; /* per chunk of move, within a step */
     uint32_t *chunk_relaxed;
-    JoxHeading *headings; /* filled by walk, and read by solve where agents walk by the law */
+    /* Filled by walk, and read by solve where agents walk by the law: in walker_headings, of
+       heading_room agents. Where none walk so, in stage memory. */
+    JoxHeading *headings, *walker_headings;
+    uint32_t heading_room;
     float *chunk_reach;   /* m: per chunk of walk; below 0 without walkers */
     float *unhidden2;     /* m2: jox_wall_grid_unhidden_distance2 of each agent, of
                              jox_nav_find_unhidden */

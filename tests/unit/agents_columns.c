@@ -33,7 +33,7 @@ static void columns_follow_their_agent(void **state) {
     uint32_t order[300];
     for (uint32_t i = 0; i < 300; i++)
         order[i] = i * 7 % 300;
-    jox_agents_permute(&a, order);
+    jox_agents_permute(&a, order, (uint64_t[300]){0});
     jox_agents_widen(&a, 5, 4);
     for (uint32_t i = 0; i < 300; i++) {
         uint32_t id = a.id[i];
@@ -93,7 +93,7 @@ static void parameters_of_all_are_held_once(void **state) {
     uint32_t order[102];
     for (uint32_t i = 0; i < 102; i++)
         order[i] = 101 - i;
-    jox_agents_permute(&a, order);
+    jox_agents_permute(&a, order, (uint64_t[102]){0});
     assert_true(jox_param(&a, p, 0) == 1.3f && jox_param(&a, p, 2) == 2.0f);
     jox_shared_settle(&a);
     assert_true(a.param[p].mask);
@@ -118,7 +118,7 @@ static void rows_may_be_wide(void **state) {
         for (uint32_t m = 0; m < WIDE; m++)
             a.memory[at * WIDE + m] = i * WIDE + m;
     }
-    jox_agents_permute(&a, ORDER);
+    jox_agents_permute(&a, ORDER, (uint64_t[3]){0});
     for (uint32_t i = 0; i < 3; i++) {
         assert_int_equal(a.tags[i], 100 + ORDER[i]);
         for (uint32_t m = 0; m < WIDE; m++)
@@ -144,6 +144,7 @@ static void a_few_become_many(void **state) {
     (void)state;
     enum { MANY = 200 };
     uint32_t order[MANY];
+    uint64_t room[MANY];
     JoxAgents a = {0};
     jox_agents_widen(&a, 1, 1);
     for (uint32_t n = 1; n <= MANY; n++) {
@@ -158,7 +159,7 @@ static void a_few_become_many(void **state) {
         check_cells(&a);
         for (uint32_t k = 0; k < n; k++)
             order[k] = n - 1 - k;
-        jox_agents_permute(&a, order);
+        jox_agents_permute(&a, order, room);
         check_cells(&a);
     }
     jox_agents_free(&a);
@@ -229,7 +230,7 @@ static void turnover_takes_no_memory(void **state) {
         uint32_t order[100], by_id[100], gone = 0;
         for (uint32_t i = 0; i < 100; i++)
             order[i] = (i * 37 + round) % 100;
-        jox_agents_permute(&a, order);
+        jox_agents_permute(&a, order, (uint64_t[100]){0});
         for (uint32_t i = 0; i < 100; i++)
             a.removed[i] = i % 2 == 0;
         gone = a.id[50];
@@ -315,7 +316,7 @@ static void shuffle(JoxAgents *a) {
     uint32_t order[200];
     for (uint32_t i = 0; i < a->count; i++)
         order[i] = a->count - 1 - i;
-    jox_agents_permute(a, order);
+    jox_agents_permute(a, order, (uint64_t[200]){0});
 }
 
 /* Neither the order in memory, nor scratch, nor the width of rows is part of the state, and what is

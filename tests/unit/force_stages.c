@@ -293,7 +293,7 @@ static void advance_forces(Crowd *c, bool shuffle) {
         for (uint32_t i = 0; i < MANY; i++)
             order[i] = (i * 11 + s * 5) % MANY;
         if (shuffle)
-            jox_agents_permute(a, order);
+            jox_agents_permute(a, order, (uint64_t[MANY]){0});
         begin_crowd_step(c);
         jox_force_push(c->forces);
         jox_force_contact(c->forces);

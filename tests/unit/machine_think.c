@@ -215,7 +215,7 @@ static void hooks_run_by_id_whatever_the_order_in_memory(void **state) {
     f.machines.call = note_call;
     f.machines.call_context = &f.agents;
     const uint32_t order[] = {2, 0, 3, 1};
-    jox_agents_permute(&f.agents, order);
+    jox_agents_permute(&f.agents, order, (uint64_t[4]){0});
     call_count = 0;
     run_step(&f);
     run_step(&f);

@@ -145,6 +145,8 @@ static void open_solve_crowd(Crowd *c, JoIsa isa, uint32_t number) {
         jox_nav_set_walls(c->nav, &c->walls);
     jox_nav_sort(c->nav, &c->agents, 0);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, NULL);
+    c->nav->headings = c->nav->walker_headings = jox_alloc(
+        c->agents.count + JOX_LANES, sizeof *c->nav->headings); /* nobody heads anywhere */
     press_agents(c, pressed);
 }
 

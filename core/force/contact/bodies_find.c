@@ -75,7 +75,7 @@ static uint32_t find_touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTo
 void jox_touches_reserve(JoxForces *f) {
     const uint32_t n = f->step.agents->count;
     JoxTouches *touches = &f->contacts->touches;
-    jox_chunks_reserve(&touches->found, f->chunks,
+    jox_chunks_reserve(&touches->found, NULL, f->chunks,
                        2 * jox_most_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxTouch));
     JOX_RESERVE(touches->first, touches->first_capacity, n);
     JOX_RESERVE(touches->number, touches->number_capacity, n);

@@ -31,11 +31,11 @@ static bool has_full_list(const JoxNeighbours *near, uint32_t count) {
 void jox_contacts_find(JoxForces *f) {
     JoxFoundContacts *found = &f->contacts->found;
     uint32_t n = f->step.agents->count;
-    jox_chunks_reserve(&found->pairs, f->chunks, jox_most_chunk_agents(f) * JOX_CONTACT_MOST_FOUND,
-                       sizeof(JoxFoundPair));
-    jox_chunks_reserve(&found->slots, f->chunks, found->pairs.room, sizeof(JoxPairSlot));
-    jox_chunks_reserve(&found->walls, f->chunks, jox_most_chunk_agents(f) * JOX_CONTACT_MOST_WALLS,
-                       sizeof(JoxFoundWall));
+    jox_chunks_reserve(&found->pairs, &f->found_memory, f->chunks,
+                       jox_most_chunk_agents(f) * JOX_FOUND_RUN, sizeof(JoxFoundPair));
+    jox_chunks_reserve(&found->slots, NULL, f->chunks, found->pairs.room, sizeof(JoxPairSlot));
+    jox_chunks_reserve(&found->walls, NULL, f->chunks,
+                       jox_most_chunk_agents(f) * JOX_CONTACT_MOST_WALLS, sizeof(JoxFoundWall));
     JOX_RESERVE(found->first_pair, found->first_pair_capacity, n + JOX_LANES);
     JOX_RESERVE(found->pair_count, found->pair_count_capacity, n + JOX_LANES);
     JOX_RESERVE(found->first_wall, found->first_wall_capacity, n + JOX_LANES);

@@ -69,12 +69,28 @@ static uint32_t find_covered_lanes(const JoxFindPacket *p) {
 static void write_no_contacts(const JoxFindPacket *p) {
     JoxFoundContacts *lists = &p->f->contacts->found;
     const uint32_t i = p->first, chunk = i / JOX_FORCE_GRAIN;
-    const uint32_t found = chunk * lists->pairs.room + lists->pairs.counts[chunk];
     const uint32_t walls = chunk * lists->walls.room + lists->walls.counts[chunk];
-    ji_store(lists->first_pair + i, ji_set((int32_t)found));
+    ji_store(lists->first_pair + i, ji_set(0));
     ji_store(lists->first_wall + i, ji_set((int32_t)walls));
     ji_store_bytes(lists->pair_count + i, ji_set(0));
     ji_store_bytes(lists->wall_count + i, ji_set(0));
+}
+
+/* Adds contacts of an agent to the list of its chunk; returns the place of the first. */
+static uint32_t list_pairs(const JoxForces *f, uint32_t chunk, const JoxFoundPair *pairs,
+                           uint32_t count) {
+    JoxFoundContacts *lists = &f->contacts->found;
+    uint32_t *n = &lists->pairs.counts[chunk];
+    if (*n % JOX_FOUND_RUN + count > JOX_FOUND_RUN)
+        *n += JOX_FOUND_RUN - *n % JOX_FOUND_RUN;
+    JOX_ASSERT(*n + count <= lists->pairs.room);
+    const size_t at = jox_chunk_run_place(f->chunks, chunk, *n, JOX_FOUND_RUN);
+    JoxPairSlot *slots = (JoxPairSlot *)lists->slots.items + at;
+    memcpy((JoxFoundPair *)lists->pairs.items + at, pairs, count * sizeof *pairs);
+    for (uint32_t k = 0; k < count; k++)
+        slots[k].other = pairs[k].other;
+    *n += count;
+    return (uint32_t)at;
 }
 
 /* Writes the contacts of each lane; finds those of lanes that are not in `covered` first. */
@@ -82,22 +98,16 @@ static void write_contacts(JoxFindPacket *p, uint32_t covered) {
     JoxForces *f = p->f;
     JoxFoundContacts *lists = &f->contacts->found;
     const uint32_t chunk = p->first / JOX_FORCE_GRAIN;
-    JoxFoundPair *found = (JoxFoundPair *)lists->pairs.items + (size_t)chunk * lists->pairs.room;
-    JoxPairSlot *slots = (JoxPairSlot *)lists->slots.items + (size_t)chunk * lists->slots.room;
     JoxFoundWall *walls = (JoxFoundWall *)lists->walls.items;
     walls += (size_t)chunk * lists->walls.room;
-    uint32_t *n = &lists->pairs.counts[chunk], *w = &lists->walls.counts[chunk];
+    uint32_t *w = &lists->walls.counts[chunk];
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         const uint32_t i = p->first + lane;
         if (!(covered >> lane & 1))
             p->count[lane] = jox_find_contacts_alone(f, i, p->walls >> lane & 1, p->found[lane]);
-        JOX_ASSERT(*n + p->count[lane] <= lists->pairs.room);
-        lists->first_pair[i] = chunk * lists->pairs.room + *n;
         lists->pair_count[i] = (uint8_t)p->count[lane];
-        for (uint32_t k = 0; k < p->count[lane]; k++) {
-            slots[*n].other = p->found[lane][k].other;
-            found[(*n)++] = p->found[lane][k];
-        }
+        lists->first_pair[i] =
+            p->count[lane] ? list_pairs(f, chunk, p->found[lane], p->count[lane]) : 0;
         lists->first_wall[i] = chunk * lists->walls.room + *w;
         lists->wall_count[i] =
             p->walled >> lane & 1 ? (uint8_t)jox_find_wall_contacts(f, i, walls + *w) : 0;

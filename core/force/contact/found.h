@@ -10,7 +10,8 @@ enum {
     JOX_NO_COLOUR = 255,        /* a contact that is left out */
     JOX_CONTACT_MOST_WALLS = 8, /* most points at which one agent touches walls */
     JOX_CONTACT_MOST_FOUND =
-        2 * JOX_MOST_NEIGHBOURS /* most contacts that one agent finds with others */
+        2 * JOX_MOST_NEIGHBOURS,           /* most contacts that one agent finds with others */
+    JOX_FOUND_RUN = JOX_CONTACT_MOST_FOUND /* length of the runs of pairs and slots */
 };
 
 #define JOX_SECOND_APART 0.02f /* m: least distance of two points at which the same two touch */
@@ -51,7 +52,9 @@ typedef struct JoxFoundWall {
 
 /* Zero-initialise; it owns its arrays. */
 typedef struct JoxFoundContacts {
-    JoxChunkList pairs, slots, walls;  /* slots: parallel to `pairs` */
+    /* pairs: in runs, none of which ends among the pairs of one agent; in shared
+       memory (JoxForces). slots: parallel to `pairs`. */
+    JoxChunkList pairs, slots, walls;
     uint32_t *first_pair, *first_wall; /* per agent: first one in all chunks' items; first_wall:
                                           after the layout an index into the contacts with walls */
     uint8_t *pair_count, *wall_count;  /* per agent */

@@ -92,17 +92,16 @@ static void colour_pairs(JoxForces *f) {
 
 /* Counts the pairs of each colour that agents [begin, end) found. */
 static void count_colours(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)end, (void)worker;
+    (void)worker;
     JoxForces *f = context;
-    JoxFoundContacts *found = &f->contacts->found;
-    JoxPairs *pairs = &f->contacts->pairs;
-    const uint32_t chunk = begin / JOX_FORCE_GRAIN, first = chunk * found->slots.room;
-    const JoxPairSlot *slots = (const JoxPairSlot *)found->slots.items + first;
-    uint32_t *sizes = pairs->colour_sizes[chunk];
-    memset(sizes, 0, sizeof pairs->colour_sizes[chunk]);
-    for (uint32_t n = 0; n < found->pairs.counts[chunk]; n++)
-        if (slots[n].colour != JOX_NO_COLOUR)
-            sizes[slots[n].colour]++;
+    uint32_t *sizes = f->contacts->pairs.colour_sizes[begin / JOX_FORCE_GRAIN];
+    memset(sizes, 0, sizeof *f->contacts->pairs.colour_sizes);
+    for (uint32_t i = begin; i < end; i++) {
+        const JoxPairSlot *slots = get_slots(f, i);
+        for (uint32_t k = 0; k < f->contacts->found.pair_count[i]; k++)
+            if (slots[k].colour != JOX_NO_COLOUR)
+                sizes[slots[k].colour]++;
+    }
 }
 
 /* Turns the counts of pairs, per chunk and colour, into the place of the first one. */
@@ -232,9 +231,10 @@ static void reserve_layout(JoxForces *f, uint32_t pair_count, uint32_t wall_coun
     JOX_RESERVE(pairs->colour_sizes, pairs->colour_size_capacity, f->chunks);
     JOX_RESERVE(pairs->orders, pairs->order_capacity, agents);
     JOX_RESERVE(pairs->end_starts, pairs->end_start_capacity, (size_t)agents + 1);
-    JOX_RESERVE(pairs->items, pairs->capacity, room);
+    jox_chunk_memory_reserve(&f->pair_memory, room * sizeof *pairs->items);
+    pairs->items = f->pair_memory.bytes;
     JOX_RESERVE(pairs->ends, pairs->end_capacity, 2 * (size_t)room);
-    solve->motions = jox_stage_memory_take(f->memory, agents + JOX_LANES, sizeof *solve->motions);
+    solve->motions = (JoxContactMotion *)(void *)f->records; /* which are read no more */
     JOX_RESERVE(walls->items, walls->capacity, wall_count);
     JOX_RESERVE(walls->groups, walls->group_capacity, (size_t)wall_count + 1);
 }
@@ -356,8 +356,7 @@ void jox_contacts_keep_plans(JoxForces *f) {
 }
 
 void jox_pairs_free(JoxPairs *pairs) {
-    void *owned[] = {pairs->items, pairs->ends, pairs->end_starts, pairs->orders,
-                     pairs->colour_sizes};
+    void *owned[] = {pairs->ends, pairs->end_starts, pairs->orders, pairs->colour_sizes};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
 }

@@ -39,7 +39,7 @@ typedef struct JoxPairOrder {
 
 /* Contacts between agents, sorted by colour. No agent occurs twice in a colour, so that its
    contacts may be solved in any order, on any number of threads. Zero-initialise; it owns its
-   arrays, except `colours_of`. */
+   arrays, except `colours_of` and `items`, which are in shared memory (JoxForces). */
 typedef struct JoxPairs {
     uint32_t count, colours;
     uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* first item of each colour */
@@ -50,7 +50,7 @@ typedef struct JoxPairs {
     JoxPairOrder *orders; /* per agent */
     uint32_t (*colour_sizes)[JOX_CONTACT_MOST_COLOURS]; /* per chunk: numbers of pairs, then place
                                                            of the next one */
-    size_t capacity, end_capacity, end_start_capacity, order_capacity, colour_size_capacity;
+    size_t end_capacity, end_start_capacity, order_capacity, colour_size_capacity;
 } JoxPairs;
 
 /* A contact of an agent with an edge of a wall. */

@@ -117,18 +117,22 @@ void jox_contact_planes_make(JoxForces *f) {
     planes->agents = 0;
     if (!f->contacts->known || f->options.literal || n == 0)
         return;
-    JOX_RESERVE(planes->starts, planes->starts_capacity, n);
     JOX_RESERVE(planes->people, planes->people_capacity, n + JOX_LANES);
     JOX_RESERVE(planes->bodies, planes->bodies_capacity, n + JOX_LANES);
     uint32_t most = pairs->end_starts[n];
-    memcpy(planes->starts, pairs->end_starts, n * sizeof *planes->starts);
-    for (uint32_t i = 0, room = 0; touches->count && i < n;
-         i++) { /* adds room for contacts with bodies */
-        planes->starts[i] += room;
-        room += touches->number[i];
-        most += touches->number[i];
+    planes->starts = pairs->end_starts;
+    if (touches->count) { /* adds room for contacts with bodies */
+        JOX_RESERVE(planes->own_starts, planes->starts_capacity, n);
+        planes->starts = planes->own_starts;
+        for (uint32_t i = 0, room = 0; i < n; i++) {
+            planes->starts[i] = pairs->end_starts[i] + room;
+            room += touches->number[i];
+            most += touches->number[i];
+        }
     }
-    JOX_RESERVE(planes->planes, planes->plane_capacity, most > 8 * n ? most : 8 * n);
+    const size_t room = most > 8 * n ? most : 8 * n; /* a steady step never allocates */
+    jox_chunk_memory_reserve(&f->found_memory, room * sizeof *planes->planes);
+    planes->planes = f->found_memory.bytes;
     planes->agents = n;
     jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, make_chunk_planes, f);
 }

@@ -106,10 +106,9 @@ void jox_contacts_free(JoxContacts *c) {
                      c->walls.groups,
                      c->feet.items,
                      c->solve.residuals,
-                     c->planes.starts,
+                     c->planes.own_starts,
                      c->planes.people,
                      c->planes.bodies,
-                     c->planes.planes,
                      c->kept[JOX_KEPT_PAIRS].items,
                      c->kept[JOX_KEPT_WALLS].items,
                      c->kept[JOX_KEPT_TOUCHES].items};

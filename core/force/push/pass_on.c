@@ -131,7 +131,7 @@ static void scale_transfers(void *context, uint32_t begin, uint32_t end, uint32_
 
 void jox_force_infer(JoxForces *f) {
     JoxAgents *a = f->step.agents;
-    jox_transfers_reserve(f);
+    jox_transfers_reserve(f, &f->pair_memory);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, pass_on_from_chunk, f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, fade_inferred, f);
     f->totals.passed = jox_transfers_sort(f);

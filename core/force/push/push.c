@@ -188,9 +188,9 @@ static void apply_body_pushes(JoxForces *f, uint32_t chunk) {
 void jox_force_push(JoxForces *f) {
     JoxAgents *a = f->step.agents;
     JoxPushes *pushes = f->pushes;
-    jox_transfers_reserve(f);
+    jox_transfers_reserve(f, &f->found_memory);
     if (f->has_bodies)
-        jox_chunks_reserve(&pushes->on_bodies, f->chunks,
+        jox_chunks_reserve(&pushes->on_bodies, NULL, f->chunks,
                            jox_most_chunk_agents(f) * JOX_MOST_BODIES_TOUCHED, sizeof(JoxBodyPush));
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_from_chunk, f);
     int64_t ground_x = 0, ground_y = 0;

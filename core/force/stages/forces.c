@@ -50,6 +50,8 @@ void jox_forces_free(JoxForces *f) {
     if (!f)
         return;
     jox_transfers_free(&f->transfers);
+    jox_chunk_memory_free(&f->found_memory);
+    jox_chunk_memory_free(&f->pair_memory);
     jox_impulses_free(&f->impulses);
     jox_pushes_free(f->pushes);
     jox_supports_free(f->supports);
@@ -82,12 +84,13 @@ static void begin_agents(void *context, uint32_t begin, uint32_t end, uint32_t w
     KERNELS[f->isa](f, begin, end);
 }
 
-/* Returns the stage memory for so many agents, bytes: records, padded to packets, and what
-   contact/layout.c takes. */
+_Static_assert(sizeof(JoxContactMotion) == sizeof(JoxAgentRecord), "motions replace records");
+
+/* Returns the stage memory for so many agents, bytes: records, padded to packets, which motions
+   replace, and what contact/layout.c takes. */
 static size_t measure_stage_memory(size_t agents) {
     return jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxAgentRecord)) +
-           jox_stage_memory_bytes(agents, sizeof(uint64_t)) +
-           jox_stage_memory_bytes(agents + JOX_LANES, sizeof(JoxContactMotion));
+           jox_stage_memory_bytes(agents, sizeof(uint64_t));
 }
 
 void jox_force_begin(JoxForces *f, const JoxStep *step, const JoxForceInputs *inputs) {

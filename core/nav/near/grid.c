@@ -122,10 +122,11 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
     }
     jox_nav_reserve(nav, a->count);
     const float farthest = fit_cells(nav, a);
-    jox_stage_memory_begin(nav->memory, jox_stage_memory_bytes(a->count, sizeof(uint32_t)));
+    jox_stage_memory_begin(nav->memory, jox_stage_memory_bytes(a->count, sizeof(uint32_t)) +
+                                            jox_stage_memory_bytes(a->count, sizeof(uint64_t)));
     uint32_t *order = jox_stage_memory_take(nav->memory, a->count, sizeof *order);
     sort_by_cell(nav, a, a->by_rank, order);
-    jox_agents_permute(a, order);
+    jox_agents_permute(a, order, jox_stage_memory_take(nav->memory, a->count, sizeof(uint64_t)));
     nav->sorted_count = a->count;
     nav->sorted_next_id = a->next_id;
     nav->stray_count = 0;

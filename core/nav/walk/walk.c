@@ -28,6 +28,21 @@ static void aim_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     w->nav->chunk_reach[begin / JOX_NAV_GRAIN] = KERNELS[w->nav->isa].aim(w, begin, end);
 }
 
+/* Makes room for the headings of all agents, which outlasts the stage if some walk by the law. */
+static void reserve_headings(JoxNav *nav, uint32_t agents, bool walks) {
+    if (!walks) {
+        jox_stage_memory_begin(nav->memory, jox_stage_memory_bytes(agents, sizeof(JoxHeading)));
+        nav->headings = jox_stage_memory_take(nav->memory, agents, sizeof(JoxHeading));
+        return;
+    }
+    if (nav->heading_room < nav->capacity) {
+        nav->heading_room = nav->capacity;
+        nav->walker_headings =
+            jox_realloc(nav->walker_headings, nav->heading_room, sizeof(JoxHeading));
+    }
+    nav->headings = nav->walker_headings;
+}
+
 /* Packs the headings of agents for lookup by neighbours. */
 static void head_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
@@ -106,6 +121,8 @@ void jox_nav_walk(JoxNav *nav, const JoxStep *step) {
         reach = jox_maxf(reach, 1.0f);
     if (nav->grid.walls && (walks || turns))
         jox_wall_grid_fit(&nav->grid, reach);
+    if (walks || turns)
+        reserve_headings(nav, step->agents->count, walks);
     if ((walks && step->timing.plans) || turns)
         jox_parallel_for(step->pool, step->agents->count, JOX_NAV_GRAIN, head_range, &walk);
     if (turns)
