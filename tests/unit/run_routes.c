@@ -43,6 +43,26 @@ static void route_to_a_known_goal_exists_from_the_first_step(void **state) {
     jo_scene_free(scene);
 }
 
+/* Fields are kept by place, whoever asks for them. */
+static void groups_bound_for_one_place_share_its_field(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_scene_text("jostle: 1\n"
+                        "places: {goal: {point: [9, 3], radius: 0.4}, elsewhere: {point: [1, 9]}}\n"
+                        "walls: [{line: [[0, 0], [10, 0], [10, 11], [0, 11]], closed: true}]\n"
+                        "groups:\n"
+                        "  left: {behaviour: own.lua, at: [[2, 3]]}\n"
+                        "  right: {behaviour: own.lua, at: [[2, 6]], set: {radius: 0.3}}\n",
+                        GOES);
+    step_scene(scene, 1);
+    uint32_t made = 0;
+    for (uint32_t k = 0; k < 2 * JOX_ROUTE_KINDS; k++)
+        made += scene->world->machines.fields[k] != NULL;
+    assert_int_equal(scene->world->state.agents.count, 2);
+    assert_int_equal(made, 1);
+    jo_scene_free(scene);
+}
+
 static void new_route_is_used_from_a_fixed_step_on(void **state) {
     (void)state;
     JoScene *scene = load_scene_text(COURT("", ""), WAITS);
@@ -142,6 +162,7 @@ static void agent_without_a_way_waits_at_the_gate(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(route_to_a_known_goal_exists_from_the_first_step),
+        cmocka_unit_test(groups_bound_for_one_place_share_its_field),
         cmocka_unit_test(new_route_is_used_from_a_fixed_step_on),
         cmocka_unit_test(route_leads_round_standing_bodies),
         cmocka_unit_test(route_is_renewed_at_most_every_two_seconds),
