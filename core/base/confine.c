@@ -11,6 +11,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/process_memory.h"
+
 enum {
     LAST_SECONDS = 5, /* processor time between SIGXCPU and the end of a worker, s */
     FEW_FILES = 64    /* open files of a reader */
@@ -76,18 +78,6 @@ JoxConfining jox_confine_can(void) {
     return (JoxConfining){.files = has_landlock(), .calls = jox_confine_has_calls()};
 }
 
-/* Address space that the process uses, bytes. Memory checkers reserve terabytes, so that a limit
-   must be relative to it. */
-static size_t read_address_space(void) {
-    unsigned long long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (file && fscanf(file, "%llu", &pages) != 1)
-        pages = 0;
-    if (file)
-        fclose(file);
-    return (size_t)pages * (size_t)sysconf(_SC_PAGESIZE);
-}
-
 /* Lowers a resource limit: the soft one, of which a process is told, to `most`, and the hard one to
    `spare` more. Never raises either. */
 static bool lower_limit(int what, rlim_t most, rlim_t spare) {
@@ -107,12 +97,12 @@ bool jox_confine_limits(const JoxConfines *confines) {
            (!files || lower_limit(RLIMIT_NOFILE, files, 0)) &&
            (!confines->file_size || lower_limit(RLIMIT_FSIZE, confines->file_size, 0)) &&
            (!confines->memory ||
-            lower_limit(RLIMIT_AS, read_address_space() + confines->memory, 0));
+            lower_limit(RLIMIT_AS, jox_read_process_memory().addresses + confines->memory, 0));
 }
 
 size_t jox_confine_memory_left(void) {
     struct rlimit now;
-    const size_t size = read_address_space();
+    const uint64_t size = jox_read_process_memory().addresses;
     if (getrlimit(RLIMIT_AS, &now) != 0 || now.rlim_cur == RLIM_INFINITY)
         return 0;
     return now.rlim_cur > size ? now.rlim_cur - size : 1;

@@ -2,6 +2,7 @@
    Rounds alternate between all scenes, instruction sets and numbers of threads, so that other load
    on the machine affects all alike. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 
 #include "base/clock.h"
 #include "base/mem.h"
+#include "base/process_memory.h"
 #include "cli/bench/bench.h"
 #include "cli/cli.h"
 
@@ -162,7 +164,7 @@ static int measure_case(const Bench *bench, const Named *named, BenchCase *c) {
             def.override_count++;
     }
     bench_return_memory();
-    const uint64_t resident = bench_read_resident();
+    const uint64_t resident = jox_read_process_memory().resident;
     JoScene *scene = jo_scene_load(&def, &error);
     if (!scene)
         return (int)error.code;
@@ -170,12 +172,15 @@ static int measure_case(const Bench *bench, const Named *named, BenchCase *c) {
     for (uint64_t i = 0; ok && i < bench->given.warm_up; i++)
         ok = jo_scene_step(scene, &error);
     JoStats from = jo_scene_stats(scene);
+    const double busy = bench_read_busy_time();
     const double wall = jox_clock_wall(), cpu = jox_clock_cpu();
     for (uint64_t i = 0; ok && i < bench->given.steps; i++)
         ok = jo_scene_step(scene, &error);
     const double wall_end = jox_clock_wall(), cpu_end = jox_clock_cpu();
+    const double others = bench_read_busy_time() - busy - (cpu_end - cpu);
+    c->others[c->measured] = busy < 0.0 ? -1.0 : fmax(0.0, others / (wall_end - wall));
     JoStats to = jo_scene_stats(scene);
-    const uint64_t resident_end = bench_read_resident();
+    const uint64_t resident_end = jox_read_process_memory().resident;
     if (!c->measured && resident && resident_end > resident)
         c->resident = resident_end - resident;
     c->hash = ok ? jo_world_hash(jo_scene_world(scene)) : 0;
@@ -327,6 +332,7 @@ static void confine_bench(const Bench *bench, const char *const *paths, size_t c
     cli_reach_output(&reach, bench->plot);
     cli_reach_folder(&reach, "/proc/cpuinfo");    /* has the processor's name */
     cli_reach_folder(&reach, "/proc/self/statm"); /* has the resident memory */
+    cli_reach_folder(&reach, "/proc/stat");       /* has the load of the machine */
     cli_confine_work(&reach, bench->trusted);
 }
 

@@ -407,6 +407,10 @@ typedef struct JoStats {
     double bullet_ns;  /* part of the stage "bodies", ns per agent-step: Bullet's own steps */
     double objects_ns; /* part of the stage "perceive", ns per agent-step: updating the objects, the
                           bodies as agents see them */
+    /* Wall time outside the stages, ns per agent-step: before them, events, changes of walls, and
+       agents that come in; after them, agents that leave; and what collects figures, records,
+       reports and shows a scene. */
+    double enter_ns, leave_ns, collect_ns;
     uint64_t shifted_at_birth;         /* agents created on a free spot beside their point */
     uint64_t not_placed;               /* agents not created, as no spot was free */
     uint64_t moved_out, not_moved_out; /* agents in the way of a new or closing wall: moved out of

@@ -1,5 +1,6 @@
 /* Performs a step of a running scene, and ends it. jo_scene_step and jo_scene_finish are here. */
 #include "base/assert.h"
+#include "base/clock.h"
 #include "base/guard.h"
 #include "run/input_actions.h"
 #include "run/input_log.h"
@@ -28,7 +29,10 @@ static bool perform_step(JoScene *scene, JoError *error) {
                   stalled);
         return false;
     }
-    return jox_run_tell_frame(scene, error) && jox_run_check_log_written(scene, error);
+    const double begun = jox_clock_wall();
+    const bool told = jox_run_tell_frame(scene, error);
+    scene->world->state.statistics.collect_s += jox_clock_wall() - begun;
+    return told && jox_run_check_log_written(scene, error);
 }
 
 bool jo_scene_step(JoScene *scene, JoError *error) {

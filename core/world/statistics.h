@@ -66,6 +66,8 @@ typedef struct JoxStatistics {
     double stage_s[JO_STAGE_COUNT]; /* wall time */
     double bullet_s;                /* part of that: steps of Bullet */
     double objects_s;               /* part of that: listing bodies for agents */
+    double enter_s, leave_s;        /* wall time before the stages, and after them */
+    double collect_s;               /* wall time of a scene's listeners */
     double wall_s, cpu_s;           /* time of stepping; CPU time of the process in it */
     uint64_t failures;              /* agent-steps whose 2-D program was infeasible */
     double failure_peak;            /* greatest share of a second's agent-steps */

@@ -223,6 +223,8 @@ bool jox_world_step(JoWorld *w) {
         [JOX_STAGE_OBSERVE] = run_observe};
     if (w->failure[0])
         return false;
+    const bool timed = w->scratch.timed || jox_pool_threads(w->scratch.pool) > 1;
+    const double entered = timed ? jox_clock_wall() : 0.0;
     jox_world_run_events(w);
     jox_world_settle_walls(w);
     const uint32_t before = w->state.agents.count;
@@ -232,9 +234,9 @@ bool jox_world_step(JoWorld *w) {
     jox_nav_end_births(w->scratch.nav);
     JOX_CHECK(jox_world_check_model(w));
     JOX_CHECK(jox_world_check_agents(w));
-    const bool timed = w->scratch.timed || jox_pool_threads(w->scratch.pool) > 1;
-    double begin = timed ? jox_clock_wall() : 0.0, cpu = timed ? jox_clock_cpu() : 0.0;
+    const double begin = timed ? jox_clock_wall() : 0.0, cpu = timed ? jox_clock_cpu() : 0.0;
     double last = begin;
+    w->state.statistics.enter_s += begin - entered;
     if (w->model.reinserts_bodies &&
         w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now continues exactly */
         jox_bodies_reinsert(w->state.bodies);
@@ -266,6 +268,7 @@ bool jox_world_step(JoWorld *w) {
         return false;
     jox_world_remove_lost(w);
     jox_world_empty_sinks(w);
+    w->state.statistics.leave_s += timed ? jox_clock_wall() - last : 0.0;
     JOX_CHECK(jox_world_check_agents(w));
     JOX_CHECK(jox_world_check_lists(w));
     return true;

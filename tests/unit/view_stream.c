@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include "base/process_memory.h"
 #include "unit/view_open.h"
 
 static void commands_above_the_rate_are_dropped(void **state) {
@@ -117,17 +118,6 @@ static size_t count_allocated_bytes(void) {
     return info.uordblks + info.hblkhd;
 }
 
-/* Returns the resident memory, bytes. */
-static size_t count_resident_bytes(void) {
-    long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (file && fscanf(file, "%*s %ld", &pages) != 1)
-        pages = 0;
-    if (file)
-        fclose(file);
-    return (size_t)pages * (size_t)sysconf(_SC_PAGESIZE);
-}
-
 static void pages_that_come_and_go_leak_nothing(void **state) {
     (void)state;
     const char *more = getenv("JOSTLE_VIEW_CYCLES"); /* long test runs set it */
@@ -160,10 +150,10 @@ static void pages_that_come_and_go_leak_nothing(void **state) {
         longest = took > longest ? took : longest;
         if (i == 99) {
             before = count_allocated_bytes();
-            at_first = count_resident_bytes();
+            at_first = (size_t)jox_read_process_memory().resident;
         }
     }
-    size_t after = count_allocated_bytes(), at_last = count_resident_bytes();
+    size_t after = count_allocated_bytes(), at_last = (size_t)jox_read_process_memory().resident;
     print_message("%d pages in %.1f s, the slowest %.1f ms; %zu kB resident before, %zu after\n",
                   cycles, clock_now() - begun, longest * 1e3, at_first / 1000, at_last / 1000);
     if (after > before + 65536)

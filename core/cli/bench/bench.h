@@ -10,9 +10,10 @@
 #include "jostle_tools.h"
 
 enum {
-    BENCH_ROUNDS = 100,  /* most rounds */
-    BENCH_THREADS = 16,  /* most numbers of threads to compare */
-    BENCH_CPU_NAME = 100 /* length of the name of a processor */
+    BENCH_ROUNDS = 100,   /* most rounds */
+    BENCH_THREADS = 16,   /* most numbers of threads to compare */
+    BENCH_CPU_NAME = 100, /* length of the name of a processor */
+    BENCH_OUTSIDE = 3     /* parts of a step outside its stages: enter, leave, collect */
 };
 
 /* Settings that all cases share. */
@@ -39,6 +40,8 @@ typedef struct BenchCase {
        time of all threads */
     double wall[BENCH_ROUNDS], cpu[BENCH_ROUNDS];
     double stages[JO_STAGE_COUNT][BENCH_ROUNDS]; /* ns of wall time per agent-step */
+    double others[BENCH_ROUNDS]; /* processors that other programs kept busy; below 0: not known */
+    double outside[BENCH_OUTSIDE][BENCH_ROUNDS]; /* the same, outside the stages */
     double bullet[BENCH_ROUNDS];                 /* the same, in Bullet's own steps */
     double bodies[BENCH_ROUNDS]; /* the same, for all that moves bodies and shows them to agents */
 } BenchCase;
@@ -47,6 +50,9 @@ typedef struct BenchCase {
 double bench_find_median(const double *values, uint64_t count);
 double bench_find_least(const double *values, uint64_t count);
 double bench_find_bytes_per_agent(const BenchCase *c);
+/* Returns the time of such a part until now, ns per agent-step, and its name. */
+double bench_get_outside(const JoStats *stats, int part);
+const char *bench_outside_name(int part);
 /* Finds the name of the processor's model; "unknown" if there is none. */
 void bench_find_cpu(char cpu[BENCH_CPU_NAME]);
 /* The compiler that built this program. */
@@ -55,8 +61,10 @@ extern const char *const bench_compiler;
 /* Makes freed memory go back to the system at once, so that the memory of cases can be told
    apart. */
 void bench_return_memory(void);
-/* Returns the resident memory of this process, bytes; 0 if it is not known. */
-uint64_t bench_read_resident(void);
+
+/* Returns the processor time that all programs have used since the machine began, s; below 0 if it
+   is not known. */
+double bench_read_busy_time(void);
 
 /* Adds a round to a case, from the statistics at its beginning and end, and the wall and processor
    time between these, s. */

@@ -28,21 +28,23 @@ void bench_find_cpu(char cpu[BENCH_CPU_NAME]) {
         jox_file_close(file);
 }
 
+double bench_read_busy_time(void) {
+    double user, nice, system, idle, wait, interrupts, soft, stolen;
+    FILE *file = jox_file_open("/proc/stat", "r");
+    const bool told = file && fscanf(file, "cpu %lf %lf %lf %lf %lf %lf %lf %lf", &user, &nice,
+                                     &system, &idle, &wait, &interrupts, &soft, &stolen) == 8;
+    if (file)
+        jox_file_close(file);
+    if (!told)
+        return -1.0;
+    return (user + nice + system + interrupts + soft + stolen) / (double)sysconf(_SC_CLK_TCK);
+}
+
 void bench_return_memory(void) {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 128 << 10); /* a fixed one: it would grow with what is freed */
     malloc_trim(0);
 #endif
-}
-
-uint64_t bench_read_resident(void) {
-    unsigned long long pages = 0;
-    FILE *file = jox_file_open("/proc/self/statm", "r");
-    if (file && fscanf(file, "%*u %llu", &pages) != 1)
-        pages = 0;
-    if (file)
-        jox_file_close(file);
-    return pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
 double bench_find_median(const double *values, uint64_t count) {
@@ -61,6 +63,16 @@ double bench_find_least(const double *values, uint64_t count) {
     for (uint64_t i = 1; i < count; i++)
         result = values[i] < result ? values[i] : result;
     return result;
+}
+
+double bench_get_outside(const JoStats *stats, int part) {
+    const double parts[BENCH_OUTSIDE] = {stats->enter_ns, stats->leave_ns, stats->collect_ns};
+    return parts[part];
+}
+
+const char *bench_outside_name(int part) {
+    static const char *const NAMES[BENCH_OUTSIDE] = {"enter", "leave", "collect"};
+    return NAMES[part];
 }
 
 /* Returns the mean of a figure per agent-step between two moments, given its mean from the
@@ -87,6 +99,9 @@ void bench_note(BenchCase *c, const JoStats *from, const JoStats *to, double all
     c->cpu[round] = all_cpu * 1e9 * each;
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         c->stages[s][round] = get_mean_between(from, to, from->stage_ns[s], to->stage_ns[s]);
+    for (int part = 0; part < BENCH_OUTSIDE; part++)
+        c->outside[part][round] =
+            get_mean_between(from, to, bench_get_outside(from, part), bench_get_outside(to, part));
     c->bullet[round] = get_mean_between(from, to, from->bullet_ns, to->bullet_ns);
     c->bodies[round] = get_mean_between(from, to, from->objects_ns, to->objects_ns);
     for (int s = 0; s < JO_STAGE_COUNT; s++)

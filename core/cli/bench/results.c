@@ -52,6 +52,11 @@ static void add_case_json(JoxJson *json, const BenchGiven *given, const BenchCas
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         jox_json_digits(json, jo_stage_name(s), bench_find_median(c->stages[s], c->measured), 4);
     jox_json_end(json);
+    jox_json_object(json, "outside_ns");
+    for (int part = 0; part < BENCH_OUTSIDE; part++)
+        jox_json_digits(json, bench_outside_name(part),
+                        bench_find_median(c->outside[part], c->measured), 4);
+    jox_json_end(json);
     jox_json_end(json);
 }
 

@@ -1,18 +1,21 @@
 /* Writes how the time of a scene's steps falls with the number of threads, by stage: the table and
    the CSV lines of `jostle bench --threads 1,2,...`. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "base/format/quote.h"
 #include "cli/bench/bench.h"
 
-/* Rows of a case: all of the step, each stage, and what is outside the stages, as births, exits and
-   events. */
-enum { ALL = -1, REST = JO_STAGE_COUNT };
-/* Wall time over processor time of one thread from which the machine counts as busy. */
-static const double BUSY = 1.1;
+/* Rows of a case: all of the step, each stage, each part outside the stages, and what is in none of
+   them. */
+enum { ALL = -1, OUTSIDE = JO_STAGE_COUNT, REST = OUTSIDE + BENCH_OUTSIDE };
+/* Processors that other programs keep busy beyond those that the threads leave, from which times
+   are marked. */
+static const double BUSY = 0.1;
 
 /* The times of a row, ns per agent-step. */
 typedef struct ScalingRow {
@@ -23,14 +26,31 @@ typedef struct ScalingRow {
     double lost; /* wall time beyond that of perfect scaling, ns */
 } ScalingRow;
 
+static const char *get_row_name(int row) {
+    return row == ALL       ? "all"
+           : row == REST    ? "rest"
+           : row >= OUTSIDE ? bench_outside_name(row - OUTSIDE)
+                            : jo_stage_name(row);
+}
+
+/* Returns the wall time of a row in a round. */
+static double get_wall_time(const BenchCase *c, int row, uint64_t round) {
+    if (row == ALL)
+        return c->wall[round];
+    if (row < OUTSIDE)
+        return c->stages[row][round];
+    if (row < REST)
+        return c->outside[row - OUTSIDE][round];
+    double rest = c->wall[round];
+    for (int other = 0; other < REST; other++)
+        rest -= get_wall_time(c, other, round);
+    return rest < 0.0 ? 0.0 : rest; /* clocks resolve no less */
+}
+
 /* Finds the wall times of a row in each round. */
-static void find_wall_times(const BenchCase *c, int stage, double out[BENCH_ROUNDS]) {
-    for (uint64_t r = 0; r < c->measured; r++) {
-        out[r] = stage >= 0 && stage < JO_STAGE_COUNT ? c->stages[stage][r] : c->wall[r];
-        for (int s = 0; stage == REST && s < JO_STAGE_COUNT; s++)
-            out[r] -= c->stages[s][r];
-        out[r] = out[r] < 0.0 ? 0.0 : out[r]; /* clocks resolve no less */
-    }
+static void find_wall_times(const BenchCase *c, int row, double out[BENCH_ROUNDS]) {
+    for (uint64_t r = 0; r < c->measured; r++)
+        out[r] = get_wall_time(c, row, r);
 }
 
 /* Computes a row of a case; `first` is the case that it is compared with. */
@@ -39,9 +59,7 @@ static ScalingRow find_row(const BenchCase *c, const BenchCase *first, int stage
     find_wall_times(c, stage, times);
     find_wall_times(first, stage, first_times);
     const double was = bench_find_median(first_times, first->measured);
-    ScalingRow row = {.stage = stage == ALL    ? "all"
-                               : stage == REST ? "rest"
-                                               : jo_stage_name(stage),
+    ScalingRow row = {.stage = get_row_name(stage),
                       .wall = bench_find_median(times, c->measured),
                       .least_wall = bench_find_least(times, c->measured)};
     const double share = (double)first->threads / (double)c->threads;
@@ -68,10 +86,42 @@ static void print_row(const BenchCase *c, const ScalingRow *row, uint32_t proces
         printf(" %9s %12s %8s\n", "-", "-", "-");
 }
 
-/* Whether a case of one thread had to wait for a processor. */
-static bool is_busy(const BenchCase *c) {
-    const double cpu = bench_find_median(c->cpu, c->measured);
-    return cpu > 0.0 && bench_find_median(c->wall, c->measured) > BUSY * cpu;
+/* Returns how many processors other programs kept busy, a mean over the rounds; below 0: not
+   known. */
+static double find_others(const BenchCase *c) {
+    double sum = 0.0;
+    for (uint64_t r = 0; r < c->measured; r++) {
+        if (c->others[r] < 0.0)
+            return -1.0;
+        sum += c->others[r];
+    }
+    return c->measured ? sum / (double)c->measured : -1.0;
+}
+
+/* Whether the threads of a case had to share processors with other programs. */
+static bool was_busy(const BenchCase *c) {
+    const double machine = (double)sysconf(_SC_NPROCESSORS_ONLN);
+    return find_others(c) > fmax(0.0, machine - c->threads) + BUSY;
+}
+
+/* Says what other programs did meanwhile, and whether the times are a measure. */
+static void print_load(const BenchCase *cases, size_t count) {
+    bool busy = false;
+    const long machine = sysconf(_SC_NPROCESSORS_ONLN);
+    if (find_others(cases) < 0.0)
+        return;
+    for (size_t k = 0; k < count; k++)
+        busy |= was_busy(&cases[k]);
+    printf("Of the machine's %ld %s, other programs kept busy:", machine,
+           machine == 1 ? "processor" : "processors");
+    for (size_t k = 0; k < count; k++)
+        printf("%s %.1f with %u %s%s", k ? "," : "", find_others(&cases[k]), cases[k].threads,
+               cases[k].threads == 1 ? "thread" : "threads", was_busy(&cases[k]) ? " (!)" : "");
+    puts(".");
+    if (busy)
+        puts(
+            "! this machine did other work too: threads waited for processors, so that wall times, "
+            "speed-ups and efficiencies are no measure of the program. Times of cpu are.");
 }
 
 void bench_scaling(const BenchGiven *given, const BenchCase *cases, size_t count) {
@@ -79,16 +129,18 @@ void bench_scaling(const BenchGiven *given, const BenchCase *cases, size_t count
     char cpu[BENCH_CPU_NAME];
     bool beyond = false;
     bench_find_cpu(cpu);
-    printf("%s: %u agents, %s, %llu steps after %llu, %llu %s in turn\n"
-           "%s, of which this process may use %u %s\n"
-           "Times are ns per agent and step, medians of the rounds except where least is said.\n"
-           "  cpu: of all threads. lost: wall time beyond that of perfect scaling from %u %s.\n"
-           "  rest: outside the stages, as births, exits and events.\n\n",
-           cases->name, cases->last.agents, jo_isa_name(cases->isa),
-           (unsigned long long)given->steps, (unsigned long long)given->warm_up,
-           (unsigned long long)given->rounds, given->rounds == 1 ? "round" : "rounds", cpu,
-           processors, processors == 1 ? "processor" : "processors", cases->threads,
-           cases->threads == 1 ? "thread" : "threads");
+    printf(
+        "%s: %u agents, %s, %llu steps after %llu, %llu %s in turn\n"
+        "%s, of which this process may use %u %s\n"
+        "Times are ns per agent and step, medians of the rounds except where least is said.\n"
+        "  cpu: of all threads. lost: wall time beyond that of perfect scaling from %u %s.\n"
+        "  enter: events, walls, people who come in. leave: people who leave. collect: densities "
+        "and other figures of the scene.\n\n",
+        cases->name, cases->last.agents, jo_isa_name(cases->isa), (unsigned long long)given->steps,
+        (unsigned long long)given->warm_up, (unsigned long long)given->rounds,
+        given->rounds == 1 ? "round" : "rounds", cpu, processors,
+        processors == 1 ? "processor" : "processors", cases->threads,
+        cases->threads == 1 ? "thread" : "threads");
     printf("%-10s %7s  %9s %9s %9s %9s %9s %12s %8s\n", "stage", "threads", "wall", "least", "cpu",
            "least", "speed-up", "efficiency", "lost");
     for (int stage = ALL; stage <= REST; stage++)
@@ -97,13 +149,7 @@ void bench_scaling(const BenchGiven *given, const BenchCase *cases, size_t count
             print_row(&cases[k], &row, processors);
             beyond |= cases[k].threads > processors;
         }
-    for (size_t k = 0; k < count; k++)
-        if (cases[k].threads == 1 && is_busy(&cases[k]))
-            printf(
-                "! this machine did other work too: one thread took %.1f times as long as it had "
-                "a processor, so that the speed-ups are no measure of the program\n",
-                bench_find_median(cases[k].wall, cases[k].measured) /
-                    bench_find_median(cases[k].cpu, cases[k].measured));
+    print_load(cases, count);
     if (beyond)
         puts("* more threads than processors: they take turns, and this is no measure of the "
              "program");
@@ -155,7 +201,7 @@ static void write_csv_row(FILE *file, const BenchGiven *given, const BenchCase *
         fprintf(file, "%.6g,%.6g,%.6g,", row->speed_up, row->efficiency, row->lost);
     else
         fputs(",,,", file);
-    fprintf(file, "%s\n", c->threads > given->processors ? "no" : "yes");
+    fprintf(file, "%s\n", c->threads > given->processors || was_busy(c) ? "no" : "yes");
 }
 
 bool bench_scaling_csv(const char *path, const BenchGiven *given, const BenchCase *cases,

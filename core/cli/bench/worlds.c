@@ -91,11 +91,15 @@ static JoStats sum_statistics(const Worlds *w) {
             sum.stage_ns[s] += stats.stage_ns[s];
         sum.bullet_ns += stats.bullet_ns;
         sum.objects_ns += stats.objects_ns;
+        sum.enter_ns += stats.enter_ns;
+        sum.leave_ns += stats.leave_ns;
     }
     for (int s = 0; s < JO_STAGE_COUNT; s++)
         sum.stage_ns[s] /= w->count;
     sum.bullet_ns /= w->count;
     sum.objects_ns /= w->count;
+    sum.enter_ns /= w->count;
+    sum.leave_ns /= w->count;
     return sum;
 }
 
