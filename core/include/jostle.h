@@ -379,11 +379,11 @@ JO_API bool jo_scene_log_on(JoScene *scene, const char *path, JoError *error);
    itself. A thread of its own loads edited files; between two steps either all of them replace
    the old ones or none does, and `message` says so. */
 JO_API bool jo_scene_watch(JoScene *scene, JoError *error);
-/* Puts texts in place of files that the scene is made of, at once: either all of the files that
-   belong together replace the old ones or none does, as by jo_scene_watch, and `message` says so.
-   Paths are as in JoSceneDef.files. False with `error`, the first one, if texts are wrong or cannot
-   replace what runs, which then goes on; also while files are watched. Of several texts for one
-   path the last counts. Callbacks must not call it, nor other functions that change the scene. */
+/* Puts texts in place of files of the scene, at once: all that belong together replace the old ones
+   or none does, as by jo_scene_watch, and `message` says so. Paths are as in JoSceneDef.files; the
+   last text for one counts. False with the first `error` while files are watched, and if texts are
+   wrong or cannot replace what runs, which then goes on; also for a file that nothing reads: other
+   texts are live, and this one is kept for a reader. Callbacks must not change the scene so. */
 JO_API bool jo_scene_reload(JoScene *scene, const struct JoFile *files, size_t count,
                             JoError *error);
 /* Sends every later transition of the agent with this id, and why it fired, to `message`. */

@@ -15,6 +15,8 @@ void jox_run_swap_reloaded(JoScene *scene);
 /* Loads files of an input log and swaps in what is made of them, on the stepping thread. False with
    `error` if they are not taken. */
 bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *error);
+/* Whether a behaviour or the scene reads a file. Known after the first reload. */
+bool jox_run_reads_file(const JoScene *scene, const char *path);
 /* Keeps the thread from reading machines while one of them is changed in place (`hold`), or lets it
    go on. What it has compared with that machine is compared again before a swap. */
 void jox_run_hold_machines(JoScene *scene, uint32_t machine, bool hold);

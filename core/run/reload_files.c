@@ -82,6 +82,23 @@ static bool has_later_text(const JoFile *files, size_t count, size_t f) {
     return false;
 }
 
+/* False with `error` if no behaviour and no scene reads one of the files. */
+static bool check_files_are_read(const JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    for (uint32_t f = 0; f < entry->number; f++) {
+        const char *path = entry->files[f].path;
+        if (jox_run_reads_file(scene, path))
+            continue;
+        jox_error(error, JO_INPUT,
+                  "no behaviour or scene of this run reads '%.200s': its text has no effect until "
+                  "one does",
+                  path);
+        if (error)
+            snprintf(error->file, sizeof error->file, "%s", path);
+        return false;
+    }
+    return true;
+}
+
 /* Copies the texts into an entry: of several for one path the last. */
 static JoxInputEntry copy_texts(const JoFile *files, size_t count) {
     JoxInputEntry entry = {.verb = JOX_INPUT_FILES};
@@ -107,9 +124,10 @@ static bool reload_texts(JoScene *scene, const JoFile *files, size_t count, JoEr
         scene->acted_on = true;
     else
         take_back_texts(scene, &entry, &texts);
+    const bool good = live && check_files_are_read(scene, &entry, error);
     jox_overlay_free(&texts);
     jox_input_entry_free(&entry);
-    return live;
+    return good;
 }
 
 bool jo_scene_reload(JoScene *scene, const JoFile *files, size_t count, JoError *error) {

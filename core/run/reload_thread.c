@@ -178,6 +178,10 @@ static void report_unread_file(const JoScene *scene, const JoxInputEntry *entry,
                 place, jo_world_time(scene->world), path, near ? ". " : "", near ? near : "");
 }
 
+bool jox_run_reads_file(const JoScene *scene, const char *path) {
+    return scene->reload && jox_changes_use(&scene->reload->changes, path);
+}
+
 bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *error) {
     JoxReload *r = scene->reload ? scene->reload : create_reload(scene, NULL);
     bool live = true;
@@ -197,7 +201,7 @@ bool jox_run_reload_files(JoScene *scene, const JoxInputEntry *files, JoError *e
                 jox_changes_forget_file(&r->changes, files->files[f].path);
     }
     for (uint32_t f = 0; f < files->number; f++)
-        if (!jox_changes_use(&r->changes, files->files[f].path))
+        if (!jox_run_reads_file(scene, files->files[f].path))
             report_unread_file(scene, files, files->files[f].path);
     if (!live)
         jox_error(error, JO_INPUT,

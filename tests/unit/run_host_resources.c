@@ -105,6 +105,31 @@ static void texts_replace_files_of_a_running_scene(void **state) {
     jo_scene_free(scene);
 }
 
+/* A file that nothing reads is named as an error, and kept for a version that reads it. */
+static void reload_names_files_that_nothing_reads(void **state) {
+    (void)state;
+    const JoFile files[] = {FILE_OF("nowhere/scenes/hall.yaml", HALL),
+                            FILE_OF("nowhere/behaviours/walk.lua", WALK_ON),
+                            FILE_OF("nowhere/behaviours/pace.lua", "return 1.5\n")};
+    const JoFile both[] = {FILE_OF("nowhere/behaviours/pace.lua", "return 0.5\n"),
+                           FILE_OF("nowhere/behaviours/rush.lua", "return 1\n")};
+    const JoFile reader = FILE_OF("nowhere/behaviours/walk.lua",
+                                  MACHINE_START "\"Walk\", defaults = { speed = require 'rush' }, "
+                                                "states = { Walk = { steer = drift(1, 0) } } }\n");
+    JoError error;
+    JoScene *scene = load_files(files, 3, true, &error);
+    assert_non_null(scene);
+    assert_false(jo_scene_reload(scene, both, 2, &error));
+    assert_string_equal(error.file, "nowhere/behaviours/rush.lua");
+    assert_non_null(strstr(error.text, "no behaviour or scene of this run reads"));
+    step_scene(scene, 40);
+    assert_float_equal(scene->world->state.agents.vx[0], 0.5, 0.01); /* the other one is live */
+    assert_true(jo_scene_reload(scene, &reader, 1, &error));
+    step_scene(scene, 40);
+    assert_float_equal(scene->world->state.agents.vx[0], 1, 0.01);
+    jo_scene_free(scene);
+}
+
 static int misuses;
 
 static void count_misuse(const char *condition, const char *file, int line) {
@@ -219,6 +244,7 @@ int main(void) {
         cmocka_unit_test(missing_file_is_reported),
         cmocka_unit_test(files_only_reads_nothing_from_the_disk),
         cmocka_unit_test(texts_replace_files_of_a_running_scene),
+        cmocka_unit_test(reload_names_files_that_nothing_reads),
         cmocka_unit_test(reload_refuses_another_one_in_its_messages),
         cmocka_unit_test(loops_run_on_the_threads_of_the_program),
         cmocka_unit_test(allocator_must_be_set_before_other_calls),
