@@ -12,8 +12,10 @@
 #include "live/live_parts.h"
 #include "live/scene_page.h"
 #include "run/input_log.h"
+#include "run/reload.h"
 #include "view/worker.h"
 #include "wasm/module_scene.h"
+#include "wasm/module_threads.h"
 
 /* ---- messages ---- */
 
@@ -80,7 +82,8 @@ static JoViewDef make_def(JoxModuleScene *s, const JoxModuleOpening *opening) {
     def.scene.seed = def.scene.has_seed ? (uint64_t)opening->seed : 0;
     def.scene.has_dt = !isnan(opening->dt);
     def.scene.dt = def.scene.has_dt ? opening->dt : 0.0;
-    def.scene.threads = 1;
+    def.scene.threads = jox_module_threads();
+    def.scene.jobs = jox_module_jobs();
     def.scene.message = keep_said;
     def.scene.message_context = s;
     return def;
@@ -249,17 +252,38 @@ static void add_taken(const JoScene *scene, const JoFile *files, size_t count, J
     jox_text_add(text, "]");
 }
 
-/* Answers {"live", "errors", "taken", "news"}; the news go to the page besides. */
+/* Adds "unread", the paths of the files that no behaviour and no scene reads, to the answer, and a
+   warning of each to the diagnostics. Returns whether there are any. */
+static bool add_unread(JoxModuleScene *s, const JoFile *files, size_t count, JoxText *text) {
+    bool any = false;
+    jox_text_add(text, "\"unread\": [");
+    for (size_t f = 0; f < count && !s->errors.errors; f++) {
+        if (jox_run_reads_file(s->page.scene, files[f].path))
+            continue;
+        jox_diag_warn(&s->errors, ((JoxPosition){files[f].path, 0, 0, 0}), "unread-file", NULL,
+                      "no behaviour or scene of this run reads this file: it has no effect until "
+                      "one does");
+        jox_text_add(text, any ? ", " : "");
+        jox_text_json(text, files[f].path);
+        any = true;
+    }
+    jox_text_add(text, "], ");
+    return any;
+}
+
+/* Answers {"live", "errors", "taken", "unread", "news"}; the news go to the page besides. */
 static void answer_reload(JoxModuleScene *s, const JoFile *files, size_t count, bool live,
                           const JoError *error) {
     JoxText text = {0}, news = {0};
     if (jox_live_news(s->page.scene, &news))
         jox_view_send(s->page.page.server, JOX_VIEW_ALL, news.data);
-    if (!live && !s->errors.errors)
+    jox_text_printf(&text, "{\"live\": %s, ", live ? "true" : "false");
+    const bool any_unread = add_unread(s, files, count, &text);
+    if (!live && !any_unread && !s->errors.errors)
         jox_diag_error(&s->errors,
                        ((JoxPosition){error->file, error->line, error->column, error->column}),
                        "not-taken", NULL, "%s", error->text);
-    jox_text_printf(&text, "{\"live\": %s, \"errors\": ", live ? "true" : "false");
+    jox_text_add(&text, "\"errors\": ");
     jox_diag_json(&s->errors, &text);
     add_taken(s->page.scene, files, count, &text);
     jox_text_printf(&text, ", \"news\": %s}", news.data ? news.data : "null");
@@ -284,7 +308,7 @@ static bool reload_files(JoxModuleScene *s, const JoFile *files, size_t count, b
     return true;
 }
 
-/* Replaces files of the running scene at once; answers {"live", "errors", "taken", "news"}. */
+/* Replaces files of the running scene at once; answers as answer_reload says. */
 JOX_MODULE_CALL bool jostle_reload(JoxModuleScene *s, const JoFile *files, size_t count) {
     bool live = false;
     if (!reload_files(s, files, count, &live))

@@ -26,13 +26,21 @@ export class JostleError extends Error {
     readonly errors: Fault[];
 }
 
+/** The engine has stopped by a fault of its own; each later call of it and of its scenes throws this. Make a new Engine. */
+export class BrokenEngineError extends Error {}
+
 export interface EngineOptions {
     /** The module, if it is loaded already, or also compiled: `compiled` of another engine. */
     wasmBinary?: ArrayBuffer | ArrayBufferView | WebAssembly.Module;
-    /** Returns the address of "jostle.wasm" or "shipped.json"; default: beside engine.mjs. */
+    /** Returns the address of a file of the package, as "jostle.wasm" or "shipped.json"; default: beside engine.mjs. */
     locate?: (name: string) => string;
     /** Library, behaviours and scenes; default: those of shipped.json. */
     shipped?: Files;
+    /**
+     * Threads of a step, the caller's included; results are the same for any number. Default: 1; in a worker of a page that is
+     * cross-origin isolated one for each processor, 8 at most. In a browser there are more than one only in such a worker.
+     */
+    threads?: number;
 }
 
 export interface SceneOptions {
@@ -95,6 +103,8 @@ export interface Reload {
     errors: Fault[];
     /** Paths of the files whose texts run now. */
     taken: string[];
+    /** Paths of the files that nothing reads; they are kept until something does. */
+    unread: string[];
     news: News[];
 }
 
@@ -127,6 +137,14 @@ export class Engine {
     private constructor();
     static create(options?: EngineOptions): Promise<Engine>;
     readonly version: string;
+    /** Threads of a step. */
+    readonly threads: number;
+    /** It has stopped by a fault of its own: each call throws a BrokenEngineError. */
+    readonly broken: boolean;
+    /** The compiled module, for other engines; null: the one with threads, which is for one engine. */
+    readonly compiled: WebAssembly.Module | null;
+    /** Ends the engine with its threads and scenes. One with one thread need not be closed. */
+    close(): void;
     /** Throws a JostleError if the scene does not load. */
     open(options: SceneOptions): Scene;
     /** Checks a scene, a behaviour, or a mod by its folder, without running it. */
@@ -138,7 +156,7 @@ export class Engine {
 /** A scene that runs. */
 export class Scene {
     private constructor();
-    /** Opens a scene; the first call loads the engine, which all scenes opened so share. */
+    /** Opens a scene; the first call loads the engine, which all scenes opened so share until it breaks. */
     static load(options: SceneOptions & EngineOptions): Promise<Scene>;
     /** Makes steps at once; default: 1. Throws a JostleError if one fails. */
     step(count?: number): void;

@@ -1,4 +1,4 @@
-# Builds the engine as a WebAssembly module, build/wasm/out/jostle.wasm with its JavaScript (README.md). `make wasm` runs
+# Builds the engine as WebAssembly modules, without and with threads, in build/wasm/out with their JavaScript (README.md). `make wasm` runs
 # it, after it has unpacked the sources of the libraries. It is the Makefile with another compiler and fewer folders:
 # clang is called without emcc's wrapper, which takes longer to start than most files to compile, and emcc links.
 .DEFAULT_GOAL := wasm-module
@@ -11,15 +11,17 @@ WASM_CCACHE  := $(shell command -v ccache)
 WASM_CFLAGS  := $(shell emcc $(WASM_LONGJMP) --cflags)
 # Without stack coloring: with it, clang 14 reads lanes from a slot of the stack that another array has overwritten.
 WASM_CODE    := -msimd128 -mllvm -no-stack-coloring
+, := ,
 override CC  := $(WASM_CCACHE) clang $(WASM_CFLAGS) $(WASM_CODE)
 override CXX := $(WASM_CCACHE) clang++ $(WASM_CFLAGS) $(WASM_CODE)
-override B       := build/wasm/release
+# THREADED=1 builds the module with threads, of the other module's objects and of some of its own (below).
+override B       := build/wasm/$(if $(THREADED),threads,release)
 override CAIRO   := 0
 override ZIP     := 0
 override VIEW    := worker
 override WATCH   := 0
 override HARD    :=
-override THREADS :=
+override THREADS := $(if $(THREADED),-pthread)
 override PIC     :=
 override ISAS    := scalar wasm
 override DATADIR := /jostle
@@ -62,16 +64,32 @@ $(B)/lib/%.o: $(WASM_SOURCES)/%.cpp
 	$(call say,LIB,$<)
 	$(Q)$(CXX) -O2 $(FP) -fno-exceptions -fno-rtti -DNDEBUG -w $(PKG_CFLAGS) -c $< -o $@
 
+# ---- the module with threads ----
+# Objects without atomic operations and without variables of threads serve both modules. The others, some 20, say in the
+# release that they are unfit for shared memory, and are compiled once more; the linker refuses what this misses.
+ifdef THREADED
+UNSHARED := $(shell grep -l shared-mem $(patsubst $(B)/%,build/wasm/release/%,$(OBJ) $(LIB_OBJ)))
+OBJ := $(foreach o,$(OBJ:$(B)/%=build/wasm/release/%),$(if $(filter $(o),$(UNSHARED)),$(o:build/wasm/release/%=$(B)/%),$(o)))
+LIB_OBJ := $(LIB_OBJ:$(B)/%=build/wasm/release/%)
+endif
+
 # ---- the module ----
 WASM_OUT := build/wasm/out
-WASM_LINK := -O2 $(WASM_LONGJMP) -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB \
-    -sINITIAL_MEMORY=32MB -sSTRICT=1 -sFILESYSTEM=1 -sFORCE_FILESYSTEM=1 -sNO_EXIT_RUNTIME=1 -sINCOMING_MODULE_JS_API=instantiateWasm,print,printErr \
+WASM_NAME := jostle$(if $(THREADED),-threads)
+WASM_LINK := -O2 $(WASM_LONGJMP) $(if $(THREADED),-pthread -sPTHREAD_POOL_SIZE_STRICT=2 -Wno-pthreads-mem-growth) -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker \
+    -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=4GB -sINITIAL_MEMORY=32MB -sSTRICT=1 -sFILESYSTEM=1 -sFORCE_FILESYSTEM=1 -sNO_EXIT_RUNTIME=1 \
+    -sINCOMING_MODULE_JS_API=instantiateWasm,print,printErr$(if $(THREADED),$(,)wasmMemory) \
     -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=FS,UTF8ToString,stringToUTF8,lengthBytesUTF8 --no-entry
-$(WASM_OUT)/jostle.mjs: $(OBJ) $(LIB_OBJ)
+$(WASM_OUT)/$(WASM_NAME).mjs: $(OBJ) $(LIB_OBJ)
 	@mkdir -p $(@D)
 	$(call say,LINK,$@)
 	$(Q)em++ $(WASM_LINK) $^ -o $@
-$(WASM_OUT)/engine.mjs: scripts/wasm/engine.mjs
+	@rm -f $(WASM_OUT)/$(WASM_NAME).worker.js # thread.mjs is in its place
+ifndef THREADED
+$(WASM_OUT)/jostle-threads.mjs: $(OBJ) $(LIB_OBJ)
+	$(Q)+$(MAKE) --no-print-directory -f scripts/wasm/build.mk THREADED=1 $@
+endif
+$(WASM_OUT)/%.mjs: scripts/wasm/%.mjs
 	@mkdir -p $(@D)
 	@cp $< $@
 $(WASM_OUT)/shipped.json: scripts/wasm/shipped.mjs $(wildcard scripts/*.lua behaviours/*.lua scenes/*.* scenes/mods/*/*)
@@ -83,7 +101,7 @@ $(WASM_OUT)/licences.txt: LICENSE $(LIB_OBJ)
 	@mkdir -p $(@D)
 	$(Q)for source in LICENSE $(WASM_SOURCES)/*/debian/copyright; do printf '==== %s\n\n' "$$source"; cat "$$source"; echo; done >$@.part
 	@sed -i 's,^==== $(WASM_SOURCES)/\([^/]*\)/.*,==== \1,; s,^==== LICENSE,==== jostle,' $@.part && mv $@.part $@
-wasm-module: $(WASM_OUT)/licences.txt $(WASM_OUT)/jostle.mjs $(WASM_OUT)/engine.mjs $(WASM_OUT)/shipped.json
+wasm-module: $(addprefix $(WASM_OUT)/,licences.txt jostle.mjs jostle-threads.mjs engine.mjs threads.mjs thread.mjs shipped.json)
 wasm-objects: $(OBJ) $(LIB_OBJ)
 # The unit test of the lanes, as a program for Node.js.
 WASM_LANES := build/wasm/test/lanes.cjs

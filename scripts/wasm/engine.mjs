@@ -21,6 +21,7 @@
  * @property {ArrayBuffer} [bytes]
  */
 import createModule from "./jostle.mjs";
+import { chooseThreads, loadThreads } from "./threads.mjs";
 
 const KINDS = ["group", "machine", "state", "signal", "place", "body"]; // of names, as module_read.c counts them
 const ARRAYS = [Uint8Array, Uint16Array, Uint32Array, Int32Array, BigUint64Array, Float32Array, Float64Array]; // JoType
@@ -87,6 +88,15 @@ function listTexts(what, list) {
     return list;
 }
 
+/** The engine has stopped by a fault of its own, or for want of memory in the middle of one; only a new Engine helps. */
+export class BrokenEngineError extends Error {
+    /** @param {unknown} cause What the module threw. */
+    constructor(cause) {
+        super(`the engine has stopped by a fault of its own (${cause?.message ?? cause}), and its scenes with it: make a new Engine`, { cause });
+        this.name = "BrokenEngineError";
+    }
+}
+
 const inNode = Boolean(globalThis.process?.versions?.node);
 
 /** The address of a file that lies beside this one; `locate`: its address, where that is another. */
@@ -117,36 +127,60 @@ async function compileFrom(address) {
     return /^application\/wasm/.test(type) ? WebAssembly.compileStreaming(read) : WebAssembly.compile(await read.arrayBuffer());
 }
 
-/** One engine: a WebAssembly module with its memory. Scenes of an engine take turns in one thread. */
+/** Passes on what the module warns of: not that it waits in the main thread, which Node.js allows. */
+const warn = (text) => (inNode && text.startsWith("Blocking on the main thread") ? undefined : console.warn(text));
+
+/** Instantiates a module, made by Emscripten's function `create`: given as bytes, compiled, or by its address. */
+async function instantiate(create, wasm) {
+    const compiled = wasm instanceof WebAssembly.Module ? wasm : await (typeof wasm === "string" ? compileFrom(wasm) : WebAssembly.compile(wasm));
+    const module = await new Promise((resolve, reject) => {
+        create({ print: console.log, printErr: warn, instantiateWasm(imports, take) {
+            WebAssembly.instantiate(compiled, imports).then((instance) => take(instance, compiled)).catch(reject);
+            return {}; // what it needs comes by take()
+        } }).then(resolve, reject);
+    });
+    return { module, compiled };
+}
+
+/** One engine: a WebAssembly module with its memory. Scenes of an engine take turns. */
 export class Engine {
     /**
      * Loads the engine.
      * @param {Object} [options]
      * @param {BufferSource|WebAssembly.Module} [options.wasmBinary] The module, if it is loaded already, or also compiled: that of
      *     another engine (`compiled`), say, in another worker.
-     * @param {(name: string) => string} [options.locate] Returns the address of "jostle.wasm" or "shipped.json"; default:
-     *     beside this file.
+     * @param {(name: string) => string} [options.locate] Returns the address of a file that lies beside this one: "jostle.wasm",
+     *     "shipped.json", and of the module with threads "jostle-threads.mjs", "jostle-threads.wasm" and "thread.mjs".
      * @param {Files} [options.shipped] Library, behaviours and scenes that come with the engine; default: those of shipped.json.
+     * @param {number} [options.threads] Threads of a step, this one included; results are the same for any number. Default: in
+     *     a worker of a page that is cross-origin isolated one for each processor, 8 at most; elsewhere 1. In a browser there
+     *     are more than one only in such a worker. With `wasmBinary`, which has no threads, there is one.
      * @returns {Promise<Engine>}
      */
-    static async create({ wasmBinary, locate, shipped } = {}) {
-        const [compiled, texts] = await Promise.all([
-            wasmBinary instanceof WebAssembly.Module ? wasmBinary : wasmBinary ? WebAssembly.compile(wasmBinary) : compileFrom(addressOf("jostle.wasm", locate)),
-            shipped ?? readTexts(addressOf("shipped.json", locate)),
-        ]);
-        const module = await new Promise((resolve, reject) => {
-            createModule({ print: console.log, printErr: console.warn, instantiateWasm(imports, take) {
-                WebAssembly.instantiate(compiled, imports).then((instance) => take(instance, compiled)).catch(reject);
-                return {}; // what it needs comes by take()
-            } }).then(resolve, reject);
+    static async create({ wasmBinary, locate, shipped, threads } = {}) {
+        const count = await chooseThreads(wasmBinary ? 1 : threads), at = (name) => addressOf(name, locate);
+        const loadOne = () => instantiate(createModule, wasmBinary ?? at("jostle.wasm"));
+        const loadSeveral = () => loadThreads(count, at, instantiate).catch((error) => {
+            console.warn(`The engine has one thread, as several cannot be started: ${error.message}`);
+            return loadOne();
         });
-        return new Engine(module, texts, compiled);
+        const [loaded, texts] = await Promise.all([
+            count.threads === 1 ? loadOne() : loadSeveral(),
+            shipped ?? readTexts(at("shipped.json")),
+        ]);
+        return new Engine(loaded, texts);
     }
 
+    #fault = null; // what the module threw when it broke
+    #closed = false;
+    #workers; // of threads
+    #views = null; // typed arrays on the module's memory
+
     /** @private */
-    constructor(module, shipped, compiled) {
-        this.module = module;
-        this.compiled = compiled;
+    constructor({ module, compiled = null, workers = [] }, shipped) {
+        this.#workers = workers;
+        this.module = this.#guard(module);
+        this.compiled = compiled; // for other engines; null: that with threads, which is for one
         this.encoder = new TextEncoder();
         this.decoder = new TextDecoder();
         this.folders = 0;
@@ -162,6 +196,53 @@ export class Engine {
         const texts = Object.entries(files).map(([path, content]) => [path, this.#bytes(content)]);
         this.#fill("/jostle", texts);
         for (const [path, bytes] of texts) this.shipped.set(path, bytes);
+    }
+
+    /**
+     * The module, whose functions throw a BrokenEngineError once one of them has thrown anything: errors of scenes are answers,
+     * so what is thrown is a trap, after which the memory is not to be trusted.
+     */
+    #guard(module) {
+        const guarded = Object.create(module);
+        for (const [name, call] of Object.entries(module)) {
+            if (!name.startsWith("_") || typeof call !== "function") continue;
+            guarded[name] = (...given) => {
+                if (this.broken) throw new BrokenEngineError(this.#fault);
+                if (this.#closed) throw new Error("the engine is closed");
+                try {
+                    return call(...given);
+                } catch (error) {
+                    this.#fault = error;
+                    this.close();
+                    throw new BrokenEngineError(error);
+                }
+            };
+        }
+        return guarded;
+    }
+
+    /** Whether the engine has stopped by a fault of its own: then each call throws a BrokenEngineError. */
+    get broken() {
+        return this.#fault !== null;
+    }
+
+    /** Threads of a step. */
+    get threads() {
+        return this.module._jostle_threads();
+    }
+
+    /** Ends the engine with its threads and scenes. One that has one thread need not be closed. */
+    close() {
+        this.#closed = true;
+        for (const worker of this.#workers) worker.terminate();
+    }
+
+    /** Typed arrays on the module's memory, made anew once it has grown, which another thread may cause. @private */
+    get memory() {
+        const buffer = this.module.wasmMemory?.buffer ?? this.module.HEAPU8.buffer;
+        if (this.#views?.bytes.buffer !== buffer)
+            this.#views = { bytes: new Uint8Array(buffer), words: new Uint32Array(buffer), integers: new Int32Array(buffer), floats: new Float32Array(buffer), doubles: new Float64Array(buffer) };
+        return this.#views;
     }
 
     /** Version of the engine, as "0.1.0". */
@@ -267,8 +348,8 @@ export class Engine {
     put(bytes) {
         const address = this.module._malloc(bytes.length + 1) >>> 0; // addresses come as signed numbers
         if (!address) throw new JostleError([makeFault({ message: "out of memory" })]);
-        this.module.HEAPU8.set(bytes, address);
-        this.module.HEAPU8[address + bytes.length] = 0;
+        this.memory.bytes.set(bytes, address);
+        this.memory.bytes[address + bytes.length] = 0;
         return address;
     }
 
@@ -342,13 +423,14 @@ export class Scene {
     #say;
 
     /**
-     * Opens a scene; the first call loads the engine, which all scenes opened so share.
+     * Opens a scene; the first call loads the engine, which all scenes opened so share until it breaks.
      * @param {Object} options As of Engine.open; in the first call also those of Engine.create.
      * @returns {Promise<Scene>}
      * @throws {JostleError} If the scene does not load.
      */
-    static async load({ wasmBinary, locate, shipped, ...options }) {
-        Scene.#shared ??= Engine.create({ wasmBinary, locate, shipped }).catch((error) => {
+    static async load({ wasmBinary, locate, shipped, threads, ...options }) {
+        if (Scene.#shared && await Scene.#shared.then(({ broken }) => broken, () => false)) Scene.#shared = null;
+        Scene.#shared ??= Engine.create({ wasmBinary, locate, shipped, threads }).catch((error) => {
             Scene.#shared = null; // the next call tries again
             throw error;
         });
@@ -422,8 +504,8 @@ export class Scene {
     takeMessages() {
         const messages = [];
         for (let at; (at = this.#call("next_message")); ) {
-            const [address, length, channel] = [0, 4, 8].map((offset) => this.#module.HEAP32[(at + offset) >>> 2]);
-            const bytes = this.#module.HEAPU8.slice(address >>> 0, (address >>> 0) + length);
+            const [address, length, channel] = [0, 4, 8].map((offset) => this.#engine.memory.integers[(at + offset) >>> 2]);
+            const bytes = this.#engine.memory.bytes.slice(address >>> 0, (address >>> 0) + length);
             const isText = channel < 0 || channel >= 16; // JOX_VIEW_FIRST_TEXT
             messages.push(isText ? { channel, text: this.#engine.decoder.decode(bytes) } : { channel, bytes: bytes.buffer });
         }
@@ -434,8 +516,9 @@ export class Scene {
      * Replaces files of the running scene at once. People go on in the states that they are in; all files that belong
      * together are taken, or none: what ran before then goes on.
      * @param {Files} files
-     * @returns {{live: boolean, errors: Fault[], taken: string[], news: Object[]}} `live`: all files were taken; `taken`:
-     *     the paths of those whose texts run now; `errors`: also warnings and notes; `news`: of each behaviour {file, time,
+     * @returns {{live: boolean, errors: Fault[], taken: string[], unread: string[], news: Object[]}} `live`: all files were
+     *     taken; `taken`: the paths of those whose texts run now; `unread`: of those that nothing reads, which are kept until
+     *     something does; `errors`: also warnings and notes; `news`: of each behaviour {file, time,
      *     machine, before, after, notes}, where before and after are {state, people}[], or of the scene {file, done, later}.
      */
     reload(files) {
@@ -443,7 +526,7 @@ export class Scene {
         const texts = list.flatMap(([path, content]) => [path, content]).map((item) => (typeof item === "string" ? engine.encoder.encode(item) : item));
         const addresses = texts.map((bytes) => engine.put(bytes));
         const table = engine.put(new Uint8Array(12 * list.length)); // JoFile: path, text, length
-        list.forEach((_, f) => this.#module.HEAPU32.set([addresses[2 * f], addresses[2 * f + 1], texts[2 * f + 1].length], (table >>> 2) + 3 * f));
+        list.forEach((_, f) => engine.memory.words.set([addresses[2 * f], addresses[2 * f + 1], texts[2 * f + 1].length], (table >>> 2) + 3 * f));
         let answer;
         try {
             const live = this.#call("reload", table, list.length);
@@ -453,9 +536,9 @@ export class Scene {
         } finally {
             for (const address of [...addresses, table]) this.#module._free(address);
         }
-        for (const path of answer.taken) engine.write(this.#folder, path, files[path]); // restarts read them
+        for (const path of [...answer.taken, ...answer.unread]) engine.write(this.#folder, path, files[path]); // restarts read them
         this.#tell();
-        return { live: answer.live, errors: answer.errors.map(makeFault), taken: answer.taken, news: answer.news?.news ?? [] };
+        return { live: answer.live, errors: answer.errors.map(makeFault), taken: answer.taken, unread: answer.unread, news: answer.news?.news ?? [] };
     }
 
     /**
@@ -516,9 +599,9 @@ export class Scene {
      */
     column(name) {
         const at = this.#engine.texts([name], (text) => this.#call("column", text)) >>> 2;
-        const [data, stride, count, type] = this.#module.HEAPU32.subarray(at, at + 4);
+        const [data, stride, count, type] = this.#engine.memory.words.subarray(at, at + 4);
         if (!data && this.agents) throw new RangeError(`there is no column '${name}'`);
-        const Numbers = ARRAYS[type], { buffer } = this.#module.HEAPU8, size = Numbers.BYTES_PER_ELEMENT;
+        const Numbers = ARRAYS[type], { buffer } = this.#engine.memory.bytes, size = Numbers.BYTES_PER_ELEMENT;
         if (!data || stride === size) return new Numbers(buffer, data, data ? count : 0);
         const one = (i) => new Numbers(buffer, data + i * stride, 1)[0];
         return Numbers.from({ length: count }, (_, i) => one(i)); // one number for all, or numbers among others
@@ -529,10 +612,10 @@ export class Scene {
      * `entered`, `left`, `said` and `actions`, each a list of objects. Agents are given by id, the rest by number (`name`).
      */
     events() {
-        const at = this.#call("events") >>> 2, { HEAPU32, HEAPF32 } = this.#module;
+        const at = this.#call("events") >>> 2, { words, floats } = this.#engine.memory;
         return Object.fromEntries(EVENTS.map(({ name, fields }, kind) => {
-            const data = HEAPU32[at + kind] >>> 2, count = HEAPU32[at + EVENTS.length + kind];
-            const event = (i) => Object.fromEntries(fields.map(([type, field], f) => [field, (type === "f" ? HEAPF32 : HEAPU32)[data + i * fields.length + f]]));
+            const data = words[at + kind] >>> 2, count = words[at + EVENTS.length + kind];
+            const event = (i) => Object.fromEntries(fields.map(([type, field], f) => [field, (type === "f" ? floats : words)[data + i * fields.length + f]]));
             return [name, Array.from({ length: count }, (_, i) => event(i))];
         }));
     }
@@ -545,7 +628,7 @@ export class Scene {
         const bodies = [], slots = this.#call("body_slots");
         for (let slot = 0; slot < slots; slot++) {
             const at = this.#call("body", slot) >>> 3;
-            if (at) bodies.push({ slot, name: this.name("body", slot), ...Object.fromEntries(BODY.map((key, k) => [key, this.#module.HEAPF64[at + k]])) });
+            if (at) bodies.push({ slot, name: this.name("body", slot), ...Object.fromEntries(BODY.map((key, k) => [key, this.#engine.memory.doubles[at + k]])) });
         }
         return bodies;
     }
@@ -576,7 +659,7 @@ export class Scene {
     /** Ends the scene and frees it. */
     close() {
         if (!this.#handle) return;
-        this.#call("close");
+        if (!this.#engine.broken) this.#call("close");
         this.#handle = 0;
         this.#engine.remove(this.#folder);
     }

@@ -1,6 +1,6 @@
 // Tests of the interface of the WebAssembly module (scripts/wasm/engine.mjs) under Node.js. Prints "ok NAME" or "not ok NAME".
 import assert from "node:assert/strict";
-import { Engine, JostleError, Scene } from "../../build/wasm/out/engine.mjs";
+import { BrokenEngineError, Engine, JostleError, Scene } from "../../build/wasm/out/engine.mjs";
 
 const engine = await Engine.create();
 
@@ -90,6 +90,17 @@ test("reload is taken or leaves all as it was", () => {
     scene.step(60);
     assert.ok([...scene.column("vx")].every((v) => Math.abs(v + 0.5) < 0.01));
     assert.equal(scene.read("behaviours/walk.lua"), walk(0.5, -1));
+    scene.close();
+});
+
+test("a reload names files that nothing reads, and keeps them", () => {
+    const scene = openYard();
+    const { live, taken, unread, errors } = scene.reload({ "behaviours/walk.lua": walk(0.5), "behaviours/pace.lua": "return 1\n" });
+    assert.deepEqual({ live, taken, unread }, { live: false, taken: ["behaviours/walk.lua"], unread: ["behaviours/pace.lua"] });
+    assert.deepEqual(errors.map(({ file, severity, code }) => [file, severity, code]), [["behaviours/pace.lua", "warning", "unread-file"]]);
+    assert.equal(scene.reload({ "behaviours/walk.lua": walk("require 'pace'") }).live, true);
+    scene.step(60);
+    assert.ok(Math.abs(scene.column("vx")[0] - 1) < 0.01);
     scene.close();
 });
 
@@ -238,3 +249,42 @@ async function testHighMemory() {
     for (const each of [scene, low, court]) each.close();
 }
 await testHighMemory().then(() => console.log("ok a scene runs beyond the first 2 GB of memory"), (error) => console.log(`not ok a scene runs beyond 2 GB: ${error.stack}`));
+
+// Crowds with and without bodies, routes and walls that break: threads change nothing.
+const THREADED = [["circle", 40], ["office", 40], ["dodgeball", 100], ["wall-breaking", 40], ["tawaf-few", 10]];
+
+async function testThreads() {
+    const several = await Promise.all([2, 3].map((threads) => Engine.create({ threads })));
+    assert.deepEqual([engine, ...several].map(({ threads }) => threads), [1, 2, 3]);
+    for (const [name, steps] of THREADED) {
+        const hashes = [engine, ...several].map((of) => {
+            const scene = of.open({ scene: `scenes/${name}.yaml`, say: () => {} });
+            scene.step(steps);
+            const { hash } = scene;
+            scene.close();
+            return hash;
+        });
+        assert.equal(new Set(hashes).size, 1, `${name}: ${hashes.join(" ")}`);
+    }
+    const [two] = several, scene = two.open({ files: FILES, scene: "scenes/yard.yaml", page: true, say: () => {} });
+    scene.turn();
+    assert.ok(scene.takeMessages().some(({ bytes }) => bytes instanceof ArrayBuffer)); // which can be sent on, as shared memory cannot
+    assert.ok(scene.column("x").buffer instanceof SharedArrayBuffer);
+    for (const each of several) each.close();
+    assert.throws(() => scene.step(), /the engine is closed/);
+    await assert.rejects(Engine.create({ threads: 0 }), /threads must be a whole number from 1 to 64/);
+}
+await testThreads().then(() => console.log("ok hashes are the same with one, two and three threads"), (error) => console.log(`not ok threads: ${error.stack}`));
+
+async function testTrap() {
+    const options = { files: FILES, scene: "scenes/yard.yaml", say: () => {} };
+    for (const threads of [1, 2]) {
+        const broken = await Engine.create({ threads }), scene = broken.open(options);
+        assert.throws(() => broken.module._jostle_turn(-8), /the engine has stopped by a fault of its own .* make a new Engine/);
+        assert.equal(broken.broken, true);
+        for (const call of [() => scene.step(), () => scene.hash, () => broken.open(options), () => broken.check(FILES, "scenes/yard.yaml")]) assert.throws(call, BrokenEngineError);
+        scene.close();
+    }
+    assert.equal(engine.broken, false);
+}
+await testTrap().then(() => console.log("ok after a trap each call asks for a new engine"), (error) => console.log(`not ok a trap: ${error.stack}`));
