@@ -47,7 +47,7 @@ commands=(
     "report report $work/a.sqlite --summary out/s.json"
     "render render $work/a.sqlite --at 0.05 --out out/a.svg"
     "check check $scene $PWD/behaviours/walker.lua"
-    "test test $PWD/tests/lua/customer_test.lua"
+    "test test $PWD/tests/lua/kick_test.lua"
     "new new scene mine"
     "mods mod list $scene"
     "reference reference scenes"
@@ -109,7 +109,7 @@ once() {
     rm -rf out; mkdir out
     case $part in
     memory) run env FAULT_AT="$n" LD_PRELOAD="$alloc" "$program" "$@" ;;
-    *) run strace -qq -f -o "$work/trace" -e trace="$calls" -e inject="$calls:error=$error:when=$n" "$program" "$@" ;;
+    *) run strace --seccomp-bpf -qq -f -o "$work/trace" -e trace="$calls" -e inject="$calls:error=$error:when=$n" "$program" "$@" ;;
     esac
 }
 # How often a part happens in a command.
@@ -118,7 +118,7 @@ count() {
     rm -rf out; mkdir out
     case $part in
     memory) run env FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" 9>"$work/count"; sort -n "$work/count" | tail -n 1 ;; # of the command, or of a child that goes on from it
-    *) run strace -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@"; grep -c "(" "$work/trace" ;;
+    *) run strace --seccomp-bpf -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@"; grep -c "(" "$work/trace" ;;
     esac
 }
 sweep() { # PART NAME COMMAND...
