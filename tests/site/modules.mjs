@@ -20,7 +20,7 @@ import { cutPreview } from "../../scripts/site/make/scenes.mjs";
 import { addressOf, Draft, listDrafts, MOST_DRAFTS } from "../../scripts/site/project/draft.js";
 import { packProject, unpackProject } from "../../scripts/site/project/link.js";
 import { filesOf, isFileName, modsNamed, plainPath, renamedIn, turnOnMod } from "../../scripts/site/project/references.js";
-import { faultsSaid, unreadSaid } from "../../scripts/site/project/said.js";
+import { faultsSaid } from "../../scripts/site/project/said.js";
 import { deflate, readZip, writeZip } from "../../scripts/site/project/zip.js";
 import { CHECKS } from "../../scripts/site/workbench/lesson_checks.js";
 import { lessonFiles } from "../../scripts/site/workbench/opened.js";
@@ -152,19 +152,17 @@ const tests = {
         assert.deepEqual(["scene:office", "lesson", "link:5"].map((name) => addressOf({ name, lesson: 2 })), ["#scene=office", "#lesson=3", "#work=link%3A5"]);
     },
 
-    "what a run prints is read: errors of functions with their place, files that nothing reads"() {
+    "what a run prints is read: errors of functions with their place"() {
         const lua = (body) => `return machine { name = "a", version = 1, start = "A", states = { A = {\n  steer = function(me)\n    ${body}\n    return 0, 0\n  end } } }\n`, said = [];
         const files = { "b/a.lua": lua("local x = me.x + nil"), "s.yaml": "jostle: 1\ngroups: {one: {behaviour: b/a.lua, at: [[0, 0], [2, 0]]}}\n" };
         const scene = engine.open({ files, scene: "s.yaml", say: (text) => said.push(text) });
         scene.step(45);
-        scene.reload({ "none.lua": "return 1" });
         scene.close();
         const [fault, ...more] = said.flatMap(faultsSaid);
         assert.deepEqual([fault.file, fault.line, more.length], ["b/a.lua", 3, 0]);
         assert.match(fault.text, /^attempt to perform arithmetic on a nil value \(machine a > state A > steer, while it runs\)$/);
         const { from, to } = placeOf(files["b/a.lua"], fault);
         assert.equal(files["b/a.lua"].slice(from, to), "local x = me.x + nil");
-        assert.deepEqual(said.flatMap(unreadSaid), ["none.lua"]);
         assert.deepEqual(faultsSaid("b/a.lua:4:63: warning: no transition leads out\n machine a > state B"), []);
     },
 

@@ -11,14 +11,20 @@ BELOW = "/some/folder"  # the site is not at the server's root
 
 
 class Server:
-    """A plain file server of the site below a sub-folder."""
+    """A plain file server of the site below a sub-folder; `isolated`: with the headers by which pages may have threads."""
 
-    def __init__(self):
+    def __init__(self, isolated=False):
         class Handler(http.server.SimpleHTTPRequestHandler):
             def translate_path(self, path):
                 path = path.split("?")[0].split("#")[0]
                 inside = path[len(BELOW):] if path.startswith(BELOW + "/") else "/outside-of-the-site"
                 return super().translate_path(inside)
+
+            def end_headers(self):
+                if isolated:
+                    self.send_header("Cross-Origin-Opener-Policy", "same-origin")
+                    self.send_header("Cross-Origin-Embedder-Policy", "require-corp")
+                super().end_headers()
 
             def log_message(self, *_):
                 pass

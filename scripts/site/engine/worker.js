@@ -1,7 +1,7 @@
 // The engine's worker: runs one scene turn by turn, feeds the live page by a port, and checks texts. A second one of it, without a page,
 // checks what is being written and tries lessons, so that a large crowd makes neither wait; it is called "second", and gets the module
 // that the first one has compiled.
-import { Engine } from "../../wasm/engine.mjs";
+import { BrokenEngineError, Engine } from "../../wasm/engine.mjs";
 import { plainPath } from "../project/references.js";
 import { observe } from "./observe.js";
 import { makeSchedule } from "./schedule.js";
@@ -11,14 +11,30 @@ const NEEDS = "This browser cannot run the engine, which needs WebAssembly with 
 const locate = (name) => new URL(`engine/${name}`, location.href).href;
 let takeModule;
 const module = self.name === "second" ? new Promise((resolve) => (takeModule = resolve)) : null; // null: loaded and compiled here
-const ready = Promise.resolve(module).then((wasmBinary) => Engine.create({ wasmBinary, locate, shipped: {} })).catch((error) => {
-    throw error instanceof WebAssembly.CompileError ? new Error(`${NEEDS}. ${error.message}`) : error;
-});
+let ready = makeEngine();
 let library = null; // promise: the engine has all shipped files
 let scene = null, port = null;
 let answered = true; // the page has taken the last batch
 let begun = false; // it has drawn a picture: until then the crowd waits, as to prepare that takes all processors
 const schedule = makeSchedule(turn);
+
+/** Loads an engine; the first worker's has threads where the server's headers allow them, and its module is of no use to another one then. */
+async function makeEngine() {
+    try {
+        return await Engine.create({ wasmBinary: (await module) ?? undefined, locate, shipped: {}, threads: module ? 1 : undefined });
+    } catch (error) {
+        throw error instanceof WebAssembly.CompileError ? new Error(`${NEEDS}. ${error.message}`) : error;
+    }
+}
+
+/** What to say of an error. An engine that has stopped by a fault of its own is replaced by a new one, for the next start. */
+function textOf(error) {
+    if (!(error instanceof BrokenEngineError)) return error.message;
+    scene = library = null;
+    ready = makeEngine();
+    ready.catch(() => {}); // told by the next call
+    return `a fault of its own (${error.cause?.message ?? error.cause}). It is loaded anew: restart`;
+}
 
 function turn() {
     if (!scene || (!begun && (!port || !answered))) return;
@@ -26,8 +42,9 @@ function turn() {
     try {
         wait = scene.turn();
     } catch (error) {
+        const text = textOf(error);
         close();
-        postMessage({ event: "failed", text: error.message });
+        postMessage({ event: "failed", text });
         return;
     }
     deliver();
@@ -92,8 +109,8 @@ const calls = {
     },
 
     /**
-     * Opens a scene in place of the one that runs; if it has errors, that one goes on. Returns {errors}. `installed`: the shipped files
-     * that it needs besides `files`, where they are known; without, all are loaded first.
+     * Opens a scene in place of the one that runs; if it has errors, that one goes on. Returns {errors, threads}: threads of a step.
+     * `installed`: the shipped files that it needs besides `files`, where they are known; without, all are loaded first.
      */
     async open({ files, path, installed }) {
         const engine = await (installed && !library ? ready : withLibrary());
@@ -107,15 +124,15 @@ const calls = {
         close();
         scene = next;
         greet();
-        return { errors: [] };
+        return { errors: [], threads: engine.threads };
     },
 
-    /** Loads changed files into the scene that runs. Returns {news, errors}; with errors nothing has changed. */
+    /** Loads changed files into the scene that runs. Returns {news, errors, taken, unread}: paths; with errors nothing has changed. */
     async reload({ files }) {
         await withLibrary();
-        const { live, errors, news } = scene.reload(files);
+        const { live, errors, news, taken, unread } = scene.reload(files);
         schedule(0);
-        return { errors: live ? [] : named(errors.filter((fault) => fault.severity === "error"), Object.keys(files)[0]), news };
+        return { errors: live ? [] : named(errors.filter((fault) => fault.severity === "error"), Object.keys(files)[0]), news, taken, unread };
     },
 
     async check({ files, path }) {
@@ -161,6 +178,6 @@ addEventListener("message", async ({ data: { id, what, ...given } }) => {
     try {
         postMessage({ id, result: await calls[what](given) });
     } catch (error) {
-        postMessage({ id, error: error.message });
+        postMessage({ id, error: textOf(error) });
     }
 });

@@ -1,8 +1,7 @@
-// What the engine prints of a run, read for the workbench: errors of a behaviour's functions, and files that nothing reads.
+// What the engine prints of a run, read for the workbench: errors of a behaviour's functions.
 import { plainPath } from "./references.js";
 
 const FAULT = /^([^\s:][^:\n]*\.lua):(\d+): (?!warning|note)(.+)$/;
-const UNREAD = /no behaviour or scene of this run reads '(.+?)'/;
 
 /** Errors in a text that is printed while a scene runs: [{file, line, column, end, severity, code, text, wayOut}], as the engine's faults. */
 export function faultsSaid(said) {
@@ -13,6 +12,3 @@ export function faultsSaid(said) {
         return [{ file: plainPath(found[1]), line: Number(found[2]), column: 0, end: 0, severity: "error", code: "while-running", text: `${found[3]} (${where}, while it runs)`, wayOut: "" }];
     });
 }
-
-/** Paths of saved files of which the engine says that nothing reads them. */
-export const unreadSaid = (said) => said.split("\n").map((line) => UNREAD.exec(line)?.[1]).filter(Boolean).map(plainPath);

@@ -6,7 +6,7 @@ import { placeText, problemText } from "../editor/problems.js";
 import { EngineClient } from "../engine/client.js";
 import { Draft, MOST_DRAFTS } from "../project/draft.js";
 import { renamedIn } from "../project/references.js";
-import { faultsSaid, unreadSaid } from "../project/said.js";
+import { faultsSaid } from "../project/said.js";
 import { FilesBar } from "./files_bar.js";
 import { LessonPanel } from "./lesson_panel.js";
 import { titleOf } from "./opened.js";
@@ -21,6 +21,7 @@ export class Desk {
     constructor({ engine, opened, told, notice, patient, begun }) {
         Object.assign(this, { engine, opened, told, notice, patient });
         this.scene = opened.scene;
+        this.threads = begun.threads; // of a step
         this.texts = { ...opened.texts }; // as written
         this.live = begun.errors.length || begun.stopped ? null : { ...opened.texts }; // as they run; null: nothing runs
         this.versions = []; // what ran before each save, the latest last
@@ -241,15 +242,14 @@ export class Desk {
     /** Loads files into the crowd that runs; with `back`, as the way back from a save. */
     async reload(changed, back = false) {
         const files = Object.fromEntries(changed.map((path) => [path, this.texts[path]])), before = { ...this.live };
-        this.unread = [];
-        const { errors, news } = await this.patient(this.engine.call("reload", { files }));
+        const { errors, news, taken, unread } = await this.patient(this.engine.call("reload", { files }));
         if (errors.length) return this.tellErrors(errors, "Not live: the version before keeps running");
-        this.live = { ...this.live, ...files };
+        this.live = { ...this.live, ...Object.fromEntries([...taken, ...unread].map((path) => [path, files[path]])) };
         this.later ||= news.some((item) => item.later);
-        if (!back) this.versions.push(before);
+        if (!back && taken.length) this.versions.push(before);
         this.faults = []; // those that are left come again
         this.setProblems((this.checked ?? []).filter((p) => p.severity !== "error"));
-        this.tellNews(news, back);
+        this.tellNews(news, back, unread);
         this.checkSoon(0);
         this.lastNews = news;
     }
@@ -300,7 +300,6 @@ export class Desk {
 
     /** Shows what the engine and behaviours print, as natively the terminal does; errors of functions also among the problems. */
     hear(text) {
-        this.unread?.push(...unreadSaid(text));
         const known = new Set(this.faults.map((f) => `${f.file}:${f.line}`)), faults = faultsSaid(text).filter((f) => !known.has(`${f.file}:${f.line}`));
         if (faults.length && this.faults.length < MOST) {
             this.faults.push(...faults);
@@ -327,13 +326,13 @@ export class Desk {
     }
 
     /** Tells what a save changed: people by state before and after, and what needs a restart. */
-    tellNews(news, back) {
-        const later = news.some((item) => item.later), { unread } = this;
+    tellNews(news, back, unread) {
+        const later = news.some((item) => item.later);
         const rows = news.map((item) => el("div", { className: "item" }, el("strong", {}, `${item.file.split("/").pop()} is ${back ? "as before" : "live"}`), el("ul", {}, newsLines(item).map((line) => el("li", {}, line)))));
         if (unread.length) rows.push(el("p", {}, `Nothing that runs reads ${unread.join(", ")}: a scene or a behaviour has to name it.`));
         this.tell(rows.length ? "" : back ? "The save is taken back." : "Saved.", rows, el("div", { className: "row" },
             later || this.isOver ? el("button", { type: "button", className: "main", onclick: () => this.restart() }, later ? "Restart, so that all of it counts" : "The run is over: restart") : null,
-            back ? null : el("button", { type: "button", onclick: () => this.undo() }, "Undo this save")));
+            back || unread.length > news.length ? null : el("button", { type: "button", onclick: () => this.undo() }, "Undo this save")));
     }
 
     /** Opens another project in place of this one: {scene, files}. */
