@@ -14,6 +14,7 @@ import { pathToFileURL } from "node:url";
 import { complete, explain } from "../../scripts/site/editor/completion.js";
 import { placeOf } from "../../scripts/site/editor/problems.js";
 import { nodeAt, pathAt } from "../../scripts/site/editor/yaml_path.js";
+import { EngineClient } from "../../scripts/site/engine/client.js";
 import { observe } from "../../scripts/site/engine/observe.js";
 import { makeSchedule } from "../../scripts/site/engine/schedule.js";
 import { cutPreview } from "../../scripts/site/make/scenes.mjs";
@@ -196,6 +197,16 @@ const tests = {
         await pause(60);
         assert.equal(done, 2);
         channel.port1.close(); // it would keep node
+    },
+
+    async "a worker that cannot be loaded is told, whenever that was found out, and answers no call"() {
+        const told = [], worker = { postMessage() {} }, event = { message: "", preventDefault() {} }, engineOf = (of) => new EngineClient(of, ({ text }) => told.push(text));
+        const waits = engineOf(worker), call = waits.call("open");
+        worker.onerror(event);
+        await assert.rejects(call, /a file of the playground is missing/);
+        await assert.rejects(waits.call("open"), /a file of the playground is missing/);
+        await assert.rejects(engineOf({ early: event, postMessage() {} }).call("open"), /a file of the playground is missing/);
+        assert.equal(told.length, 2);
     },
 
     "every word of the reference has a signature and an explanation"() {

@@ -33,7 +33,7 @@ function textOf(error) {
     scene = library = null;
     ready = makeEngine();
     ready.catch(() => {}); // told by the next call
-    return `a fault of its own (${error.cause?.message ?? error.cause}). It is loaded anew: restart`;
+    return `a fault of its own (${error.cause?.message ?? error.cause}). It is loaded again: press Restart`;
 }
 
 function turn() {

@@ -47,6 +47,7 @@ export class Desk {
         this.faults = []; // errors of functions while the crowd runs
         told.addEventListener("failed", () => {
             this.live = null;
+            this.hasFailed = true;
             this.refresh();
         });
         told.addEventListener("status", ({ detail }) => (this.isOver = Boolean(detail.end)));
@@ -269,6 +270,8 @@ export class Desk {
         this.live = texts;
         this.lastNews = [];
         this.later = false;
+        if (this.hasFailed) byId("notice").hidden = true; // which told of that
+        this.hasFailed = false;
         this.setProblems(this.checked ?? []);
         this.tell(`${done} with ${Object.keys(texts).length === 1 ? "this file" : `these ${Object.keys(texts).length} files`}.`);
         this.checkSoon(0);

@@ -2,6 +2,9 @@
 // The page in the frame may ask for the engine before they run, and of files they do not run at all.
 if (location.protocol !== "file:") {
     window.engineWorker = new Worker("worker.js", { type: "module", name: "first" });
+    window.engineWorker.onerror = (event) => {
+        window.engineWorker.early = event;
+    };
     const scene = location.hash ? /^#scene=([\w-]+)$/.exec(location.hash)?.[1] : "dodgeball";
     if (scene) {
         const path = `data/scenes/${scene}.json`;
