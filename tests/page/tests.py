@@ -548,7 +548,10 @@ def plays(browser):
         browser.wait("return page.player.sent === '0 5 0 0'", "touch does not drive")
         touch("touchEnd")
         browser.wait("return page.player.sent === '0 0 0 0'", "the stick does not come back")
-        browser.find("body").send_keys(Keys.ESCAPE)
+        # A status that was under way when the time was stopped does not end the pause.
+        browser.run("const { game } = page, take = game.take.bind(game); game.take = (status) => { game.last = status; take(status); }")
+        browser.wait("return page.game.last && !page.game.last.paused", "no status comes")
+        browser.run("const { last } = page.game; document.body.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true })); page.game.take(last)")
         browser.wait("return page.game.shown === 'pause' && page.bar.paused", "Escape does not pause")
         browser.button("Go on").click()
         browser.wait("return page.game.playing && !page.bar.paused", "it does not go on")

@@ -15,6 +15,7 @@ export class GamePanel {
         this.state = null;
         this.shown = ""; // which card
         this.playing = false;
+        this.pausing = false; // a pause was sent, and no status tells of it yet
         this.card.addEventListener("keydown", (event) => event.key !== "Escape" && event.key !== "Tab" && event.stopPropagation());
     }
 
@@ -44,6 +45,7 @@ export class GamePanel {
         const before = this.state, begins = state.on && !state.winner && (!before?.on || before.winner || before.round !== state.round || status.time < this.time);
         this.state = state;
         this.time = status.time;
+        this.pausing &&= !status.paused;
         this.showScore(status.time);
         if (this.shown && this.unfocused) this.focus();
         if (begins || (state.on && !state.winner && this.shown === "start" && this.waits)) {
@@ -52,7 +54,7 @@ export class GamePanel {
             this.play(true);
         } else if (state.on && state.winner && this.shown !== "over" && before) this.showOver();
         else if (!state.on && before?.on) this.showStart();
-        else if (state.on && !state.winner && this.shown === "pause" && !status.paused) this.goOn();
+        else if (state.on && !state.winner && this.shown === "pause" && !status.paused && !this.pausing) this.goOn();
         if (!this.shown && before?.on && (before.ours !== state.ours || before.theirs !== state.theirs)) {
             say(this.told, `${rules.ours} ${state.ours}, ${rules.theirs} ${state.theirs}`);
         }
@@ -123,6 +125,7 @@ export class GamePanel {
         if (!this.playing) return false;
         this.play(false);
         this.page.send({ do: "pause", on: true });
+        this.pausing = true;
         this.show("pause", "Paused", [el("div", { className: "row" }, this.main("Go on", () => {
             this.page.send({ do: "pause", on: false });
             this.goOn();
@@ -131,6 +134,7 @@ export class GamePanel {
     }
 
     goOn() {
+        this.pausing = false;
         this.show("");
         this.play(true);
     }
