@@ -28,6 +28,8 @@ static const double LOAD_SECONDS = 0.35, STALL_SECONDS = 0.5, STEP_SECONDS = 150
 static const double CALL_SECONDS = 20e-6;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
 static const double SLOWER = 4.0;
+#elif defined(__wasm__)
+static const double SLOWER = 10.0; /* no clock of processor time: other load counts, too */
 #else
 static const double SLOWER = 1.0;
 #endif
