@@ -10,13 +10,13 @@ enum { JOX_WIDTH = 4 };
 #define JOX_WIDE(name) name##_wasm
 
 #define JOX_EACH(X) X(0), X(1), X(2), X(3)
-#define JOX_FOUR_LANES
 
 typedef float JoxFloats __attribute__((vector_size(16)));
 typedef int32_t JoxInts __attribute__((vector_size(16)));
 typedef JoxInts JoxMask;
 
 #include "simd/lanes_vector.h"
+#include "simd/packed.h"
 
 static inline JoxInts ji_load_bytes(const uint8_t *from) {
     const v128_t pairs = wasm_u16x8_extend_low_u8x16(wasm_v128_load32_zero(from));
@@ -44,6 +44,32 @@ static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
 
 static inline JoxFloats jf_next(JoxFloats a) {
     return __builtin_shufflevector(a, a, 1, 2, 3, 3);
+}
+
+/* Permutes lanes: each of the four bytes of lane l of `from` is the lane that l gets. */
+static inline v128_t jox_permute_lanes(v128_t a, v128_t from) {
+    const v128_t bytes = wasm_i8x16_const(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+    return wasm_i8x16_swizzle(a, wasm_v128_or(wasm_i32x4_shl(from, 2), bytes));
+}
+static inline v128_t jox_pack_lanes(v128_t a, uint32_t bits) {
+    const v128_t order = wasm_v128_load32_zero(&jox_packed_order[bits]);
+    return jox_permute_lanes(
+        a, wasm_i8x16_shuffle(order, order, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3));
+}
+static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
+    wasm_v128_store(to, jox_pack_lanes((v128_t)a, bits));
+}
+static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
+    wasm_v128_store(to, jox_pack_lanes((v128_t)a, bits));
+}
+static inline JoxFloats jf_arrange(JoxFloats a, JoxInts from) {
+    const v128_t lanes = (v128_t)from;
+    return (JoxFloats)jox_permute_lanes(
+        (v128_t)a,
+        wasm_i8x16_shuffle(lanes, lanes, 0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12));
+}
+static inline uint32_t jm_count(uint32_t bits) {
+    return (uint32_t)__builtin_popcount(bits);
 }
 
 static inline JoxInts ji_opaque(JoxInts a) {

@@ -1,5 +1,5 @@
 /* Computes at compile time, for each mask of eight lanes, the order that puts the lanes of the mask
-   first. Used by AVX2, SSE2 and NEON lanes. */
+   first. Used by all lanes but those of AVX-512. */
 #include "simd/packed.h"
 
 #define BIT(mask, lane) ((uint64_t)((mask) >> (lane)&1))
