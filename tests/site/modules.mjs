@@ -318,6 +318,58 @@ const tests = {
         }
     },
 
+    async "after a trap the worker makes a new engine, and opens the scene with what ran"() {
+        const said = [], own = ["self", "location", "postMessage", "addEventListener", "fetch"].map((name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)]);
+        const set = (name, value) => Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+        const instantiate = WebAssembly.instantiate, memories = [];
+        let receive;
+        WebAssembly.instantiate = async (...given) => {
+            const instance = await instantiate(...given);
+            memories.push(...Object.values(instance.exports).filter((item) => item instanceof WebAssembly.Memory));
+            return instance;
+        };
+        set("self", { name: "first" });
+        set("location", { href: pathToFileURL(join(SITE, "workbench.html")).href });
+        set("postMessage", (message) => said.push(message));
+        set("addEventListener", (_, handler) => (receive = (data) => handler({ data })));
+        set("fetch", async (address) => ({ ok: true, json: async () => JSON.parse(readFileSync(new URL(address), "utf8")) }));
+        const { port1, port2 } = new MessageChannel(), sent = []; // the page
+        port1.onmessage = ({ data }) => {
+            sent.push(data);
+            if (data.messages) port1.postMessage({ drawn: true });
+        };
+        try {
+            await import(pathToFileURL(join(SITE, "worker.js")));
+            const call = async (what, given) => {
+                await receive({ id: said.length + 1000, what, ...given });
+                const { result, error } = said.at(-1);
+                assert.equal(error, undefined);
+                return result;
+            };
+            const until = async (done) => { for (let n = 0; n < 1000 && !done(); n++) await new Promise((waited) => setTimeout(waited, 10)); };
+            const faults = () => said.filter(({ event }) => event === "failed").map(({ text }) => text);
+            await call("connect", { port: port2 });
+            const files = sceneFiles("scenes/circle.yaml"), path = "behaviours/antipodal.lua";
+            files["scenes/circle.yaml"] = files["scenes/circle.yaml"].replace("1000", "10");
+            assert.deepEqual((await call("open", { files, path: "scenes/circle.yaml" })).errors, []);
+            assert.deepEqual((await call("reload", { files: { [path]: files[path].replace("version = 1", "version = 7") } })).errors, []);
+            const scenes = () => sent.flatMap(({ messages }) => messages ?? []).filter((text) => typeof text === "string" && /"type": *"scene"/.test(text));
+            const runs = (reloads) => new RegExp(`"version": 7, "reloads": ${reloads},`).test(scenes().at(-1));
+            await until(() => runs(1));
+            new Uint8Array(memories[0].buffer).fill(255);
+            await until(() => faults().length === 1 && runs(0));
+            assert.match(faults()[0], /a fault of its own .*begins the scene anew/);
+            assert.ok(runs(0), "the scene does not run anew with what was saved");
+            new Uint8Array(memories[1].buffer).fill(255);
+            await until(() => faults().length === 2);
+            assert.match(faults()[1], /press Restart/); // no endless chain
+        } finally {
+            port1.close();
+            WebAssembly.instantiate = instantiate;
+            for (const [name, descriptor] of own) if (descriptor) Object.defineProperty(globalThis, name, descriptor);
+        }
+    },
+
     "engine, bodies, page and what starts them are at most 1.5 MB, compressed"() {
         const loaded = ["engine/engine.mjs", "engine/jostle.mjs", "engine/jostle.wasm", "engine/shipped.json", "page/index.html", "page/main.js", "page/style.css", "site.css", "worker.js", "workbench.html", "workbench.js"];
         const sizes = loaded.map((path) => gzipSync(readFileSync(join(SITE, path)), { level: 9 }).length), all = sizes.reduce((sum, size) => sum + size, 0);
@@ -352,3 +404,4 @@ for (const [name, test] of Object.entries(tests)) {
         process.exitCode = 1;
     }
 }
+process.exit(); // ports of the worker that was tested stay open

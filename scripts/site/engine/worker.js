@@ -11,9 +11,12 @@ const NEEDS = "This browser cannot run the engine, which needs WebAssembly with 
 const locate = (name) => new URL(`engine/${name}`, location.href).href;
 let takeModule;
 const module = self.name === "second" ? new Promise((resolve) => (takeModule = resolve)) : null; // null: loaded and compiled here
+const SOON = 30000; // ms
 let ready = makeEngine();
 let library = null; // promise: the engine has all shipped files
 let scene = null, port = null;
+let opened = null; // {files, path} of the scene that runs, with the files that it has taken since
+let mended = -Infinity; // when a fault of the engine was mended last, ms
 let answered = true; // the page has taken the last batch
 let begun = false; // it has drawn a picture: until then the crowd waits, as to prepare that takes all processors
 const schedule = makeSchedule(turn);
@@ -27,13 +30,27 @@ async function makeEngine() {
     }
 }
 
-/** What to say of an error. An engine that has stopped by a fault of its own is replaced by a new one, for the next start. */
+/**
+ * What to say of an error. An engine that has stopped by a fault of its own is replaced by a new one, which begins the scene that ran
+ * anew; if a fault comes again soon, that waits for a restart.
+ */
 function textOf(error) {
     if (!(error instanceof BrokenEngineError)) return error.message;
+    const lost = scene && opened, again = performance.now() - mended < SOON, why = `a fault of its own (${error.cause?.message ?? error.cause})`;
+    mended = performance.now();
     scene = library = null;
     ready = makeEngine();
     ready.catch(() => {}); // told by the next call
-    return `a fault of its own (${error.cause?.message ?? error.cause}). It is loaded again: press Restart`;
+    if (!lost || again) return `${why}. It is loaded again: press Restart`;
+    calls.open(lost).catch(({ message }) => postMessage({ event: "failed", text: message }));
+    return `${why}. A new one begins the scene anew, with the texts that ran: what the crowd had done is lost`;
+}
+
+/** Ends the scene by an error from which it cannot go on. */
+function stop(error) {
+    const text = textOf(error);
+    close();
+    postMessage({ event: "failed", text });
 }
 
 function turn() {
@@ -41,13 +58,11 @@ function turn() {
     let wait;
     try {
         wait = scene.turn();
+        deliver();
     } catch (error) {
-        const text = textOf(error);
-        close();
-        postMessage({ event: "failed", text });
+        stop(error);
         return;
     }
-    deliver();
     schedule(wait);
 }
 
@@ -98,9 +113,14 @@ const calls = {
         port = given;
         answered = true;
         port.onmessage = ({ data }) => {
-            if (data.command) scene?.command(data.command);
-            else answered = true;
-            deliver();
+            try {
+                if (data.command) scene?.command(data.command);
+                else answered = true;
+                deliver();
+            } catch (error) {
+                stop(error);
+                return;
+            }
             if (data.command || !begun) schedule(0);
             begun ||= Boolean(data.drawn);
         };
@@ -123,6 +143,7 @@ const calls = {
         }
         close();
         scene = next;
+        opened = { files, path };
         greet();
         return { errors: [], threads: engine.threads };
     },
@@ -131,6 +152,7 @@ const calls = {
     async reload({ files }) {
         await withLibrary();
         const { live, errors, news, taken, unread } = scene.reload(files);
+        opened = { ...opened, files: { ...opened.files, ...Object.fromEntries([...taken, ...unread].map((path) => [path, files[path]])) } };
         schedule(0);
         return { errors: live ? [] : named(errors.filter((fault) => fault.severity === "error"), Object.keys(files)[0]), news, taken, unread };
     },
