@@ -143,6 +143,8 @@ export class Engine {
     readonly broken: boolean;
     /** The compiled module, for other engines; null: the one with threads, which is for one engine. */
     readonly compiled: WebAssembly.Module | null;
+    /** Adds files to those that come with the engine: scenes that are opened from now on find them. */
+    ship(files: Files): void;
     /** Ends the engine with its threads and scenes. One with one thread need not be closed. */
     close(): void;
     /** Throws a JostleError if the scene does not load. */
