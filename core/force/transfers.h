@@ -14,11 +14,17 @@ typedef struct JoxTransfer {
     float x, y; /* N */
 } JoxTransfer;
 
+/* A transfer once it is sorted: its place tells the receiver. */
+typedef struct JoxReceivedForce {
+    uint32_t from_id;
+    float x, y; /* N */
+} JoxReceivedForce;
+
 /* Zero-initialise; it owns its arrays. */
 typedef struct JoxTransfers {
     JoxChunkList list;
     uint32_t *starts; /* per receiver, plus one: first of its transfers in `sorted` */
-    JoxTransfer *sorted;
+    JoxReceivedForce *sorted;
     size_t start_capacity, sorted_capacity;
 } JoxTransfers;
 

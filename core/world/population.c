@@ -375,6 +375,7 @@ void jox_world_populate(JoWorld *world, JoxPlaced *placed) {
     for (uint32_t g = 0; g < p->group_count; g++)
         total += p->groups[g].count;
     jox_agents_reserve(&world->state.agents, total);
+    jox_agents_reserve_slots(&world->state.agents, total);
     for (uint32_t g = 0; g < p->group_count; g++)
         placed[g] = place_group(world, g);
     JOX_ASSERT(world->state.agents.count <= total);

@@ -45,6 +45,8 @@ static void add_case_json(JoxJson *json, const BenchGiven *given, const BenchCas
     jox_json_digits(json, "wall_ns_per_agent_step", bench_find_median(c->wall, c->measured), 6);
     jox_json_digits(json, "least_wall_ns_per_agent_step", bench_find_least(c->wall, c->measured),
                     6);
+    if (bench_find_least(c->others, c->measured) >= 0.0)
+        jox_json_digits(json, "processors_of_others", bench_find_median(c->others, c->measured), 3);
     jox_json_digits(json, "bullet_ns", bench_find_median(c->bullet, c->measured), 4);
     jox_json_digits(json, "bodies_ns", bench_find_median(c->bodies, c->measured), 4);
     jox_json_digits(json, "bodies_in_bullets", get_bodies_ratio(c), 4);

@@ -124,6 +124,7 @@ int bench_worlds(const BenchWorlds *def, const BenchGiven *given, BenchCase *c, 
         from.cpu_s = from.wall_s = 0.0;
         to.cpu_s = cpu;
         to.wall_s = wall;
+        c->others[c->measured] = -1.0;
         bench_note(c, &from, &to, wall, cpu);
     }
     free_worlds(&w);

@@ -122,7 +122,7 @@ static void scale_transfers(void *context, uint32_t begin, uint32_t end, uint32_
     float share =
         f->options.literal ? 1.0f : jox_filter_share(f->step.timing.dt, f->options.filter);
     JOX_ASSERT(share > 0.0f && share <= 1.0f);
-    JoxTransfer *sorted = f->transfers.sorted;
+    JoxReceivedForce *sorted = f->transfers.sorted;
     for (uint32_t i = f->transfers.starts[begin]; i < f->transfers.starts[end]; i++) {
         sorted[i].x *= share;
         sorted[i].y *= share;

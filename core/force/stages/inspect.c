@@ -20,9 +20,9 @@ JoxV2 jox_force_from_slowing(const JoxForces *f, uint32_t agent, float *remainin
     if (!f->totals.passed)
         return sum;
     for (uint32_t k = f->transfers.starts[agent]; k < f->transfers.starts[agent + 1]; k++) {
-        const JoxTransfer *t = &f->transfers.sorted[k];
+        const JoxReceivedForce *t = &f->transfers.sorted[k];
         uint32_t giver = jox_agents_find(a, t->from_id);
-        JOX_ASSERT(giver < a->count && t->to == agent);
+        JOX_ASSERT(giver < a->count);
         if (!jox_under_force(f, giver))
             sum = jox_add(sum, (JoxV2){t->x, t->y});
     }
