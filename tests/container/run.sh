@@ -10,7 +10,7 @@ export STORAGE_DRIVER=vfs BUILDAH_ISOLATION=chroot
 bud() { buildah --root "$dir/store" --runroot "$dir/run" "$@"; }
 verdict() { if [ "$2" = 0 ]; then echo "ok $1"; else echo "not ok $1"; fi; }
 server=
-trap '[ -z "$server" ] || kill $server 2>/dev/null; bud rm --all >/dev/null 2>&1; rm -rf "$dir"' EXIT
+trap '[ -z "$server" ] || kill -- -$server 2>/dev/null; bud rm --all >/dev/null 2>&1; rm -rf "$dir"' EXIT
 
 base=${1-debian:bookworm-slim}
 if [ -f "$base" ] || ! bud pull -q "$base" >"$dir/log" 2>&1; then
@@ -48,11 +48,13 @@ inside run evacuation --for 10 --quiet --summary - && grep -qF -- "$wanted" "$di
 verdict "a scene by its name, with the hash of the program here" $? ; tail -2 "$dir/said"
 inside run dodgeball --for 2 --quiet --record run.sqlite && inside report run.sqlite --out report
 verdict "a recording and its report, in /work" $? ; tail -3 "$dir/said"
-bud run "$container" -- jostle run evacuation --view=8793 --view-address 0.0.0.0 --view-wait 60 >"$dir/view" 2>&1 &
+# A group of processes of its own, which ends as a whole.
+setsid buildah --root "$dir/store" --runroot "$dir/run" run "$container" -- \
+    jostle run evacuation --view=8793 --view-address 0.0.0.0 --view-wait 60 >"$dir/view" 2>&1 &
 server=$!
 for _ in $(seq 100); do grep -q 'http://' "$dir/view" && break; sleep 0.2; done
 address=$(grep -o 'http://[^ ]*' "$dir/view" | head -1 | sed 's|http://[^:/]*:|http://127.0.0.1:|')
 curl -sSL --max-time 20 -c "$dir/cookies" "$address" 2>"$dir/said" | grep -qi '<html'
 verdict "its live page is reached from outside" $? ; cat "$dir/said"; head -3 "$dir/view"
-kill $server; wait $server 2>/dev/null; server=
+kill -- -$server; wait $server 2>/dev/null; server=
 exit 0
