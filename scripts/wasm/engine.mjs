@@ -50,7 +50,7 @@ export class JostleError extends Error {
     /** @param {Fault[]} errors */
     constructor(errors) {
         const first = errors[0] ?? makeFault({ message: "the engine has failed" });
-        const place = first.file ? `${first.file}:${first.line}:${first.column}: ` : "";
+        const place = first.file ? `${[first.file, first.line, first.column].filter(Boolean).join(":")}: ` : "";
         super(`${place}${first.text}${first.wayOut ? `. ${first.wayOut}` : ""}`);
         this.name = "JostleError";
         this.errors = errors;
@@ -67,7 +67,8 @@ function wholeNumber(what, value, most = Number.MAX_SAFE_INTEGER) {
 
 /** Files as [path, content] pairs; throws an error that names what is wrong with one. */
 function listFiles(files) {
-    if (typeof files !== "object" || files === null || Array.isArray(files)) throw new TypeError("files must be an object: texts, or bytes, by path");
+    if (typeof files !== "object" || files === null || Array.isArray(files) || files instanceof Map)
+        throw new TypeError(`files must be an object: texts, or bytes, by path${files instanceof Map ? "; Object.fromEntries makes one of a Map" : ""}`);
     const list = Object.entries(files), given = new Set(list.map(([path]) => cleanParts(path).join("/")));
     for (const [path, content] of list) {
         const parts = cleanParts(path);
@@ -221,6 +222,11 @@ export class Engine {
         return guarded;
     }
 
+    /** Whether the engine can do nothing more: it is closed, or broken. @private */
+    get hasEnded() {
+        return this.#closed || this.broken;
+    }
+
     /** Whether the engine has stopped by a fault of its own: then each call throws a BrokenEngineError. */
     get broken() {
         return this.#fault !== null;
@@ -267,11 +273,11 @@ export class Engine {
     open({ files = {}, scene, mods = [], set = [], seed, dt, page = false, say = (text) => console.warn(text) } = {}) {
         if (typeof scene !== "string") throw new TypeError("open({scene}): the path of a scene is missing");
         if (seed !== undefined) wholeNumber("seed", seed);
-        if (dt !== undefined && typeof dt !== "number") throw new TypeError(`dt must be a number of seconds, not ${dt}`);
+        if (dt !== undefined && !Number.isFinite(dt)) throw new TypeError(`dt must be a number of seconds, not ${dt}`);
         listTexts("mods", mods);
         const sets = typeof set === "object" && set !== null && !Array.isArray(set) ? Object.entries(set).map(([path, value]) => `${path}=${value}`) : listTexts("set", set);
-        const folder = this.#folder(files);
-        const handle = this.texts([scene, sets, mods], (path, first, second) =>
+        const folder = this.#folder(files), plain = scene.startsWith("/") ? scene : cleanParts(scene).join("/"); // as reload names it
+        const handle = this.texts([plain, sets, mods], (path, first, second) =>
             this.module._jostle_open(path, first, sets.length, second, mods.length, seed ?? NaN, dt ?? NaN, page));
         if (handle) return new Scene(this, handle, folder, say);
         const error = this.error();
@@ -522,7 +528,7 @@ export class Scene {
      *     machine, before, after, notes}, where before and after are {state, people}[], or of the scene {file, done, later}.
      */
     reload(files) {
-        const list = listFiles(files), engine = this.#engine;
+        const list = listFiles(files).map(([path, content]) => [cleanParts(path).join("/"), content]), engine = this.#engine;
         const texts = list.flatMap(([path, content]) => [path, content]).map((item) => (typeof item === "string" ? engine.encoder.encode(item) : item));
         const addresses = texts.map((bytes) => engine.put(bytes));
         const table = engine.put(new Uint8Array(12 * list.length)); // JoFile: path, text, length
@@ -536,7 +542,8 @@ export class Scene {
         } finally {
             for (const address of [...addresses, table]) this.#module._free(address);
         }
-        for (const path of [...answer.taken, ...answer.unread]) engine.write(this.#folder, path, files[path]); // restarts read them
+        const contents = new Map(list);
+        for (const path of [...answer.taken, ...answer.unread]) engine.write(this.#folder, path, contents.get(path)); // restarts read them
         this.#tell();
         return { live: answer.live, errors: answer.errors.map(makeFault), taken: answer.taken, unread: answer.unread, news: answer.news?.news ?? [] };
     }
@@ -659,7 +666,7 @@ export class Scene {
     /** Ends the scene and frees it. */
     close() {
         if (!this.#handle) return;
-        if (!this.#engine.broken) this.#call("close");
+        if (!this.#engine.hasEnded) this.#call("close");
         this.#handle = 0;
         this.#engine.remove(this.#folder);
     }

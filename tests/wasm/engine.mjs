@@ -104,6 +104,18 @@ test("a reload names files that nothing reads, and keeps them", () => {
     scene.close();
 });
 
+test("a path may begin with ./, in reload as in open", () => {
+    const files = Object.fromEntries(Object.entries(FILES).map(([path, text]) => [`./${path}`, text]));
+    const scene = openYard({ files, scene: "./scenes//yard.yaml" });
+    assert.equal(scene.reload({ "./scenes/yard.yaml": YARD }).live, true);
+    const { live, taken, unread } = scene.reload({ "./behaviours//walk.lua": walk(0.5) });
+    assert.deepEqual({ live, taken, unread }, { live: true, taken: ["behaviours/walk.lua"], unread: [] });
+    assert.equal(scene.read("behaviours/walk.lua"), walk(0.5));
+    scene.step(60);
+    assert.ok(Math.abs(scene.column("vx")[0] - 0.5) < 0.01);
+    scene.close();
+});
+
 test("a reload that changes nothing keeps the hash", () => {
     const [one, other] = [openYard(), openYard()];
     for (const scene of [one, other]) scene.step(10);
@@ -210,10 +222,12 @@ test("wrong arguments are named, and leave nothing behind", () => {
     for (const count of [-1, 1.5, NaN, Infinity, "3"]) assert.throws(() => scene.step(count), /count must be a whole number/);
     assert.throws(open({ seed: -1 }), /seed must be a whole number/);
     assert.throws(open({ seed: "abc" }), /seed must be/);
-    assert.throws(open({ dt: "fast" }), /dt must be a number/);
+    for (const dt of ["fast", NaN]) assert.throws(open({ dt }), /dt must be a number/);
     assert.throws(open({ mods: "doubles" }), /mods must be a list of texts/);
     assert.throws(open({ set: "a=1" }), /set must be a list of texts/);
     assert.throws(open({ files: null }), /files must be an object/);
+    assert.throws(open({ files: new Map(Object.entries(FILES)) }), /Object.fromEntries makes one of a Map/);
+    assert.throws(() => engine.open({ scene: "scenes/none.yaml" }), { message: /^scenes\/none.yaml: / });
     assert.throws(open({ files: { ...FILES, "a.lua": 5 } }), /'a.lua' must be a text/);
     assert.throws(open({ files: { ...FILES, "../a.lua": "" } }), /'..\/a.lua' is no path/);
     assert.throws(open({ files: { ...FILES, a: "", "a/b.lua": "" } }), /'a' is a file, and the folder of 'a\/b.lua'/);
@@ -272,6 +286,8 @@ async function testThreads() {
     assert.ok(scene.column("x").buffer instanceof SharedArrayBuffer);
     for (const each of several) each.close();
     assert.throws(() => scene.step(), /the engine is closed/);
+    scene.close();
+    assert.throws(() => scene.step(), /the scene is closed/);
     await assert.rejects(Engine.create({ threads: 0 }), /threads must be a whole number from 1 to 64/);
 }
 await testThreads().then(() => console.log("ok hashes are the same with one, two and three threads"), (error) => console.log(`not ok threads: ${error.stack}`));
