@@ -250,6 +250,11 @@ def start(browser):
     bench.press("Restart")
     bench.outcome("Started anew")
     bench.wait("return document.getElementById('problems').hidden", "an error that is mended stays")
+    # A version from before the renaming comes back under the new name.
+    bench.press("Undo save")
+    bench.outcome("rédt.lua is as before")
+    expect("me.x + nil" in bench.text("game/rédt.lua") and "behaviour: rédt.lua" in bench.text("game/talk.yaml"), "what ran before the renaming is not back")
+    bench.write("game/rédt.lua", "me.x + nil", "0")
     bench.write("game/talk.yaml", "title: Talk", "title: Talks")
     bench.run("desk.files.add('none.lua'); return desk.save()")
     bench.outcome("Nothing that runs reads game/none.lua", "talk.yaml is live")

@@ -68,6 +68,12 @@ function nameFrom(here, path) {
     return [...from.slice(same).map(() => ".."), ...to.slice(same)].join("/");
 }
 
+/** Texts {path: text} with the file at `path` moved to `to`, also in the texts that name it. */
+export function renameFile(texts, path, to) {
+    const { [path]: own, ...others } = renamedIn(texts, path, to);
+    return own === undefined ? others : { ...others, [to]: own };
+}
+
 /** Texts {path: text} in which the file at `path` has the name that it has at `to`. */
 export function renamedIn(texts, path, to) {
     const has = (other) => Object.hasOwn(texts, other), base = to.slice(folderOf(to).length), stays = folderOf(path) === folderOf(to);

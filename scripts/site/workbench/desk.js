@@ -5,7 +5,7 @@ import { Editor } from "../editor/editor.js";
 import { placeText, problemText } from "../editor/problems.js";
 import { EngineClient } from "../engine/client.js";
 import { Draft, MOST_DRAFTS } from "../project/draft.js";
-import { renamedIn } from "../project/references.js";
+import { renameFile } from "../project/references.js";
 import { faultsSaid } from "../project/said.js";
 import { FilesBar } from "./files_bar.js";
 import { LessonPanel } from "./lesson_panel.js";
@@ -16,6 +16,9 @@ const PAUSE = 350; // ms without a key before what is written is checked
 const MOST = 50; // problems listed
 const LINES = 300; // of what is printed
 
+/** Gives texts that run the names that their files were given since: none here. */
+const keepNames = (texts) => ({ ...texts });
+
 export class Desk {
     /** `given`: {engine, opened, told, notice, patient, begun}: see main.js and opened.js; `begun`: the answer to the first opening. */
     constructor({ engine, opened, told, notice, patient, begun }) {
@@ -24,7 +27,8 @@ export class Desk {
         this.threads = begun.threads; // of a step
         this.texts = { ...opened.texts }; // as written
         this.live = begun.errors.length || begun.stopped ? null : { ...opened.texts }; // as they run; null: nothing runs
-        this.versions = []; // what ran before each save, the latest last
+        this.versions = []; // what ran before each save, the latest last, with the names that its files have now
+        this.moved = keepNames;
         this.words = { words: [], keys: [], spaces: { other: [], own: [] }, methods: [], scene: {}, behaviours: [] };
         this.checker = this.startChecker();
         this.draft = new Draft(opened.name);
@@ -109,6 +113,7 @@ export class Desk {
         this.scene = path;
         this.live = null;
         this.versions = [];
+        this.moved = keepNames;
         this.faults = [];
         this.keep();
         this.refresh();
@@ -140,11 +145,13 @@ export class Desk {
 
     /** Gives a file another path, and puts it into the texts that name it. */
     rename(path, to) {
-        const before = this.texts, { [path]: own, ...others } = renamedIn(before, path, to);
-        const changed = Object.keys(others).filter((other) => others[other] !== before[other]);
-        this.texts = { ...others, [to]: own };
+        const before = this.texts, rename = (texts) => renameFile(texts, path, to), { moved } = this;
+        this.texts = rename(before);
+        const changed = Object.keys(before).filter((other) => other !== path && this.texts[other] !== before[other]);
+        this.versions = this.versions.map(rename);
+        this.moved = (texts) => rename(moved(texts));
         if (this.scene === path) this.scene = to;
-        for (const other of changed) this.editor.replace(other, others[other]);
+        for (const other of changed) this.editor.replace(other, this.texts[other]);
         this.editor.drop(path);
         this.show(to);
         this.keep();
@@ -247,7 +254,7 @@ export class Desk {
         if (errors.length) return this.tellErrors(errors, "Not live: the version before keeps running");
         this.live = { ...this.live, ...Object.fromEntries([...taken, ...unread].map((path) => [path, files[path]])) };
         this.later ||= news.some((item) => item.later);
-        if (!back && taken.length) this.versions.push(before);
+        if (!back && taken.length) this.versions.push(this.moved(before));
         this.faults = []; // those that are left come again
         this.setProblems((this.checked ?? []).filter((p) => p.severity !== "error"));
         this.tellNews(news, back, unread);
@@ -266,8 +273,9 @@ export class Desk {
             this.faults = faults; // what runs is as before
             return this.tellErrors(errors, this.live ? "Not restarted: the version before keeps running" : "Nothing runs yet");
         }
-        if (this.live && wasChanged) this.versions.push({ ...this.live });
+        if (this.live && wasChanged) this.versions.push(this.moved(this.live));
         this.live = texts;
+        this.moved = keepNames;
         this.lastNews = [];
         this.later = false;
         if (this.hasFailed) byId("notice").hidden = true; // which told of that
@@ -345,6 +353,7 @@ export class Desk {
         this.texts = { ...files };
         this.live = null;
         this.versions = [];
+        this.moved = keepNames;
         this.editor.forget();
         this.show(this.lesson?.file() ?? scene);
         this.keep();
