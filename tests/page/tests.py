@@ -69,6 +69,15 @@ def loads(browser):
     expect(name == "Office.png" and bytes(data) == b"PNG", f"{name}: {data}")
 
 
+# Takes two frames between pictures, of which the former has more people than there is room for.
+LARGER = """
+const { people } = page.view, { next, person, personVersion } = page.crowd, slots = 2 * people.capacity;
+Object.assign(people, { fresh: 2, stale: true });
+people.takeFrames({ next, previous: { ...next, slots, bytes: new Uint8Array(8 * slots).fill(255) }, person, personVersion });
+return people.capacity >= slots;
+"""
+
+
 @served("run", "scenes/office.yaml", "--view")
 def pauses(browser):
     """Space stops the time, the full stop is one step, speed and restart work"""
@@ -92,6 +101,7 @@ def pauses(browser):
     seed.send_keys("7")
     browser.button("Restart").click()
     browser.wait("return page.scene.seed === 7 && page.crowd.next.time < 5", "no new start with seed 7")
+    expect(browser.run(LARGER), "a frame before the newest, with more people, has no room")
 
 
 STEP = "page.connection.send({do: 'step', n: arguments[0]})"

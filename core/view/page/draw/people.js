@@ -128,8 +128,9 @@ export class People {
     takeFrames(crowd) {
         const { next, previous } = crowd, u = this.uniforms;
         if (!this.stale) return;
-        if (next.slots > this.capacity) {
-            this.grow(next.slots);
+        const need = Math.max(next.slots, this.fresh > 1 ? previous.slots : 0);
+        if (need > this.capacity) {
+            this.grow(need);
             this.fresh = 2; // both records are empty
         }
         if (this.fresh > 0) {
