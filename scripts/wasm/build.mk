@@ -101,7 +101,7 @@ $(WASM_OUT)/licences.txt: LICENSE $(LIB_OBJ)
 	@mkdir -p $(@D)
 	$(Q)for source in LICENSE $(WASM_SOURCES)/*/debian/copyright; do printf '==== %s\n\n' "$$source"; cat "$$source"; echo; done >$@.part
 	@sed -i 's,^==== $(WASM_SOURCES)/\([^/]*\)/.*,==== \1,; s,^==== LICENSE,==== jostle,' $@.part && mv $@.part $@
-wasm-module: $(addprefix $(WASM_OUT)/,licences.txt jostle.mjs jostle-threads.mjs engine.mjs threads.mjs thread.mjs shipped.json)
+wasm-module: $(addprefix $(WASM_OUT)/,licences.txt jostle.mjs jostle-threads.mjs shipped.json arguments.mjs engine.mjs folders.mjs load.mjs memory.mjs thread.mjs threads.mjs)
 wasm-objects: $(OBJ) $(LIB_OBJ)
 # The unit test of the lanes, as a program for Node.js.
 WASM_LANES := build/wasm/test/lanes.cjs

@@ -3,145 +3,22 @@
  * For Node.js, workers and pages alike; README.md has an example. Units are SI. Texts and arrays that calls return are
  * copies, except columns.
  *
- * @typedef {Object} Fault What is wrong with a file.
- * @property {string} file
- * @property {number} line From 1; 0: unknown.
- * @property {number} column From 1, in characters (code points); 0: unknown.
- * @property {number} end Column behind the last character.
- * @property {"error"|"warning"|"note"} severity
- * @property {string} code A name of the kind, as "unknown-key".
- * @property {string} text One sentence.
- * @property {string} wayOut What to do; "" if that is not known.
- *
- * @typedef {Object<string, string|Uint8Array>} Files Texts, or bytes, by path: relative, with "/".
- *
  * @typedef {Object} Message For the live page: JSON in `text`, or `bytes` of a channel (core/live/README.md).
  * @property {number} channel -1: none.
  * @property {string} [text]
  * @property {ArrayBuffer} [bytes]
  */
 import createModule from "./jostle.mjs";
+import { BrokenEngineError, JostleError, cleanParts, listFiles, listTexts, makeFault, wholeNumber } from "./arguments.mjs";
+import { bytesOf, fillFolder, removeFolder, writeFile } from "./folders.mjs";
+import { addressOf, instantiate, readTexts } from "./load.mjs";
+import { readBody, readColumn, readEvents } from "./memory.mjs";
 import { chooseThreads, loadThreads } from "./threads.mjs";
 
+export { BrokenEngineError, JostleError } from "./arguments.mjs";
+
 const KINDS = ["group", "machine", "state", "signal", "place", "body"]; // of names, as module_read.c counts them
-const ARRAYS = [Uint8Array, Uint16Array, Uint32Array, Int32Array, BigUint64Array, Float32Array, Float64Array]; // JoType
-
-// Fields of the events of jostle_read.h: u a whole number, f a float, each of 4 bytes.
-const EVENTS = [
-    ["transitions", "u:agent u:machine u:from u:to"],
-    ["touches", "u:agent u:kind u:other u:began f:force"],
-    ["hits", "u:agent u:body f:impulse f:x f:y f:z"],
-    ["breaks", "u:body u:bonds u:pieces"],
-    ["entered", "u:agent u:group f:x f:y"],
-    ["left", "u:agent u:group f:x f:y"],
-    ["said", "u:agent u:signal f:x f:y"],
-    ["actions", "u:agent u:kind u:other f:x f:y"],
-].map(([name, fields]) => ({ name, fields: fields.split(" ").map((field) => field.split(":")) }));
-
-const BODY = ["x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz"]; // JoBodyState
-
-/** Turns a diagnostic of the engine into a Fault. */
-function makeFault({ file = "", line = 0, column = 0, end = 0, severity = "error", code = "", message = "", hint = "" }) {
-    return { file, line, column, end, severity, code, text: message, wayOut: hint ?? "" };
-}
-
-/** An error of the engine; `errors` lists what is wrong, by file, line and column. */
-export class JostleError extends Error {
-    /** @param {Fault[]} errors */
-    constructor(errors) {
-        const first = errors[0] ?? makeFault({ message: "the engine has failed" });
-        const place = first.file ? `${[first.file, first.line, first.column].filter(Boolean).join(":")}: ` : "";
-        super(`${place}${first.text}${first.wayOut ? `. ${first.wayOut}` : ""}`);
-        this.name = "JostleError";
-        this.errors = errors;
-    }
-}
-
 const MOST_STEPS = 2 ** 32 - 1; // of one call
-
-/** Whole number from 0 to `most`; throws an error that names what it is for. */
-function wholeNumber(what, value, most = Number.MAX_SAFE_INTEGER) {
-    if (!Number.isInteger(value) || value < 0 || value > most) throw new RangeError(`${what} must be a whole number from 0 to ${most}, not ${value}`);
-    return value;
-}
-
-/** Files as [path, content] pairs; throws an error that names what is wrong with one. */
-function listFiles(files) {
-    if (typeof files !== "object" || files === null || Array.isArray(files) || files instanceof Map)
-        throw new TypeError(`files must be an object: texts, or bytes, by path${files instanceof Map ? "; Object.fromEntries makes one of a Map" : ""}`);
-    const list = Object.entries(files), given = new Set(list.map(([path]) => cleanParts(path).join("/")));
-    for (const [path, content] of list) {
-        const parts = cleanParts(path);
-        if (!parts.length || parts.includes("..")) throw new TypeError(`'${path}' is no path of a file: use relative ones, without ".."`);
-        if (typeof content !== "string" && !(content instanceof Uint8Array)) throw new TypeError(`'${path}' must be a text or a Uint8Array`);
-        const folder = parts.slice(1).map((_, n) => parts.slice(0, n + 1).join("/")).find((at) => given.has(at));
-        if (folder) throw new TypeError(`'${folder}' is a file, and the folder of '${path}'`);
-    }
-    return list;
-}
-
-/** The parts of a path, without "." and empty ones. */
-const cleanParts = (path) => path.split("/").filter((part) => part && part !== ".");
-
-/** A list of texts; throws an error that names what it is for. */
-function listTexts(what, list) {
-    if (!Array.isArray(list) || !list.every((item) => typeof item === "string")) throw new TypeError(`${what} must be a list of texts`);
-    return list;
-}
-
-/** The engine has stopped by a fault of its own, or for want of memory in the middle of one; only a new Engine helps. */
-export class BrokenEngineError extends Error {
-    /** @param {unknown} cause What the module threw. */
-    constructor(cause) {
-        super(`the engine has stopped by a fault of its own (${cause?.message ?? cause}), and its scenes with it: make a new Engine`, { cause });
-        this.name = "BrokenEngineError";
-    }
-}
-
-const inNode = Boolean(globalThis.process?.versions?.node);
-
-/** The address of a file that lies beside this one; `locate`: its address, where that is another. */
-const addressOf = (name, locate) => (locate ? locate(name) : new URL(name, import.meta.url).href);
-
-/** Reads a file of an address: its bytes, or the server's answer that has them. */
-async function readFrom(address) {
-    if (inNode && !/^https?:/.test(address)) {
-        const files = "node:fs/promises"; // a name that bundlers for browsers do not follow
-        const { readFile } = await import(files);
-        return readFile(address.startsWith("file:") ? new URL(address) : address);
-    }
-    const answer = await fetch(address);
-    if (!answer.ok) throw new Error(`${address} cannot be loaded: ${answer.status} ${answer.statusText}`);
-    return answer;
-}
-
-const readTexts = async (address) => {
-    const read = await readFrom(address);
-    return read instanceof Uint8Array ? JSON.parse(new TextDecoder().decode(read)) : read.json();
-};
-
-/** Compiles the module at an address, while it comes if the server says what it is. */
-async function compileFrom(address) {
-    const read = await readFrom(address);
-    if (read instanceof Uint8Array) return WebAssembly.compile(read);
-    const type = read.headers.get("Content-Type") ?? "";
-    return /^application\/wasm/.test(type) ? WebAssembly.compileStreaming(read) : WebAssembly.compile(await read.arrayBuffer());
-}
-
-/** Passes on what the module warns of: not that it waits in the main thread, which Node.js allows. */
-const warn = (text) => (inNode && text.startsWith("Blocking on the main thread") ? undefined : console.warn(text));
-
-/** Instantiates a module, made by Emscripten's function `create`: given as bytes, compiled, or by its address. */
-async function instantiate(create, wasm) {
-    const compiled = wasm instanceof WebAssembly.Module ? wasm : await (typeof wasm === "string" ? compileFrom(wasm) : WebAssembly.compile(wasm));
-    const module = await new Promise((resolve, reject) => {
-        create({ print: console.log, printErr: warn, instantiateWasm(imports, take) {
-            WebAssembly.instantiate(compiled, imports).then((instance) => take(instance, compiled)).catch(reject);
-            return {}; // what it needs comes by take()
-        } }).then(resolve, reject);
-    });
-    return { module, compiled };
-}
 
 /** One engine: a WebAssembly module with its memory. Scenes of an engine take turns. */
 export class Engine {
@@ -182,7 +59,6 @@ export class Engine {
         this.#workers = workers;
         this.module = this.#guard(module);
         this.compiled = compiled; // for other engines; null: that with threads, which is for one
-        this.encoder = new TextEncoder();
         this.decoder = new TextDecoder();
         this.folders = 0;
         this.shipped = new Map();
@@ -194,8 +70,8 @@ export class Engine {
      * @param {Files} files As of `create`'s `shipped`.
      */
     ship(files) {
-        const texts = Object.entries(files).map(([path, content]) => [path, this.#bytes(content)]);
-        this.#fill("/jostle", texts);
+        const texts = Object.entries(files).map(([path, content]) => [path, bytesOf(content)]);
+        fillFolder(this.module.FS, "/jostle", texts);
         for (const [path, bytes] of texts) this.shipped.set(path, bytes);
     }
 
@@ -281,7 +157,7 @@ export class Engine {
             this.module._jostle_open(path, first, sets.length, second, mods.length, seed ?? NaN, dt ?? NaN, page));
         if (handle) return new Scene(this, handle, folder, say);
         const error = this.error();
-        this.remove(folder);
+        removeFolder(this.module.FS, folder);
         throw error;
     }
 
@@ -298,7 +174,7 @@ export class Engine {
             if (!good) throw this.error();
             return JSON.parse(this.answer() || "[]").map(makeFault);
         } finally {
-            this.remove(folder);
+            removeFolder(this.module.FS, folder);
         }
     }
 
@@ -342,7 +218,7 @@ export class Engine {
      * @private
      */
     texts(list, call) {
-        const addresses = list.map((item) => this.put(this.encoder.encode(Array.isArray(item) ? item.map((text) => `${text}\0`).join("") : item)));
+        const addresses = list.map((item) => this.put(bytesOf(Array.isArray(item) ? item.map((text) => `${text}\0`).join("") : item)));
         try {
             return call(...addresses);
         } finally {
@@ -359,62 +235,19 @@ export class Engine {
         return address;
     }
 
-    /** Makes a folder of the module's file system the current one. @private */
-    enter(folder) {
-        this.module.FS.chdir(folder);
-    }
-
-    /** Writes a file below a folder. @private */
-    write(folder, path, content) {
-        const { FS } = this.module, parts = cleanParts(path);
-        let at = folder;
-        try {
-            for (const part of parts.slice(0, -1)) {
-                at += `/${part}`;
-                if (!FS.analyzePath(at).exists) FS.mkdir(at);
-            }
-            FS.writeFile(`${at}/${parts.at(-1)}`, this.#bytes(content), { canOwn: true });
-        } catch (error) {
-            if (error.errno === undefined) throw error;
-            throw new TypeError(`'${path}' cannot be a file: a folder has this name, or a file that of its folder`, { cause: error });
-        }
-    }
-
-    /** Removes a folder with all that it holds. @private */
-    remove(folder) {
-        const { FS } = this.module;
-        const remove = (path) => {
-            if (!FS.isDir(FS.stat(path).mode)) return FS.unlink(path);
-            for (const name of FS.readdir(path)) if (name !== "." && name !== "..") remove(`${path}/${name}`);
-            return FS.rmdir(path);
-        };
-        this.enter("/");
-        remove(folder);
-    }
-
-    #bytes(content) {
-        return typeof content === "string" ? this.encoder.encode(content) : content;
-    }
-
     /** Makes a folder that holds the shipped files and those given, and makes it the current one. */
     #folder(files) {
         const given = listFiles(files);
         const folder = `/run${++this.folders}`;
-        this.module.FS.mkdir(folder);
         try {
-            this.#fill(folder, this.shipped);
-            this.#fill(folder, given);
+            fillFolder(this.module.FS, folder, this.shipped);
+            fillFolder(this.module.FS, folder, given);
         } catch (error) {
-            this.remove(folder);
+            removeFolder(this.module.FS, folder);
             throw error;
         }
-        this.enter(folder);
+        this.module.FS.chdir(folder);
         return folder;
-    }
-
-    #fill(folder, files) {
-        if (!this.module.FS.analyzePath(folder).exists) this.module.FS.mkdir(folder);
-        for (const [path, content] of files) this.write(folder, path, content);
     }
 }
 
@@ -456,7 +289,7 @@ export class Scene {
     /** Makes a call of the module for this scene, then passes on what the scene has said. */
     #call(name, ...values) {
         if (!this.#handle) throw new Error("the scene is closed");
-        this.#engine.enter(this.#folder);
+        this.#module.FS.chdir(this.#folder);
         return this.#module[`_jostle_${name}`](this.#handle, ...values);
     }
 
@@ -529,7 +362,7 @@ export class Scene {
      */
     reload(files) {
         const list = listFiles(files).map(([path, content]) => [cleanParts(path).join("/"), content]), engine = this.#engine;
-        const texts = list.flatMap(([path, content]) => [path, content]).map((item) => (typeof item === "string" ? engine.encoder.encode(item) : item));
+        const texts = list.flat().map(bytesOf);
         const addresses = texts.map((bytes) => engine.put(bytes));
         const table = engine.put(new Uint8Array(12 * list.length)); // JoFile: path, text, length
         list.forEach((_, f) => engine.memory.words.set([addresses[2 * f], addresses[2 * f + 1], texts[2 * f + 1].length], (table >>> 2) + 3 * f));
@@ -543,7 +376,7 @@ export class Scene {
             for (const address of [...addresses, table]) this.#module._free(address);
         }
         const contents = new Map(list);
-        for (const path of [...answer.taken, ...answer.unread]) engine.write(this.#folder, path, contents.get(path)); // restarts read them
+        for (const path of [...answer.taken, ...answer.unread]) writeFile(engine.module.FS, this.#folder, path, contents.get(path)); // restarts read them
         this.#tell();
         return { live: answer.live, errors: answer.errors.map(makeFault), taken: answer.taken, unread: answer.unread, news: answer.news?.news ?? [] };
     }
@@ -606,12 +439,9 @@ export class Scene {
      */
     column(name) {
         const at = this.#engine.texts([name], (text) => this.#call("column", text)) >>> 2;
-        const [data, stride, count, type] = this.#engine.memory.words.subarray(at, at + 4);
-        if (!data && this.agents) throw new RangeError(`there is no column '${name}'`);
-        const Numbers = ARRAYS[type], { buffer } = this.#engine.memory.bytes, size = Numbers.BYTES_PER_ELEMENT;
-        if (!data || stride === size) return new Numbers(buffer, data, data ? count : 0);
-        const one = (i) => new Numbers(buffer, data + i * stride, 1)[0];
-        return Numbers.from({ length: count }, (_, i) => one(i)); // one number for all, or numbers among others
+        const numbers = readColumn(this.#engine.memory, at);
+        if (!numbers && this.agents) throw new RangeError(`there is no column '${name}'`);
+        return numbers ?? new Float32Array(0);
     }
 
     /**
@@ -619,12 +449,7 @@ export class Scene {
      * `entered`, `left`, `said` and `actions`, each a list of objects. Agents are given by id, the rest by number (`name`).
      */
     events() {
-        const at = this.#call("events") >>> 2, { words, floats } = this.#engine.memory;
-        return Object.fromEntries(EVENTS.map(({ name, fields }, kind) => {
-            const data = words[at + kind] >>> 2, count = words[at + EVENTS.length + kind];
-            const event = (i) => Object.fromEntries(fields.map(([type, field], f) => [field, (type === "f" ? floats : words)[data + i * fields.length + f]]));
-            return [name, Array.from({ length: count }, (_, i) => event(i))];
-        }));
+        return readEvents(this.#engine.memory, this.#call("events") >>> 2);
     }
 
     /**
@@ -635,7 +460,7 @@ export class Scene {
         const bodies = [], slots = this.#call("body_slots");
         for (let slot = 0; slot < slots; slot++) {
             const at = this.#call("body", slot) >>> 3;
-            if (at) bodies.push({ slot, name: this.name("body", slot), ...Object.fromEntries(BODY.map((key, k) => [key, this.#engine.memory.doubles[at + k]])) });
+            if (at) bodies.push({ slot, name: this.name("body", slot), ...readBody(this.#engine.memory, at) });
         }
         return bodies;
     }
@@ -668,6 +493,6 @@ export class Scene {
         if (!this.#handle) return;
         if (!this.#engine.hasEnded) this.#call("close");
         this.#handle = 0;
-        this.#engine.remove(this.#folder);
+        removeFolder(this.#engine.module.FS, this.#folder);
     }
 }
