@@ -60,6 +60,22 @@ export function listTexts(what, list) {
     return list;
 }
 
+/** Throws an error if a call was given options that it does not have. */
+export function refuseUnknown(call, options) {
+    const [first] = Object.keys(options);
+    if (first !== undefined) throw new TypeError(`${call} has no option '${first}'`);
+}
+
+/** The JSON of a command of the live page, given as an object or as that; throws an error if it is none. */
+export function textOfCommand(command) {
+    let given = command;
+    try {
+        if (typeof command === "string") given = JSON.parse(command);
+    } catch { /* told below */ }
+    if (typeof given?.do !== "string") throw new TypeError('a command is an object, or its JSON, with the command\'s name as "do"');
+    return JSON.stringify(given);
+}
+
 /** The engine has stopped by a fault of its own, or for want of memory in the middle of one; only a new Engine helps. */
 export class BrokenEngineError extends Error {
     /** @param {unknown} cause What the module threw. */

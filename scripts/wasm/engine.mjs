@@ -9,7 +9,7 @@
  * @property {ArrayBuffer} [bytes]
  */
 import createModule from "./jostle.mjs";
-import { BrokenEngineError, JostleError, cleanParts, listFiles, listTexts, makeFault, wholeNumber } from "./arguments.mjs";
+import { BrokenEngineError, JostleError, cleanParts, listFiles, listTexts, makeFault, refuseUnknown, textOfCommand, wholeNumber } from "./arguments.mjs";
 import { bytesOf, fillFolder, removeFolder, writeFile } from "./folders.mjs";
 import { addressOf, instantiate, readTexts } from "./load.mjs";
 import { readBody, readColumn, readEvents } from "./memory.mjs";
@@ -146,7 +146,8 @@ export class Engine {
      * @returns {Scene}
      * @throws {JostleError} If the scene does not load.
      */
-    open({ files = {}, scene, mods = [], set = [], seed, dt, page = false, say = (text) => console.warn(text) } = {}) {
+    open({ files = {}, scene, mods = [], set = [], seed, dt, page = false, say = (text) => console.warn(text), ...unknown } = {}) {
+        refuseUnknown("open", unknown);
         if (typeof scene !== "string") throw new TypeError("open({scene}): the path of a scene is missing");
         if (seed !== undefined) wholeNumber("seed", seed);
         if (dt !== undefined && !Number.isFinite(dt)) throw new TypeError(`dt must be a number of seconds, not ${dt}`);
@@ -332,7 +333,7 @@ export class Scene {
      * @param {Object|string} command An object, or its JSON.
      */
     command(command) {
-        this.#engine.texts([typeof command === "string" ? command : JSON.stringify(command)], (json) => this.#call("command", json));
+        this.#engine.texts([textOfCommand(command)], (json) => this.#call("command", json));
     }
 
     /**

@@ -223,6 +223,8 @@ test("wrong arguments are named, and leave nothing behind", () => {
     assert.throws(open({ seed: -1 }), /seed must be a whole number/);
     assert.throws(open({ seed: "abc" }), /seed must be/);
     for (const dt of ["fast", NaN]) assert.throws(open({ dt }), /dt must be a number/);
+    assert.throws(open({ sed: 3 }), /open has no option 'sed'/);
+    for (const command of ["{", "", {}, { do: 3 }, null]) assert.throws(() => scene.command(command), /a command is an object/);
     assert.throws(open({ mods: "doubles" }), /mods must be a list of texts/);
     assert.throws(open({ set: "a=1" }), /set must be a list of texts/);
     assert.throws(open({ files: null }), /files must be an object/);
