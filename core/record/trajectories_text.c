@@ -176,7 +176,6 @@ static bool parse_field(Text *r, const char *line, const Field *fields, uint32_t
         return false;
     }
     char text[64], *end;
-    const int place = (int)jox_count_characters(line, (size_t)(fields[f].at - line)) + 1;
     snprintf(text, sizeof text, "%.*s", (int)(fields[f].length < 63 ? fields[f].length : 63),
              fields[f].at);
     *out = strtod(text, &end);
@@ -185,6 +184,7 @@ static bool parse_field(Text *r, const char *line, const Field *fields, uint32_t
     whole |= number && *out == floor(*out) && fabs(*out) < 1e15;
     if (number && whole && (column < X || fabs(*out) < 1e8))
         return true;
+    const int place = (int)jox_count_characters(line, (size_t)(fields[f].at - line)) + 1;
     add_field_error(
         r, place, whole ? "Numbers are written with a point" : "Ids and frames are counted",
         whole ? "this must be a finite number, not '%s'" : "this must be a whole number, not '%s'",

@@ -10,14 +10,30 @@ typedef struct Scan {
     JoxSource *source;
     const char *at, *end, *line_start;
     int line;
+    /* The last place whose column was counted, on the line that begins at `counted_line`. */
+    const char *counted_line, *counted;
+    int column;
 } Scan;
+
+/* Returns the column of a place on a line. Places come in order: only what lies between two of a
+   line is counted. */
+static int find_column(Scan *s, const char *place, const char *line_start) {
+    if (s->counted_line != line_start) {
+        s->counted_line = s->counted = line_start;
+        s->column = 1;
+    }
+    JOX_ASSERT(place >= s->counted);
+    s->column += (int)jox_count_characters(s->counted, (size_t)(place - s->counted));
+    s->counted = place;
+    return s->column;
+}
 
 static void add_token(Scan *s, JoxTokenKind kind, const char *text, size_t length, const char *from,
                       int line, const char *line_start) {
     JOX_ASSERT(from >= line_start && s->at <= s->end && line >= 1);
     JoxSource *source = s->source;
     JOX_RESERVE(source->tokens, source->token_capacity, source->token_count + 1);
-    const int column = (int)jox_count_characters(line_start, (size_t)(from - line_start)) + 1;
+    const int column = find_column(s, from, line_start);
     const int width = (int)jox_count_characters(from, (size_t)(s->at - from));
     source->tokens[source->token_count++] = (JoxToken){.kind = kind,
                                                        .text = text,
@@ -146,7 +162,11 @@ static void scan_one(Scan *s) {
 }
 
 void jox_source_scan(JoxSource *source) {
-    Scan s = {source, source->text, source->text + source->length, source->text, 1};
+    Scan s = {.source = source,
+              .at = source->text,
+              .end = source->text + source->length,
+              .line_start = source->text,
+              .line = 1};
     while (s.at < s.end) {
         if (*s.at == '\n') {
             s.at++;
