@@ -170,7 +170,7 @@ expect "all files are merged in a canonical file" 0 "6 runs with figures" "$prog
 "$program" sweep $scene "${what[@]}" --out alone.sqlite --jobs 1 --isa scalar --quiet --canonical; cmp alone.sqlite merged.sqlite; verdict "  which is that of one machine, byte for byte" $?
 "$program" sweep $scene "${what[@]}" --out many.sqlite --quiet --canonical && cmp many.sqlite merged.sqlite; verdict "  and that of a sweep that was continued" $?
 [ "$(sqlite3 merged.sqlite 'pragma integrity_check')" = ok ] && table merged.sqlite | cmp -s - whole.csv; verdict "  it has the results of all runs" $?
-sed -n 2p jobs | sed 's/ --out .*//; s/ --for [^ ]*/ --for 80/' >long
+sed -n 2p jobs | sed 's/ --out .*//; s/ --for [^ ]*/ --for 10000/' >long
 sh -c "exec $(cat long) --out only.sqlite" 2>"$work/out" &
 pid=$!
 child=
