@@ -48,8 +48,7 @@ static const CliOption OPTIONS[] = {
     {"status", NULL,
      "run nothing; print a line for each run: its number, its state (done, troubled, failed, "
      "missing, unreadable), settings and seed, and the file of --list, separated by tabs. The exit "
-     "status is "
-     "1 if a run is missing, 3 if a file cannot be read",
+     "status is 1 if a run is missing, 3 if a file cannot be read",
      CLI_TO(Sweep, status)},
     {"merge", NULL,
      "copy the runs of such files, or of all files of a folder whose names end in .sqlite, into "

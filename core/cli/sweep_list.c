@@ -57,7 +57,7 @@ static void note_unreadable(Lister *l, const JoSweepRunState *run) {
     if (!run->reason)
         return;
     l->unreadable++;
-    fprintf(stderr, "jostle sweep: run %u: %s: %s\n", run->number, run->part, run->reason);
+    fprintf(stderr, "jostle sweep: run %u: %s\n", run->number, run->reason); /* names the file */
 }
 
 static void print_command(void *context, const JoSweepRunState *run) {
