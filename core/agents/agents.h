@@ -197,6 +197,9 @@ typedef struct JoxAgents {
     /* Periodic edges: agents that leave at one side come in at the other. Origin and lengths of the
        period, m; 0 along an axis without. Positions stay within [origin, origin + period). */
     JoxV2 origin, period;
+    /* m along y from sheet to sheet where a world has storeys (geom/storeys.h), else 0. Agents that
+       see each other over a seam stand whole pitches apart. */
+    float pitch;
     void *spare; /* for permuting: a column of 4 bytes per agent */
     void *row;   /* for permuting: one wider entry */
     uint32_t *order;
@@ -209,6 +212,14 @@ static inline JoxV2 jox_wrap(const JoxAgents *agents, JoxV2 d) {
         d.x -= d.x > 0.0f ? period.x : -period.x;
     if (period.y > 0.0f && fabsf(d.y) > 0.5f * period.y)
         d.y -= d.y > 0.0f ? period.y : -period.y;
+    return d;
+}
+/* Returns the vector between two agents that see each other and whose positions differ by d, across
+   periodic edges and seams between sheets. */
+static inline JoxV2 jox_fold(const JoxAgents *agents, JoxV2 d) {
+    d = jox_wrap(agents, d);
+    if (agents->pitch > 0.0f)
+        d.y -= agents->pitch * rintf(d.y / agents->pitch);
     return d;
 }
 /* Returns agent i's value of a parameter. */
@@ -260,9 +271,9 @@ static inline bool jox_approaches_or_holds(const JoxAgents *agents, uint32_t i, 
     return agents->approached[i] == other || agents->grasped[i] == other ||
            agents->grasped[j] == agents->id[i] + 1;
 }
-/* Returns the vector from agent i to agent j, m. */
+/* Returns the vector from agent i to agent j, which see each other, m. */
 static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) {
-    return jox_wrap(agents, (JoxV2){agents->x[j] - agents->x[i], agents->y[j] - agents->y[i]});
+    return jox_fold(agents, (JoxV2){agents->x[j] - agents->x[i], agents->y[j] - agents->y[i]});
 }
 
 /* Grow the columns; zero-initialised agents are empty. Own values and memory can only grow in

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "agents/fold_lanes.h"
 #include "agents/param_lanes.h"
 #include "force/cones.h"
 #include "geom/wall_grid_lanes.h"
@@ -69,8 +70,7 @@ static inline JoxFoundLanes jox_find_people_in_cone(const JoxForces *f, uint32_t
     for (uint32_t k = 0; k < near->stride; k++, others += JOX_LANES) {
         JoxMask there = ji_less(ji_set((int32_t)k), count);
         JoxVector offset = {jf_pick_at(a->x, others) - at.x, jf_pick_at(a->y, others) - at.y};
-        offset.x = jf_wrap(offset.x, a->period.x);
-        offset.y = jf_wrap(offset.y, a->period.y);
+        offset = jox_fold_lanes(a, offset);
         const JoxFloats most = own + jox_param_of(radius, others) + reach->gap;
         const JoxFloats d2 = jv_dot(offset, offset);
         const JoxMask within = jm_and(there, jf_le(d2, farthest * farthest));

@@ -34,6 +34,10 @@ void jox_nav_set_memory(JoxNav *nav, JoxStageMemory *memory) {
     nav->memory = memory;
 }
 
+void jox_nav_set_storeys(JoxNav *nav, const JoxStoreys *storeys) {
+    nav->storeys = jox_has_storeys(storeys) ? storeys : NULL;
+}
+
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     jox_wall_grid_free(&nav->grid);
     jox_spots_free(&nav->spots);

@@ -84,8 +84,9 @@ struct JoxNav {
     JoxSpots spots;                     /* table of births, between two steps */
     JoxStageMemory *memory, own_memory; /* own_memory: used where none was given */
     bool literal;
-    JoIsa isa;              /* instruction set of the kernels */
-    const JoxWalkLaw *walk; /* belongs to the model */
+    JoIsa isa;                 /* instruction set of the kernels */
+    const JoxWalkLaw *walk;    /* belongs to the model */
+    const JoxStoreys *storeys; /* likewise; NULL: one plane */
 };
 
 /* Returns a step whose contact planes are NULL where contacts were not searched for. */

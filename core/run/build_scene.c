@@ -143,6 +143,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         scene->world->state.agents.period =
             (JoxV2){spec->periodic_x ? size.x : 0.0f, spec->periodic_y ? size.y : 0.0f};
     }
+    jox_world_set_storeys(scene->world, &spec->storeys);
     jox_world_set_walls(scene->world, &spec->walls);
     const JoxLuaLimits limits = get_script_limits(spec);
     scene->lua = jox_lua_create(&limits);

@@ -12,6 +12,7 @@
 #include "base/number/random.h"
 #include "body/body.h"
 #include "geom/place.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 #include "scene/scenery.h"
 #include "world/criterion.h"
@@ -157,6 +158,8 @@ typedef struct JoxSceneSpec {
     bool bounded;
     JoxV2 low, high;             /* m, corners of the bounds, if bounded */
     bool periodic_x, periodic_y; /* opposite bounds are joined */
+    JoxStoreys storeys; /* without storeys: all members 0. Points of all else are positions on its
+                           sheets */
     JoxPlace *places;
     uint32_t place_count;
     JoxSceneRegion *regions;

@@ -62,5 +62,11 @@ static inline JoxFloats jf_wrap(JoxFloats d, float period) {
     JoxFloats shift = jf_select(jf_lt(jf_set(0.0f), d), jf_set(period), jf_set(-period));
     return jf_select(jf_lt(jf_set(0.5f * period), jf_abs(d)), d - shift, d);
 }
+/* Returns d less the nearest whole multiple of the pitch, as rintf finds it: adding and subtracting
+   this number rounds to a whole one. */
+static inline JoxFloats jf_fold(JoxFloats d, float pitch) {
+    const JoxFloats rounds = jf_set(0x1.8p23f);
+    return d - pitch * ((d / pitch + rounds) - rounds);
+}
 
 #endif

@@ -51,6 +51,15 @@ void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law) {
     world->model.walking = *law;
 }
 
+void jox_world_set_storeys(JoWorld *world, const JoxStoreys *storeys) {
+    JOX_ASSERT(world->state.tick == 0 && world->model.storeys.storey_count == 0);
+    jox_storeys_copy(&world->model.storeys, storeys);
+    if (!jox_has_storeys(&world->model.storeys))
+        return;
+    world->state.agents.pitch = storeys->pitch;
+    jox_nav_set_storeys(world->scratch.nav, &world->model.storeys);
+}
+
 void jox_world_set_timed(JoWorld *world, bool timed) {
     world->scratch.timed = timed;
     jox_bodies_set_timed(world->state.bodies, timed);
@@ -71,6 +80,7 @@ static void free_world(JoWorld *world) {
     jox_bodies_free(world->state.bodies);
     jox_agents_free(&world->state.agents);
     jox_walls_free(&world->model.all_walls);
+    jox_storeys_free(&world->model.storeys);
     jox_walls_free(&world->scratch.walls);
     jox_wall_images_free(&world->scratch.images);
     jox_free(world->state.added_walls);

@@ -13,6 +13,7 @@
 #include "force/force.h"
 #include "geom/objects.h"
 #include "geom/place.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 #include "jostle.h"
 #include "machine/run.h"
@@ -40,6 +41,7 @@ enum { JOX_MOST_TAGS = 64 };
 typedef struct JoxWorldModel {
     JoWorldDef def;
     JoxWalkLaw walking;
+    JoxStoreys storeys; /* owned; without storeys: all members 0 */
     JoxWalls all_walls; /* all, with their names; whether a gate is open is state. Walls that were
                            added while the world runs follow the others, and are state */
     uint32_t added_ring, added_vertex; /* first ring and vertex of added walls, if there are any */
@@ -153,6 +155,9 @@ int jox_world_add_tag(JoWorld *world, const char *name);
 int jox_world_add_team(JoWorld *world, const char *name);
 /* Sets the constants of the walking law, before the first step. */
 void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law);
+/* Copies storeys that are laid out, before the first step. Walls, places and agents are on their
+   sheets; the walls of stairs are among the walls that are set. */
+void jox_world_set_storeys(JoWorld *world, const JoxStoreys *storeys);
 /* Takes over the places of a scene, once, before agents are spawned; the array has room for
    `capacity`, places of single agents included. */
 void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint32_t capacity);

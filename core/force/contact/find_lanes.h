@@ -4,6 +4,7 @@
 #ifndef JOX_FORCE_CONTACT_FIND_LANES_H
 #define JOX_FORCE_CONTACT_FIND_LANES_H
 
+#include "agents/fold_lanes.h"
 #include "agents/torso_lanes.h"
 #include "base/assert.h"
 #include "force/contact/contacts.h"
@@ -27,7 +28,6 @@ typedef struct JoxContactSelf {
     JoxVector axis; /* m */
     JoxFloats inverse_half2;
     JoxInts least_id; /* neighbours of lesser id find the contact themselves */
-    JoxV2 period;     /* m; 0: none */
 } JoxContactSelf;
 
 /* Loads the agents of a packet. */
@@ -48,8 +48,7 @@ static inline JoxContactSelf jox_load_contact_self(const JoxForces *f, uint32_t 
                             .restitution = jox_param_lanes(a, JOX_PARAM_restitution, first),
                             .axis = {shape[0], shape[1]},
                             .inverse_half2 = shape[3],
-                            .least_id = ji_load(a->id + first),
-                            .period = a->period};
+                            .least_id = ji_load(a->id + first)};
 }
 
 /* Loads any agents; neighbours of lesser id count for them, too. */
@@ -72,8 +71,7 @@ static inline JoxContactSelf jox_pick_contact_self(const JoxForces *f, const uin
                             .restitution = jox_param_of(a->param[JOX_PARAM_restitution], agents),
                             .axis = {shape[0], shape[1]},
                             .inverse_half2 = shape[3],
-                            .least_id = ji_set(INT32_MIN),
-                            .period = a->period};
+                            .least_id = ji_set(INT32_MIN)};
 }
 
 /* Data of one neighbour of each lane. */
@@ -100,10 +98,8 @@ static inline uint32_t jox_find_candidates(const JoxForces *f, const JoxContactS
     JoxFloats motion[4], build[4], shape[4] = {zero, zero, zero, zero};
     jf_records_at(&near->motions[0].x, others, motion);
     m->offset = (JoxVector){self->x - motion[0], self->y - motion[1]};
-    if (self->period.x > 0.0f || self->period.y > 0.0f) {
-        m->offset.x = jf_wrap(m->offset.x, self->period.x);
-        m->offset.y = jf_wrap(m->offset.y, self->period.y);
-    }
+    if (jox_folds(f->step.agents))
+        m->offset = jox_fold_lanes(f->step.agents, m->offset);
     m->distance2 = jv_dot(m->offset, m->offset);
     const JoxFloats most = self->outer + least + (JOX_TOUCH_MOST + f->widest);
     lanes &= jm_bits(jf_lt(m->distance2, most * most));

@@ -33,7 +33,7 @@ static inline JoxV2 find_overlap_shift(const JoxMove *m, const JoxV2 *from, uint
     const JoxAgents *a = m->step.agents;
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     JOX_ASSERT(j < a->count && j != i);
-    JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
+    JoxV2 d = jox_fold(a, jox_sub(from[i], from[j]));
     float d2 = jox_length2(d);
     if (d2 >= apart * apart || d2 == 0.0f)
         return (JoxV2){0.0f, 0.0f};
@@ -78,7 +78,7 @@ static inline JoxV2 find_contact_shift(const JoxMove *m, const JoxV2 *from, uint
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     const uint32_t j = plane->other;
     const float depth =
-        plane->apart - jox_dot(jox_wrap(a, jox_sub(from[i], from[j])), plane->normal);
+        plane->apart - jox_dot(jox_fold(a, jox_sub(from[i], from[j])), plane->normal);
     const float share = jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j));
     return jox_scale(plane->normal, m->stiffness * share * jox_maxf(0.0f, depth));
 }

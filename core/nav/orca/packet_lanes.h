@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "agents/fold_lanes.h"
 #include "agents/param_lanes.h"
 #include "geom/wall_grid_lanes.h"
 #include "nav/orca/pair_lanes.h"
@@ -208,8 +209,9 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
         JoxPair q = {motion[0] - self->x, motion[1] - self->y, self->orca.velocity.x - motion[2],
                      self->orca.velocity.y - motion[3], self->radius + other};
         if (periodic) {
-            q.x = jf_wrap(q.x, a->period.x);
-            q.y = jf_wrap(q.y, a->period.y);
+            const JoxVector apart = jox_fold_lanes(a, (JoxVector){q.x, q.y});
+            q.x = apart.x;
+            q.y = apart.y;
         }
         out[k].pair = q;
         widest = jf_max(widest, q.radii);
@@ -336,12 +338,14 @@ static inline uint32_t jox_put_rows_periodic(JoxPacket *p) {
     return jox_put_rows(p, p->walkers, true);
 }
 
-/* Returns whether neighbours of a packet's agents may stand beyond a periodic edge. */
+/* Returns whether neighbours of a packet's agents may stand beyond a periodic edge or a seam. */
 static inline bool jox_sees_over_edges(const JoxPacket *p) {
     const JoxAgents *a = p->s->step.agents;
     const JoxFloats margin = jf_set(1e-3f); /* m: more than the rounding of positions */
     const JoxFloats reach = jf_load(a->search_radius + p->first) + margin;
     JoxMask over = jm_of_bits(0);
+    if (a->pitch > 0.0f)
+        return true;
     for (int axis = 0; axis < 2; axis++) {
         const float origin = axis ? a->origin.y : a->origin.x;
         const float period = axis ? a->period.y : a->period.x;

@@ -1,6 +1,7 @@
 /* The kernel by which agents turn their torsos; a lane is an agent. Whoever wants to get on faces
    its way, and turns a shoulder ahead where others or walls leave less room than the shoulders
    need, or where it is pressed and gets nowhere; whoever stands faces where it looks. */
+#include "agents/fold_lanes.h"
 #include "agents/torso_lanes.h"
 #include "nav/walk/walk.h"
 #include "simd/vectors.h"
@@ -38,10 +39,8 @@ static inline void mind_neighbour(Packet *p, const uint32_t *others, JoxMask lan
     JoxFloats motion[4], shape[4];
     jf_records_at(&near->motions[0].x, others, motion);
     JoxVector offset = {motion[0] - p->at.x, motion[1] - p->at.y};
-    if (a->period.x > 0.0f || a->period.y > 0.0f) {
-        offset.x = jf_wrap(offset.x, a->period.x);
-        offset.y = jf_wrap(offset.y, a->period.y);
-    }
+    if (jox_folds(a))
+        offset = jox_fold_lanes(a, offset);
     const JoxFloats along = jv_dot(offset, p->way), across = jv_det(p->way, offset);
     const JoxFloats aside = jf_abs(across);
     JoxMask counts = jm_and(jf_lt(jf_set(-LOOK_BESIDE), along), jf_lt(along, jf_set(LOOK_AHEAD)));

@@ -4,6 +4,7 @@
 #ifndef JOX_NAV_WALK_LANES_H
 #define JOX_NAV_WALK_LANES_H
 
+#include "agents/fold_lanes.h"
 #include "agents/param_lanes.h"
 #include "base/number/exponential.h"
 #include "base/number/pi.h"
@@ -123,10 +124,8 @@ static inline JoxFloats jox_count_rivals(const JoxWalk *w, uint32_t first, uint3
         jf_records(&n->motions[0].x, others, motion);
         jf_records(&w->nav->headings[0].aim_x, others, heading);
         JoxVector offset = {motion[0] - at.x, motion[1] - at.y};
-        if (a->period.x > 0.0f || a->period.y > 0.0f) {
-            offset.x = jf_wrap(offset.x, a->period.x);
-            offset.y = jf_wrap(offset.y, a->period.y);
-        }
+        if (jox_folds(a))
+            offset = jox_fold_lanes(a, offset);
         const JoxFloats far2 = jf_max(jv_dot(offset, offset), jf_set(1e-6f));
         const JoxFloats aside = jv_det(own, offset) / jf_sqrt(far2);
         const JoxFloats left = jv_det(own, (JoxVector){heading[0], heading[1]});

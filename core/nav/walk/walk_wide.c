@@ -76,11 +76,7 @@ static inline __attribute__((always_inline)) JoxVector
 find_offset(const Packet *p, const JoxFloats *record, const bool periodic) {
     const JoxAgents *a = p->w->step.agents;
     JoxVector offset = jv_sub((JoxVector){record[0], record[1]}, jv_load(a->x, a->y, p->first));
-    if (periodic) {
-        offset.x = jf_wrap(offset.x, a->period.x);
-        offset.y = jf_wrap(offset.y, a->period.y);
-    }
-    return offset;
+    return periodic ? jox_fold_lanes(a, offset) : offset;
 }
 
 /* Returns the `lanes` (bits) that ignore their neighbour, mean to touch it, or have a wall before
@@ -424,7 +420,7 @@ static void walk_packet(Packet *p) {
     const uint32_t i = p->first;
     p->aim = (JoxVector){jf_load(a->aim_x + i), jf_load(a->aim_y + i)};
     p->radius = jox_param_lanes(a, JOX_PARAM_radius, i);
-    (a->period.x > 0.0f || a->period.y > 0.0f ? put_rows_periodic : put_rows_bounded)(p);
+    (jox_folds(a) ? put_rows_periodic : put_rows_bounded)(p);
     const Choice to = choose_direction(p);
     const JoxVector aim = p->aim;
     const JoxVector e = {to.e.x * aim.x - to.e.y * aim.y, to.e.x * aim.y + to.e.y * aim.x};
