@@ -9,6 +9,7 @@
 #include "base/format/colour.h"
 #include "base/vec.h"
 #include "geom/objects.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 
 typedef struct JoxFrame {
@@ -50,6 +51,9 @@ typedef struct JoxFrame {
     const JoxWalls *walls;         /* walls that stand at this moment */
     const JoxWallLoad *wall_loads; /* load of each wall piece; NULL: unknown */
     uint32_t wall_load_count;
+    /* Storeys and stairs: x and y, walls and objects are positions on their sheets. NULL: one
+       plane. */
+    const JoxStoreys *storeys;
 } JoxFrame;
 
 /* Returns the radius of person i, m, or `unknown` where the frame has no radii. */

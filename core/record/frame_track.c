@@ -16,8 +16,8 @@ void jox_track_sections(JoxTrack *track, JoxSections *s) {
 int jox_stretch_crosses_exactly(const JoxStretch *s, JoxV2 a, JoxV2 b, double *time) {
     JoxV2 from = s->from, to = jox_add(s->from, s->by);
     int crosses = jox_segment_crossing(a, b, from, to);
-    if (crosses == 0 && (to.x != s->to.x ||
-                         to.y != s->to.y)) { /* the path may cross a-b behind the periodic edge */
+    if (crosses == 0 &&
+        (to.x != s->to.x || to.y != s->to.y)) { /* the path may cross a-b behind the edge or seam */
         from = jox_sub(s->to, s->by), to = s->to;
         crosses = jox_segment_crossing(a, b, from, to);
     }

@@ -23,7 +23,7 @@ typedef struct JoxTrack {
 
 /* Path of a person between two frames: the straight line from `from` along `by`, the shorter way
    where edges are periodic, to `to`. `to` differs from from + by if the person crossed a periodic
-   edge. */
+   edge, or a seam between sheets of storeys, or rode a lift. */
 typedef struct JoxStretch {
     JoxV2 from, by, to;
     double begun, ended; /* s: times of the two frames */
@@ -40,6 +40,12 @@ static inline float jox_track_way(float d, float period) {
     return d;
 }
 
+/* Returns a difference d of positions along y, m, without whole pitches between sheets: nobody
+   walks half a pitch between two frames. */
+static inline float jox_track_fold(const JoxStoreys *storeys, float d) {
+    return fabsf(d) > 0.5f * storeys->pitch ? d - storeys->pitch * rintf(d / storeys->pitch) : d;
+}
+
 /* Stores the position of person i and sets `stretch` to the path since the previous frame. Returns
    false, with `stretch` unset, where the person has no previous position. */
 static inline bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i,
@@ -49,12 +55,14 @@ static inline bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32
     const struct JoxTracked now = {frame->x[i], frame->y[i], frame->time, key + 1, 0};
     const bool known = last->person == now.person;
     if (known)
-        *stretch = (JoxStretch){.from = {last->x, last->y},
-                                .by = {jox_track_way(now.x - last->x, frame->period.x),
-                                       jox_track_way(now.y - last->y, frame->period.y)},
-                                .to = {now.x, now.y},
-                                .begun = last->time,
-                                .ended = now.time};
+        *stretch =
+            (JoxStretch){.from = {last->x, last->y},
+                         .by = {jox_track_way(now.x - last->x, frame->period.x),
+                                frame->storeys ? jox_track_fold(frame->storeys, now.y - last->y)
+                                               : jox_track_way(now.y - last->y, frame->period.y)},
+                         .to = {now.x, now.y},
+                         .begun = last->time,
+                         .ended = now.time};
     *last = now;
     return known;
 }

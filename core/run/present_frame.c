@@ -112,7 +112,9 @@ static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
                           .kicked = a->kicked,
                           .struck = a->struck,
                           .objects = &world->scratch.objects,
-                          .walls = &world->scratch.walls};
+                          .walls = &world->scratch.walls,
+                          .storeys = jox_has_storeys(&world->model.storeys) ? &world->model.storeys
+                                                                            : NULL};
     f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
 }
 
