@@ -13,6 +13,7 @@ void jox_key_read_bounds(const JoxReader *r, const JoxKey *key, const JoxYaml *n
 }
 
 bool jox_scene_is_within_bounds(const JoxSceneSpec *s, JoxV2 p) {
+    p = jox_in_plan(&s->storeys, p);
     return !s->bounded ||
            (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y);
 }

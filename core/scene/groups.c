@@ -95,6 +95,8 @@ bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool g
     const JoxYaml *one = jox_yaml_get(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
     const JoxYaml *journey = jox_yaml_get(map, "journey");
     const size_t errors = r->diagnostics->errors;
+    if (r->draft->measuring)
+        return true;
     jox_place_group(r, map, group);
     if (!one + !mix + !journey != 2)
         jox_scene_error(r, map, "missing-key", "behaviour: walker.lua",

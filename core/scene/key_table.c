@@ -7,6 +7,7 @@
 #include "scene/mod_key_rows.h"
 #include "scene/report_key_rows.h"
 #include "scene/scene_draft.h"
+#include "scene/storey_key_rows.h"
 
 #define FAR JOX_FARTHEST
 #define NUMBER JOX_TYPE_NUMBER
@@ -66,7 +67,8 @@
     POINTS, "m", -FAR, FAR, "", .content = "xy[3]",                                                \
                                 READ_TO(jox_key_read_ring, JoxProbeDef, points, count)
 #define PROBE_POINT(name)                                                                          \
-    POINT, "m", -FAR, FAR, "", READ_TO(jox_key_read_point, JoxProbeDef, points, count)
+    POINT, "m", -FAR, FAR, "", .placed = true,                                                     \
+                               READ_TO(jox_key_read_point, JoxProbeDef, points, count)
 #define PROBE_FLAG(name) BOOL, "", 0, 0, "", READ(jox_key_read_true)
 #define PROBE_SECONDS(name) NUMBER, "s", 0.01, 1e6, "", TO(JoxProbeDef, every)
 #define PROBE_STATES(name) NAMES, "", 0, 0, "", READ(jox_key_read_states)
@@ -92,10 +94,8 @@ static const JoxKey KEYS[] = {
      RESTART("a log is played from the first step on"), .meaning = "file of an input log to play (see input.md)"},
     {"scene", "mods", TABLE, "", 0, 0, "", EARLIER, .content = "quantity**",
      RESTART("they are found when the scene is loaded"), .meaning = "mods that the scene uses, each with values of its settings"},
-    {"scene", "patch", TEXT, "", 0, 0, "", EARLIER,
-     .meaning = "in a patch of a mod: the scene that it is merged into"},
-    {"scene", "replace", TEXT, "", 0, 0, "", EARLIER,
-     .meaning = "in a patch of a mod: the scene that it replaces"},
+    {"scene", "patch", TEXT, "", 0, 0, "", EARLIER, .meaning = "in a patch of a mod: the scene that it is merged into"},
+    {"scene", "replace", TEXT, "", 0, 0, "", EARLIER, .meaning = "in a patch of a mod: the scene that it replaces"},
     {"scene", "forces", TABLE, "", 0, 0, "", SAME_STRUCT, .content = "forces", RESTART("the world is made with them"), .meaning = "how forces act"},
     {"scene", "walking", TABLE, "", 0, 0, "", TO(JoxSceneSpec, walking), .content = "walking", RESTART("the world is made with them"), .meaning = "constants of the walking law"},
     {"scene", "guard", TABLE, "", 0, 0, "", SAME_STRUCT, .content = "guard", .example = "guard: {people: remove, bodies: stop}",
@@ -108,6 +108,7 @@ static const JoxKey KEYS[] = {
      .meaning = "camera of the live page and of pictures"},
     {"scene", "view", TABLE, "", 0, 0, "", TO(JoxSceneSpec, view), .content = "view",
      .meaning = "what the live page shows at first, and the tools that it offers"},
+    JOX_STOREY_SCENE_ROWS
     {"scene", "places", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, places, place_count), .content = "place*",
      .meaning = "named points, lines and areas for behaviours and groups"},
     {"scene", "regions", TABLE, "", 0, 0, "", READ(jox_key_read_regions), .content = "xy[3]*",
@@ -168,19 +169,16 @@ static const JoxKey KEYS[] = {
     {"scenery", "doors", LIST, "m", -500, 500, "", READ(jox_key_read_doors), .content = "quantity[1]", .example = "doors: [-4, 4]", .meaning = "of a train: where along it its doors are, from its middle; each is 1.4 m wide. Default: four at even distances"},
     {"scenery", "body", TEXT, "", 0, 0, "", READ_TO(jox_key_read_name, JoxScenery, body, body), .meaning = "body that carries it, as a train that moves"},
 
-    {"place", "point", POINT, "m", -FAR, FAR, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_POINT), .meaning = "its centre"},
-    {"place", "radius", NUMBER, "m", 0.01, 1000, "0.5", TO(JoxPlace, radius),
-     .meaning = "of a point: radius of its inside"},
+    {"place", "point", POINT, "m", -FAR, FAR, "", .placed = true, READ(jox_key_read_place_points), SELECTS(JOX_PLACE_POINT), .meaning = "its centre"},
+    {"place", "radius", NUMBER, "m", 0.01, 1000, "0.5", TO(JoxPlace, radius), .meaning = "of a point: radius of its inside"},
     {"place", "line", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_LINE), .content = "xy[2]",
      .meaning = "two points; it is crossed from its right to its left"},
     {"place", "polygon", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_POLYGON), .content = "xy[3]",
      .meaning = "corners in order; no edge crosses another"},
-    {"place", "start", TEXT, "", 0, 0, "", READ(jox_key_read_place_start),
-     .meaning = "of a polygon: the line from which circuits around it are counted"},
+    {"place", "start", TEXT, "", 0, 0, "", READ(jox_key_read_place_start), .meaning = "of a polygon: the line from which circuits around it are counted"},
     {"place", "queue", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_QUEUE), .content = "xy[2]",
      .meaning = "points of a polyline, beginning at its head"},
-    {"place", "spacing", NUMBER, "m", 0.1, 10, "0.5", TO(JoxPlace, spacing),
-     .meaning = "of a queue: length for one person"},
+    {"place", "spacing", NUMBER, "m", 0.1, 10, "0.5", TO(JoxPlace, spacing), .meaning = "of a queue: length for one person"},
     {"place", "set", NAMES, "", 0, 0, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_SET), .meaning = "names of other places, but not of sets"},
 
     {"wall", "solid", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_wall_points), SELECTS(JOX_WALL_SOLID), .content = "xy[3]",
@@ -203,7 +201,7 @@ static const JoxKey KEYS[] = {
      .meaning = "one of box, sphere, cylinder, hull, compound, blocks"},
     {"body", "mass", NUMBER, "kg", 0, 1e7, "", TO(JoxBodyDraft, mass), .meaning = "0: it never moves; default 10 kg if no density is given, and the sum of the parts of a compound"},
     {"body", "density", NUMBER, "kg/m3", 0.1, 30000, "", TO(JoxBodyDraft, density), .meaning = "in place of mass"},
-    {"body", "at", POINT3, "m", -FAR, FAR, "!", TO(JoxBodyDraft, body.def.position), .meaning = "centre of the shape"},
+    {"body", "at", POINT3, "m", -FAR, FAR, "!", .placed = true, TO(JoxBodyDraft, body.def.position), .meaning = "centre of the shape"},
     {"body", "turn", NUMBER, "deg", -1e4, 1e4, "0", READ_TO(jox_key_read_turn, JoxBodyDraft, body.def.turn, body.def.turn),
      .meaning = "rotation about the vertical axis, anti-clockwise"},
     {"body", "velocity", POINT3, "m/s", -100, 100, "", TO(JoxBodyDraft, body.def.velocity), .meaning = "velocity at the start; of a kinematic body: for ever"},
@@ -224,7 +222,7 @@ static const JoxKey KEYS[] = {
     {"body", "tags", NAMES, "", 0, 0, "", READ_TO(jox_key_read_tags, JoxBodyDraft, body.tags, body.tag_count), .meaning = "tags by which behaviours find it"},
     {"repeat", "count", POINT3, "", 1, 4096, "!", READ(jox_key_read_copies), .meaning = "number of bodies along x, y and z; at most 4096 in all"},
     {"repeat", "step", POINT3, "m", -FAR, FAR, "!", TO(JoxBodyDraft, distance), .meaning = "distance from one to the next along x, y and z"},
-    {"path", "through", LIST, "m", -FAR, FAR, "!", READ(jox_key_read_path), .content = "xyz[1]", .meaning = "points that the centre of the shape comes to, in straight lines; at most 255"},
+    {"path", "through", LIST, "m", -FAR, FAR, "!", .placed = true, READ(jox_key_read_path), .content = "xyz[1]", .meaning = "points that the centre of the shape comes to, in straight lines; at most 255"},
     {"path", "speed", NUMBER, "m/s", 0.001, 100, "!", TO(JoxBodyDraft, body.def.path.speed), .meaning = "speed along the path"},
     {"path", "after", NUMBER, "s", 0, 1e6, "0", TO(JoxBodyDraft, body.def.path.after), .meaning = "time until it starts"},
     {"path", "wait", NUMBER, "s", 0, 1e6, "0", TO(JoxBodyDraft, body.def.path.wait), .meaning = "time that it waits at each point"},
@@ -376,7 +374,7 @@ static const JoxKey KEYS[] = {
     {"event", "until", NUMBER, "s", 0, 1e9, "1e9", TO(JoxEvent, until), .meaning = "of a repeated event: it does not happen after this time"},
     {"event", "throw", TEXT, "", 0, 0, "", READ(jox_key_read_event_name), SELECTS(JOX_EVENT_THROW), .meaning = "name of a body to throw; an agent that carries it lets it go"},
     {"event", "move", TEXT, "", 0, 0, "", READ(jox_key_read_event_name), SELECTS(JOX_EVENT_MOVE), .meaning = "name of a kinematic body: it leaves its path, and has this `velocity` and `spin` from then on"},
-    {"event", "from", POINT3, "m", -FAR, FAR, "", TO(JoxEvent, from), .meaning = "of a throw: position from which the body is thrown; default: where it is"},
+    {"event", "from", POINT3, "m", -FAR, FAR, "", .placed = true, TO(JoxEvent, from), .meaning = "of a throw: position from which the body is thrown; default: where it is"},
     {"event", "velocity", POINT3, "m/s", -100, 100, "", TO(JoxEvent, velocity), .meaning = "velocity of a throw or a move"},
     {"event", "spin", POINT3, "rad/s", -100, 100, "", TO(JoxEvent, spin), .meaning = "angular velocity of a throw or a move, about the axes x, y and z"},
     {"event", "open", TEXT, "", 0, 0, "", READ(jox_key_read_event_name), SELECTS(JOX_EVENT_OPEN), .meaning = "opens the walls of this name: they are absent from then on"},
@@ -386,6 +384,7 @@ static const JoxKey KEYS[] = {
     {"event", "lasts", NUMBER, "s", 0.01, 1e4, "", TO(JoxEvent, lasts), .meaning = "of a push: its duration"},
     {"event", "signal", TEXT, "", 0, 0, "", READ(jox_key_read_event_name), SELECTS(JOX_EVENT_SIGNAL), .meaning = "gives a signal that everybody hears, however far, by `heard`"},
 
+    JOX_STOREY_KEY_ROWS
     JOX_CRITERION_KEY_ROWS
     JOX_MOD_KEY_ROWS
 };
@@ -418,6 +417,7 @@ static const JoxOwner OWNERS[] = {
      "solid, and `jostle check` warns of one that lacks it. Neither people nor bodies nor the hash of a run depend on them.\n\n"
      "| kind | size [m] | |\n| --- | --- | --- |" JOX_SCENERY_KINDS(KIND_ROW),
      .struct_size = sizeof(JoxScenery), .position_offset = AT(JoxScenery, position), .finish = jox_finish_scenery, .resolve = jox_resolve_scenery},
+    JOX_STOREY_OWNERS
     {"place", "Places", "`places` maps names to places. The key of a place tells its kind:",
      .struct_size = sizeof(JoxPlace), .kind_offset = AT(JoxPlace, kind), .kind_error = "bad-place", .name_offset = AT(JoxPlace, name),
      .finish = jox_finish_place, .resolve = jox_resolve_place},

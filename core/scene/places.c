@@ -29,11 +29,21 @@ void jox_key_read_place_points(const JoxReader *r, const JoxKey *key, const JoxY
                         "a %s has %u points", kind->name, kind->most_points);
 }
 
+/* Takes the circle round a point, where a group may stand, into the extent of the plan. */
+static void widen_plan(const JoxReader *r, const JoxPlace *place) {
+    const JoxV2 centre = jox_v2(place->centre.x, place->centre.y - r->plan->shift);
+    const JoxV2 reach = jox_v2(place->radius, place->radius);
+    jox_scene_position(r, jox_sub(centre, reach));
+    jox_scene_position(r, jox_add(centre, reach));
+}
+
 bool jox_finish_place(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     JoxPlace *place = item;
     (void)r, (void)map, (void)good;
     if (place->points && place->count)
         jox_place_finish(place);
+    if (place->points && place->count && jox_place_is_spot(place))
+        widen_plan(r, place);
     return true; /* keep it if it is wrong, too: its name is known then */
 }
 

@@ -1,6 +1,7 @@
 /* Reads a scene's file into a JoxSceneSpec: reads the tree of YAML, merges the patches of mods and
    the values of the command line into it, then fills the spec by the table of keys (key_table.c).
    Reports all errors, not only the first. Called by run/, and by tools that need no world. */
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -12,8 +13,34 @@ static bool has_content(const JoxYaml *node) {
     return node && (node->kind == JOX_YAML_SCALAR || node->count > 0);
 }
 
+/* Finds the extent in plan of all points of a scene with storeys, by which storeys are laid out:
+   reads the scene once with all storeys in one plane, and drops what is wrong, which is reported
+   when it is read for good. */
+static void measure_plan(JoxSceneDraft *draft, const JoxYaml *root) {
+    JoxDiagnostics dropped = {.limit = 1};
+    JoxSceneSpec spec = {.path = draft->scene->path};
+    JoxSceneDraft once = {.scene = &spec,
+                          .options = draft->options,
+                          .datadir = draft->datadir,
+                          .files = draft->files,
+                          .root = root,
+                          .measuring = true};
+    const uint32_t files = draft->files->count;
+    once.reader = draft->reader;
+    once.reader.arena = spec.memory = jox_arena_create();
+    once.reader.diagnostics = &dropped;
+    once.reader.draft = &once;
+    jox_owner_read(&once.reader, root, "scene", &spec);
+    draft->files->count = files; /* files of walls are read again */
+    jox_walls_free(&spec.walls);
+    jox_arena_free(spec.memory);
+    jox_diag_free(&dropped);
+}
+
 static void read_scene_keys(JoxSceneDraft *draft, const JoxYaml *root) {
     draft->root = root;
+    if (has_content(jox_yaml_get(root, "storeys")))
+        measure_plan(draft, root);
     jox_owner_read(&draft->reader, root, "scene", draft->scene);
     if (!has_content(jox_yaml_get(root, "groups")) && !has_content(jox_yaml_get(root, "bodies")) &&
         !has_content(jox_yaml_get(root, "probes"))) /* probes alone measure a recording */
@@ -30,8 +57,10 @@ JoxSceneSpec *jox_scene_read_text(const char *name, const char *text, size_t len
         .scene = jox_alloc(1, sizeof(JoxSceneSpec)),
         .options = options,
         .files = files};
+    JoxPlacing plan = {.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
     const size_t errors = diagnostics->errors;
     draft.reader.draft = &draft;
+    draft.reader.plan = &plan;
     draft.scene->memory = arena;
     draft.datadir = options ? options->datadir : NULL;
     draft.scene->path = jox_arena_text(arena, name);
@@ -73,6 +102,7 @@ void jox_scene_free(JoxSceneSpec *scene) {
     if (!scene)
         return;
     jox_walls_free(&scene->walls);
+    jox_storeys_free(&scene->storeys);
     jox_patch_changes_free(&scene->changes);
     jox_arena_free(scene->memory);
     jox_free(scene);

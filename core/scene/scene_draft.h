@@ -8,6 +8,20 @@
 #include "scene/format/keys.h"
 #include "scene/scene.h"
 
+/* The struct of the owner "stair" while it is read. */
+typedef struct JoxStairDraft {
+    JoxStair stair; /* storeys from, to: `lower`, `upper` */
+    uint32_t kind, way;
+    double speed, rise; /* m/s, m; NAN: not given */
+    JoxPosition position;
+} JoxStairDraft;
+typedef struct JoxStoreysDraft {
+    JoxStorey *storeys;
+    uint32_t storey_count;
+    JoxStairDraft *stairs;
+    uint32_t stair_count;
+} JoxStoreysDraft;
+
 /* A scene while it is read. `reader.draft` points to it. */
 typedef struct JoxSceneDraft {
     JoxReader reader;
@@ -16,8 +30,10 @@ typedef struct JoxSceneDraft {
     const char *datadir;            /* folder of installed behaviours/; NULL: as built */
     JoxYamlFiles *files;            /* read for the scene so far */
     const JoxYaml *root;            /* the scene's tree, with includes and mods merged */
-    bool walls_wrong; /* some walls could not be read: names of walls are not checked then */
-    double pieces;    /* bodies read so far, counting their blocks and parts: bounded in all */
+    bool walls_wrong;        /* some walls could not be read: names of walls are not checked then */
+    JoxStoreysDraft storeys; /* as they are written */
+    bool measuring; /* only the extent of all points is of interest: no groups are placed */
+    double pieces;  /* bodies read so far, counting their blocks and parts: bounded in all */
     /* Values of the body or group that is being read, until it is complete. */
     double block_mass; /* kg, of each block of the body; NAN: not given */
     struct JoxFillDraft {
@@ -74,6 +90,13 @@ JoxKeyRead jox_key_read_ring, jox_key_read_points, jox_key_read_point, jox_key_r
     jox_key_read_lines;
 /* Reads two corners into two JoxV2; low is above high if the key is missing. */
 JoxKeyRead jox_key_read_box;
+
+/* storeys.c. Reads the `storey` of a map, on whose sheet its points lie from then on; the stairs of
+   a scene, after which storeys are laid out; storeys that a stair joins, into a uint32_t; its
+   landings. */
+JoxKeyRead jox_key_read_storey, jox_key_read_stairs, jox_key_read_stair_storey,
+    jox_key_read_landings;
+JoxOwnerFinish jox_finish_storey, jox_finish_stair;
 
 /* places.c */
 JoxKeyRead jox_key_read_place_points, jox_key_read_place_start, jox_key_read_regions;

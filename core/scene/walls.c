@@ -70,8 +70,12 @@ static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
     const bool is_xml = file->text[strspn(file->text, " \t\r\n")] == '<';
     if (!is_xml && !jox_diag_check_text(r->diagnostics, path, file->text, length))
         return false;
-    return jox_wall_file_read(path, file->text, length, &options, &draft->scene->walls,
-                              r->diagnostics);
+    JoxWalls *walls = &draft->scene->walls;
+    const uint32_t first = walls->count;
+    const bool good = jox_wall_file_read(path, file->text, length, &options, walls, r->diagnostics);
+    for (uint32_t v = first; v < walls->count; v++)
+        walls->vertices[v].point = jox_scene_position(r, walls->vertices[v].point);
+    return good;
 }
 
 /* Reads the corners of a solid or a line; the key `closed` has been read. */
@@ -127,7 +131,7 @@ void jox_key_read_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *li
     (void)item;
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(r, list, "bad-type", NULL, "%s is a list", key->name);
-    const JoxWalls *walls = &r->draft->scene->walls;
+    JoxWalls *walls = &r->draft->scene->walls;
     double length = 0.0;
     for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
         const uint32_t first = walls->ring_count;
@@ -139,5 +143,6 @@ void jox_key_read_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *li
             break;
         }
     }
+    jox_storeys_add_walls(&r->draft->scene->storeys, walls);
     r->draft->walls_wrong = r->diagnostics->errors > errors;
 }

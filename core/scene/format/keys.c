@@ -224,6 +224,10 @@ bool jox_key_read_vector(const JoxReader *reader, const JoxKey *key, const JoxYa
         if (!jox_read_number(reader, node->items[i], key->unit, &out[i]) ||
             !check_range(reader, node->items[i], key, out[i]))
             return false;
+    if (key->placed && reader->plan) {
+        jox_scene_position(reader, jox_v2((float)out[0], (float)out[1]));
+        out[1] += (double)reader->plan->shift;
+    }
     return true;
 }
 
@@ -292,26 +296,37 @@ static void store_value(const JoxReader *reader, const JoxKey *key, const JoxYam
     JOX_ASSERT(false); /* the row does not say how to store the value */
 }
 
+/* Reads the keys of a map that select no kind: those that others depend on, or all others. */
+static void read_keys(const JoxReader *reader, const JoxYaml *map, const char *owner, bool first,
+                      void *item) {
+    for (size_t i = 0; i < reader->format->key_count; i++) {
+        const JoxKey *key = &reader->format->keys[i];
+        if (key->first == first && !key->selected_kind && !strcmp(key->owner, owner))
+            store_value(reader, key, map ? jox_yaml_get(map, key->name) : NULL, item);
+    }
+}
+
 bool jox_owner_read(const JoxReader *reader, const JoxYaml *map, const char *name, void *item) {
     const size_t errors = reader->diagnostics->errors;
     const JoxOwner *owner = jox_owner_find(reader->format, name, strlen(name));
     const JoxKey *selecting = NULL;
+    const float shift = reader->plan ? reader->plan->shift : 0.0f; /* a key `storey` changes it */
     JOX_ASSERT(owner && item);
     bool good = !map || jox_owner_check_keys(reader, map, name);
     map = good ? map : NULL;
     if (map && owner->kind_offset && !(selecting = find_selecting_key(reader, map, owner)))
         good = false;
-    for (size_t i = 0; i < reader->format->key_count; i++) {
-        const JoxKey *key = &reader->format->keys[i];
-        if (!key->selected_kind && !strcmp(key->owner, name))
-            store_value(reader, key, map ? jox_yaml_get(map, key->name) : NULL, item);
-    }
+    read_keys(reader, map, name, true, item);
+    read_keys(reader, map, name, false, item);
     if (selecting) { /* last: its reader may use the values of the others */
         *JOX_MEMBER(int, item, owner->kind_offset - 1) = selecting->selected_kind - 1;
         store_value(reader, selecting, jox_yaml_get(map, selecting->name), item);
     }
     good = good && reader->diagnostics->errors == errors;
-    return map && owner->finish ? owner->finish(reader, map, item, good) : good;
+    good = map && owner->finish ? owner->finish(reader, map, item, good) : good;
+    if (reader->plan)
+        reader->plan->shift = shift;
+    return good;
 }
 
 /* Returns the least number of items of a list: 2 for "wall[2]". */

@@ -64,6 +64,9 @@ struct JoxKey {
     JoxStore store;
     size_t offset;       /* offset of the member in the owner's struct */
     size_t count_offset; /* offset of the member that holds the number of values */
+    bool first;          /* read before the other keys of its owner */
+    bool placed;         /* its numbers are a point of the plan, and are stored as its position on
+                            the sheet of its storey */
     bool in_draft;       /* offsets are in the reader's JoxSceneDraft, not in the owner's struct */
     /* For JOX_STORE_READ: reads `node` (NULL: the key is missing) into `item`, the owner's struct;
        reports what is wrong. */

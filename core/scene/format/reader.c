@@ -29,6 +29,15 @@ bool jox_scene_check_name(const JoxReader *reader, JoxPosition at, const char *w
     return false;
 }
 
+JoxV2 jox_scene_position(const JoxReader *reader, JoxV2 plan) {
+    JoxPlacing *all = reader->plan;
+    if (!all)
+        return plan;
+    all->low = jox_v2(jox_minf(all->low.x, plan.x), jox_minf(all->low.y, plan.y));
+    all->high = jox_v2(jox_maxf(all->high.x, plan.x), jox_maxf(all->high.y, plan.y));
+    return jox_v2(plan.x, plan.y + all->shift);
+}
+
 const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,
                               size_t count) {
     if (!jox_diag_has_room(reader->diagnostics, JOX_SEVERITY_ERROR))

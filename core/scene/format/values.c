@@ -103,7 +103,7 @@ JoxV2 *jox_read_points(const JoxReader *reader, const JoxYaml *list, uint32_t le
                 return NULL;
             }
         }
-        points[i] = (JoxV2){(float)v[0], (float)v[1]};
+        points[i] = jox_scene_position(reader, (JoxV2){(float)v[0], (float)v[1]});
     }
     *count = list->count;
     return points;

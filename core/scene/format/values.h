@@ -20,7 +20,8 @@ extern const size_t jox_scene_unit_count;
 /* Reads a number with or without a unit ("2", "2 m", "5 min") and converts it to `unit`, an SI
    unit; false with an error. */
 bool jox_read_number(const JoxReader *reader, const JoxYaml *node, const char *unit, double *out);
-/* Reads a list of at least `least` points, in m, into the arena; NULL with an error. */
+/* Reads a list of at least `least` points, in m, as positions on the sheet of their storey, into
+   the arena; NULL with an error. */
 JoxV2 *jox_read_points(const JoxReader *reader, const JoxYaml *list, uint32_t least,
                        uint32_t *count);
 /* Reads a list of names, or a single one; returns their number, 0 for NULL. Reports items that are

@@ -40,6 +40,27 @@ const JoxExample jox_scene_examples[] = {
      "tally: {here: {group: standing}, there: {group: runner}}\n"
      "game: {ours: there, theirs: here, time: 20}\n"
      "criteria: {not too dense: {density: 9}}\n"},
+    {"scene", OPENING
+     "storeys: {ground: {height: 0}, first: {height: 3.5}}\n"
+     "stairs: {north: {from: ground, to: first, path: [[4, 0], [10, 0]]}}\n"
+     STANDER},
+    {"storey", OPENING
+     "storeys:                       # from the lowest up\n"
+     "  basement: {height: -4.5}\n"
+     "  street: {height: 0}\n"
+     "  first: {height: 3.5}\n"
+     "places: {hall: {polygon: [[0, 0], [9, 0], [9, 6], [0, 6]], storey: first}}\n"
+     "groups: {people: {behaviour: stander.lua, count: 20, in: hall}}\n"},
+    {"stair", OPENING
+     "storeys: {ground: {height: 0}, first: {height: 3.5}, second: {height: 7}}\n"
+     "stairs:\n"
+     "  north: {from: ground, to: first, path: [[4, 0], [10.6, 0]], width: 1.5, landings: [[2.7, 3.9]]}\n"
+     "  dog-leg: # two flights with a half landing between\n"
+     "    {from: first, to: second, path: [[4, 6], [8, 6], [8, 7.6], [4, 7.6]]}\n"
+     "  ramp up: {kind: ramp, from: ground, to: first, path: [[0, 20], [45, 20]], width: 2}\n"
+     "  escalator up: {kind: escalator, way: up, speed: 0.65, from: ground, to: first, path: [[4, 12], [10, 12]], width: 1}\n"
+     "  aisle: {from: second, to: second, rise: 2, path: [[20, 0], [24, 0]]} # steps of a stand\n"
+     STANDER},
     {"report", OPENING
      "report:\n"
      "  author: A. Engineer\n"
@@ -135,12 +156,20 @@ const JoxExample jox_scene_examples[] = {
      "  sights:  {set: [tree, island]}\n"
      "groups:\n"
      "  walkers: {behaviour: walker.lua, at: [[2, 2], [2, 3]], set: {goal: tree}}\n"},
+    {"place", OPENING
+     "storeys: {ground: {height: 0}, first: {height: 3.5}}\n"
+     "places: {hall: {polygon: [[0, 0], [9, 0], [9, 6], [0, 6]], storey: first}}\n"
+     STANDER},
     {"wall", OPENING
      "walls:\n"
      "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5, drawn: 0.4}\n"
      "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
      "  - {line: [[9, 5], [0, 5]], name: fence, open: true}\n"
      "  - {file: hall.wkt, unit: 1 cm, origin: [-3000, 0]}   # drawn in centimetres; 30 m further east\n"
+     STANDER},
+    {"wall", OPENING
+     "storeys: {ground: {height: 0}, first: {height: 3.5}}\n"
+     "walls: [{line: [[0, 0], [20, 0]], storey: first}]\n"
      STANDER},
     {"scenery", OPENING
      "floor: asphalt\n"
