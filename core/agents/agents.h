@@ -197,8 +197,10 @@ typedef struct JoxAgents {
     /* Periodic edges: agents that leave at one side come in at the other. Origin and lengths of the
        period, m; 0 along an axis without. Positions stay within [origin, origin + period). */
     JoxV2 origin, period;
-    /* m along y from sheet to sheet where a world has storeys (geom/storeys.h), else 0. Agents that
-       see each other over a seam stand whole pitches apart. */
+    /* Storeys, if a world has several sheets (geom/storeys.h, which the rooms above include), else
+       NULL; and the pitch, m along y from sheet to sheet, else 0. Agents that see each other over a
+       seam stand whole pitches apart. Borrowed. */
+    const struct JoxStoreys *storeys;
     float pitch;
     void *spare; /* for permuting: a column of 4 bytes per agent */
     void *row;   /* for permuting: one wider entry */

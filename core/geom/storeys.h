@@ -118,8 +118,8 @@ static inline bool jox_has_storeys(const JoxStoreys *storeys) {
 }
 /* Returns the sheet of a position, the nearest one if it lies beyond all. */
 static inline uint32_t jox_sheet_of(const JoxStoreys *s, float y) {
-    const float at = floorf((y - s->origin) / s->pitch);
-    return (uint32_t)jox_clampf(at, 0.0f, (float)(s->sheet_count - 1));
+    const float at = (y - s->origin) / s->pitch; /* NAN: the last */
+    return (uint32_t)jox_minf(jox_maxf(0.0f, at), (float)(s->sheet_count - 1));
 }
 /* Returns the position of a point of the plan on a sheet, and the point of a position. */
 static inline JoxV2 jox_on_sheet(const JoxStoreys *s, uint32_t sheet, JoxV2 plan) {

@@ -34,10 +34,6 @@ void jox_nav_set_memory(JoxNav *nav, JoxStageMemory *memory) {
     nav->memory = memory;
 }
 
-void jox_nav_set_storeys(JoxNav *nav, const JoxStoreys *storeys) {
-    nav->storeys = jox_has_storeys(storeys) ? storeys : NULL;
-}
-
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     jox_wall_grid_free(&nav->grid);
     jox_spots_free(&nav->spots);
@@ -109,6 +105,7 @@ void jox_nav_free(JoxNav *nav) {
     jox_wall_grid_free(&nav->grid);
     jox_spots_free(&nav->spots);
     jox_free(nav->cell_first);
+    jox_free(nav->bands);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);
     jox_free(nav->walker_headings);

@@ -7,7 +7,6 @@
 #include "agents/step.h"
 #include "agents/walk_law.h"
 #include "geom/objects.h"
-#include "geom/storeys.h"
 #include "geom/wall_grid.h"
 #include "geom/walls.h"
 #include "jostle.h"
@@ -26,8 +25,6 @@ void jox_nav_set_literal(JoxNav *nav, bool literal);
 void jox_nav_set_isa(JoxNav *nav, JoIsa isa);
 /* Sets the memory that sort and move share with other stages. Default: its own. */
 void jox_nav_set_memory(JoxNav *nav, JoxStageMemory *memory);
-/* Sets the storeys, which are not copied, and must not change. NULL: none. */
-void jox_nav_set_storeys(JoxNav *nav, const JoxStoreys *storeys);
 /* Sets the walls, which are not copied; call it again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/number/random.h"
+#include "geom/storeys.h"
 #include "geom/wall_grid.h"
 #include "nav/nav.h"
 #include "nav/spots/spots.h"
@@ -52,12 +53,22 @@ static inline JoxDrift jox_drift_of_both(JoxDrift a, JoxDrift b) {
                       {jox_maxf(a.most.x, b.most.x), jox_maxf(a.most.y, b.most.y)}};
 }
 
+/* Rows of the grid that one sheet has. */
+typedef struct JoxNavBand {
+    float low; /* m: y of the lower edge of the first */
+    uint32_t first, rows;
+} JoxNavBand;
+
 struct JoxNav {
     /* Grid of agents: cells row by row, each with its agents in consecutive order. */
     JoxV2 low;       /* m: lower corner of the first cell */
     JoxV2 per_metre; /* cells along each axis */
     uint32_t rows, columns, cell_capacity;
     uint32_t *cell_first; /* rows * columns + 1 entries */
+    /* Rows of each sheet, where a world has storeys: those of all sheets follow each other, without
+       rows for what lies between. NULL: one plane. */
+    JoxNavBand *bands;
+    const struct JoxStoreys *storeys; /* of the agents that were sorted, or NULL */
     uint32_t sorted_count, sorted_next_id;
     JoxDrift drift;      /* since the agents were sorted */
     float search_radius; /* m: mean over agents, when they were sorted */
@@ -84,9 +95,8 @@ struct JoxNav {
     JoxSpots spots;                     /* table of births, between two steps */
     JoxStageMemory *memory, own_memory; /* own_memory: used where none was given */
     bool literal;
-    JoIsa isa;                 /* instruction set of the kernels */
-    const JoxWalkLaw *walk;    /* belongs to the model */
-    const JoxStoreys *storeys; /* likewise; NULL: one plane */
+    JoIsa isa;              /* instruction set of the kernels */
+    const JoxWalkLaw *walk; /* belongs to the model */
 };
 
 /* Returns a step whose contact planes are NULL where contacts were not searched for. */
@@ -163,8 +173,20 @@ static inline uint32_t jox_cell_along(float from_low, float per_metre, uint32_t 
     return (uint32_t)at;
 }
 
+/* Returns the band of the sheet at y, m. */
+static inline const JoxNavBand *jox_band_of(const JoxNav *nav, float y) {
+    return &nav->bands[jox_sheet_of(nav->storeys, y)];
+}
+static inline uint32_t jox_row_in_band(const JoxNav *nav, const JoxNavBand *band, float y) {
+    return band->first + jox_cell_along(y - band->low, nav->per_metre.y, band->rows);
+}
+/* Returns the row at y, m, for a search about a point at `on`, m: in the band of its sheet. */
+static inline uint32_t jox_row_about(const JoxNav *nav, float on, float y) {
+    return nav->bands ? jox_row_in_band(nav, jox_band_of(nav, on), y)
+                      : jox_cell_along(y - nav->low.y, nav->per_metre.y, nav->rows);
+}
 static inline uint32_t jox_row_of(const JoxNav *nav, float y) {
-    return jox_cell_along(y - nav->low.y, nav->per_metre.y, nav->rows);
+    return jox_row_about(nav, y, y);
 }
 
 static inline uint32_t jox_column_of(const JoxNav *nav, float x) {

@@ -56,8 +56,8 @@ void jox_world_set_storeys(JoWorld *world, const JoxStoreys *storeys) {
     jox_storeys_copy(&world->model.storeys, storeys);
     if (!jox_has_storeys(&world->model.storeys))
         return;
+    world->state.agents.storeys = &world->model.storeys;
     world->state.agents.pitch = storeys->pitch;
-    jox_nav_set_storeys(world->scratch.nav, &world->model.storeys);
 }
 
 void jox_world_set_timed(JoWorld *world, bool timed) {

@@ -5,6 +5,7 @@
 
 #include "geom/wall_grid_lanes.h"
 #include "nav/move/move.h"
+#include "nav/near/seam_lanes.h"
 #include "nav/step_back_lanes.h"
 #include "simd/vectors.h"
 
@@ -65,6 +66,26 @@ static inline JoxMask find_outside(JoxFloats x, float origin, float period) {
     const JoxFloats from = x - origin, zero = jf_set(0.0f);
     const JoxMask within = jm_and(jf_le(zero, from), jf_lt(from, jf_set(period)));
     return period > 0.0f ? jm_without(jm_of_bits(JOX_ALL_LANES), within) : jm_of_bits(0);
+}
+
+/* Moves agents of a packet that stand beyond a seam to its other sheet, together with the positions
+   of the step's beginning. Returns the lanes that it moved. */
+static uint32_t cross_seams(JoxAgents *a, uint32_t i, uint32_t lanes) {
+    const JoxStoreys *s = a->storeys;
+    const JoxVector at = jv_load(a->x, a->y, i);
+    uint32_t first, last, crossed = 0;
+    jox_find_seams(s, a->y + i, lanes, &first, &last);
+    for (uint32_t k = first; k < last; k++) {
+        const uint32_t beyond = lanes & ~crossed & jox_find_beyond_seam(s, &s->seams[k], at);
+        for (uint32_t left = beyond; left; left &= left - 1) {
+            const uint32_t j = i + (uint32_t)__builtin_ctz(left);
+            a->y[j] += s->seams[k].shift;
+            a->prev_y[j] += s->seams[k].shift;
+            a->still_y[j] += s->seams[k].shift;
+        }
+        crossed |= beyond;
+    }
+    return crossed;
 }
 
 /* Returns the lanes that a wall may stop or is too near to: agents near a wall, and agents that go
@@ -162,6 +183,8 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
                 else
                     farthest = INFINITY; /* its new position is not known yet */
             }
+        for (uint32_t left = a->storeys ? cross_seams(a, i, there) : 0; left; left &= left - 1)
+            jox_nav_list_stray(m->nav, i + (uint32_t)__builtin_ctz(left));
         update_still_time(m, i, jv_load(a->x, a->y, i));
     }
     JoxDrift drift = reduce_ways(&ways, end - begin < JOX_WIDTH ? end - begin : JOX_WIDTH);

@@ -42,6 +42,39 @@ static uint32_t count_cells(float extent, float cell) {
     return (uint32_t)(extent / cell) + 1;
 }
 
+/* Finds the extent along y of the agents of each sheet, m: in low the least and in high the
+   greatest y; low above high where there is nobody. Returns the sum of all extents. */
+static float find_sheet_extents(const JoxAgents *a, float *low, float *high) {
+    const JoxStoreys *s = a->storeys;
+    float sum = 0.0f;
+    for (uint32_t k = 0; k < s->sheet_count; k++) {
+        low[k] = INFINITY;
+        high[k] = -INFINITY;
+    }
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t k = jox_sheet_of(s, a->y[i]);
+        low[k] = jox_minf(low[k], a->y[i]);
+        high[k] = jox_maxf(high[k], a->y[i]);
+    }
+    for (uint32_t k = 0; k < s->sheet_count; k++)
+        sum += jox_maxf(high[k] - low[k], 0.0f);
+    return sum;
+}
+
+/* Gives each sheet its rows, of this height, m; returns how many there are. */
+static uint32_t lay_bands(JoxNav *nav, const JoxStoreys *s, const float *low, const float *high,
+                          float height) {
+    uint32_t rows = 0;
+    nav->bands = jox_realloc(nav->bands, s->sheet_count, sizeof *nav->bands);
+    for (uint32_t k = 0; k < s->sheet_count; k++) {
+        const bool empty = low[k] > high[k];
+        nav->bands[k] = (JoxNavBand){empty ? 0.0f : low[k], rows,
+                                     empty ? 1 : count_cells(high[k] - low[k], height) + 1};
+        rows += nav->bands[k].rows;
+    }
+    return rows;
+}
+
 /* Lays the cells over the bounding box of the agents; returns the greatest coordinate in it, m. */
 static float fit_cells(JoxNav *nav, const JoxAgents *a) {
     JoxV2 high = {-INFINITY, -INFINITY};
@@ -52,18 +85,24 @@ static float fit_cells(JoxNav *nav, const JoxAgents *a) {
         high.x = jox_maxf(high.x, a->x[i]);
         high.y = jox_maxf(high.y, a->y[i]);
     }
-    const JoxV2 extent = jox_sub(high, nav->low);
+    JoxV2 extent = jox_sub(high, nav->low);
+    const uint32_t sheets = a->storeys ? a->storeys->sheet_count : 0;
+    float lows[JOX_MOST_STOREYS + JOX_MOST_STAIRS], highs[JOX_MOST_STOREYS + JOX_MOST_STAIRS];
+    if (sheets)
+        extent.y = find_sheet_extents(a, lows, highs);
     nav->search_radius = compute_mean_search(a, extent);
     float width = clamp_cell_side(CELL_WIDTH, nav->search_radius),
           height = clamp_cell_side(CELL_HEIGHT, nav->search_radius);
     const float most = CELLS_LEAST + CELLS_EACH * (float)a->count;
-    while ((extent.x / width + 1.0f) * (extent.y / height + 1.0f) > most) {
+    while ((extent.x / width + 1.0f) * (extent.y / height + 1.0f + (float)sheets) > most) {
         width *= 1.5f;
         height *= 1.5f;
     }
     nav->per_metre = (JoxV2){1.0f / width, 1.0f / height};
     nav->columns = count_cells(extent.x, width) + 1; /* one more than rounding can reach */
-    nav->rows = count_cells(extent.y, height) + 1;
+    nav->rows = sheets ? lay_bands(nav, a->storeys, lows, highs, height)
+                       : count_cells(extent.y, height) + 1;
+    nav->storeys = a->storeys;
     const uint32_t cells = nav->columns * nav->rows;
     if (cells + 1 > nav->cell_capacity) {
         /* Cells get smaller as a crowd gets denser; a crowd of uniform density has half as many

@@ -6,6 +6,7 @@
 #include "agents/torso.h"
 #include "base/number/bits.h"
 #include "base/number/pi.h"
+#include "geom/polygon.h"
 #include "nav/near/perceive.h"
 
 /* Returns the key of a candidate, which sorts by distance, then id: the bits of the squared
@@ -30,6 +31,8 @@ typedef struct Nearest {
        else as their centres are. */
     bool by_reach, discs; /* discs: all are, as in literal mode */
     float beyond;
+    const JoxSeam *seam; /* candidates count if they are seen through it; NULL: all do */
+    JoxV2 before;        /* m, in plan: from where */
 } Nearest;
 
 static void clear_nearest(Nearest *n) {
@@ -61,12 +64,21 @@ static inline float find_reached2(const JoxAgents *a, uint32_t j, float d2, bool
     return beyond * beyond;
 }
 
+/* Returns whether agent j is seen through the seam. */
+static bool sees_through(const JoxAgents *a, uint32_t j, const Nearest *found) {
+    const JoxV2 at = {a->x[j], a->y[j] - (float)found->seam->there * a->pitch};
+    return jox_sheet_of(a->storeys, a->y[j]) == found->seam->there &&
+           jox_seam_lets_see(found->seam, found->before, at);
+}
+
 /* Buffers agent j as a candidate if it is not agent i and lies within the radius of a point. */
 static inline void buffer_candidate(const JoxAgents *a, uint32_t i, uint32_t j, JoxV2 point,
                                     float radius2, Nearest *found) {
     const float dx = a->x[j] - point.x, dy = a->y[j] - point.y, d2 = dx * dx + dy * dy;
     const float near2 = found->by_reach ? find_reached2(a, j, d2, found->discs) : d2;
     const float most2 = found->by_reach ? found->beyond * found->beyond : radius2;
+    if (found->seam && !sees_through(a, j, found))
+        return;
     found->waiting[found->waits] = make_sort_key(near2, a->rank[j]);
     found->waits +=
         (d2 <= radius2) & (near2 <= most2) &
@@ -88,8 +100,8 @@ static void search_cells(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
     const JoxV2 least = nav->drift.least, most = nav->drift.most;
     const uint32_t left = jox_column_of(nav, x - radius - most.x);
     const uint32_t right = jox_column_of(nav, x + radius - least.x);
-    const uint32_t low = jox_row_of(nav, y - radius - most.y);
-    const uint32_t high = jox_row_of(nav, y + radius - least.y);
+    const uint32_t low = jox_row_about(nav, y, y - radius - most.y);
+    const uint32_t high = jox_row_about(nav, y, y + radius - least.y);
     JOX_ASSERT(low <= high && high < nav->rows && left <= right && right < nav->columns);
     for (uint32_t row = low; row <= high; row++) {
         const uint32_t *first = nav->cell_first + (size_t)row * nav->columns;
@@ -104,8 +116,30 @@ static void search_cells(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
     }
 }
 
-/* Finds the agents nearest to agent i within `radius` (m), over periodic edges too. Without `nav`
-   all agents are candidates: between two steps the grid may be out of date. */
+/* Buffers the agents within `radius` (m) of agent i that it sees through the seams of its sheet. */
+static void search_through_seams(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius,
+                                 Nearest *found) {
+    const JoxStoreys *s = a->storeys;
+    const JoxV2 point = {a->x[i], a->y[i]};
+    const JoxSheet *sheet = &s->sheets[jox_sheet_of(s, point.y)];
+    for (uint32_t k = sheet->first_seam; k < sheet->first_seam + sheet->seam_count; k++) {
+        found->seam = &s->seams[k];
+        found->before = jox_in_plan(s, point);
+        const JoxV2 image = {point.x, point.y + found->seam->shift};
+        const JoxV2 nearest = jox_segment_nearest(found->seam->a, found->seam->b, found->before);
+        const float wide = radius + (nav ? nav->drift.farthest : 0.0f);
+        if (jox_length2(jox_sub(nearest, found->before)) > wide * wide)
+            continue;
+        if (nav)
+            search_cells(nav, a, i, image, radius, found);
+        else
+            search_all(a, i, image, radius, found);
+    }
+    found->seam = NULL;
+}
+
+/* Finds the agents nearest to agent i within `radius` (m), over periodic edges and seams too.
+   Without `nav` all agents are candidates: between two steps the grid may be out of date. */
 static void search_nearest(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius,
                            Nearest *found) {
     JoxV2 point = {a->x[i], a->y[i]};
@@ -122,6 +156,8 @@ static void search_nearest(const JoxNav *nav, const JoxAgents *a, uint32_t i, fl
                 else
                     search_all(a, i, image, radius, found);
             }
+    if (a->storeys)
+        search_through_seams(nav, a, i, radius, found);
     sort_in_waiting(found);
     found->count = found->count < found->most ? found->count : found->most;
 }
@@ -172,6 +208,7 @@ void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
     Nearest found;
     found.most = (uint32_t)jox_param(a, JOX_PARAM_neighbours, i);
     found.by_reach = false;
+    found.seam = NULL;
     clear_nearest(&found);
     for (bool again = found.most > 0; again;) {
         radius = jox_minf(radius, perception);
@@ -184,7 +221,8 @@ void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
 
 float jox_nav_sight(const JoxAgents *a) {
     float most = a->period.x > 0.0f ? 0.49f * a->period.x : INFINITY;
-    return a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
+    const float along = a->pitch > 0.0f ? a->pitch : a->period.y;
+    return along > 0.0f ? jox_minf(most, 0.49f * along) : most;
 }
 
 /* Returns the torso of agent i as shape_wide.c computes it. */

@@ -39,8 +39,8 @@ void jox_perceive_alone(const JoxAgents *agents, uint32_t agent, bool discs, Jox
 /* Lists the agents within `range` (m) of one agent in touch_index. */
 void jox_perceive_touching(const JoxPerceive *perceive, uint32_t agent, float range);
 
-/* Returns how far any agent sees at most, m: less than half a period, so that no agent is seen from
-   two sides; INFINITY without periods. */
+/* Returns how far any agent sees at most, m: less than half a period or pitch, so that no agent is
+   seen from two sides; INFINITY without. */
 float jox_nav_sight(const JoxAgents *agents);
 
 #endif

@@ -9,68 +9,8 @@
 #include "agents/param_lanes.h"
 #include "agents/torso_lanes.h"
 #include "nav/near/near_lanes.h"
-
-/* Ranges of columns and rows of cells of each lane, both ends included. */
-typedef struct Cells {
-    uint32_t left[JOX_WIDTH], right[JOX_WIDTH], low[JOX_WIDTH], high[JOX_WIDTH];
-} Cells;
-
-/* Cells within reach of each lane, and of each lane together with the next one. */
-typedef struct Reach {
-    float x[JOX_WIDTH], y[JOX_WIDTH]; /* m: image of the agent that searches */
-    float radius2[JOX_WIDTH];         /* m2 */
-    Cells own, both;
-    uint32_t pairs; /* lanes that reach few more cells together with the next lane than alone */
-} Reach;
-
-static inline JoxFloats find_cells(JoxFloats at, float low, float per_metre, uint32_t cells) {
-    const JoxFloats from = (at - low) * per_metre;
-    return jf_min(jf_max(jf_set(0.0f), from), jf_set((float)(cells - 1)));
-}
-/* Stores the first (store_last: the last) cells in reach: `own` of each lane, `both` of each lane
-   and the next. */
-static inline void store_first(JoxFloats cells, uint32_t *own, uint32_t *both) {
-    ji_store(own, jf_to_ints(cells));
-    ji_store(both, jf_to_ints(jf_min(cells, jf_next(cells))));
-}
-
-static inline void store_last(JoxFloats cells, uint32_t *own, uint32_t *both) {
-    ji_store(own, jf_to_ints(cells));
-    ji_store(both, jf_to_ints(jf_max(cells, jf_next(cells))));
-}
-
-/* Returns the lanes that together with the next one reach many more cells along an axis than alone:
-   the two agents do not stand side by side. */
-static inline JoxMask reach_many_more(const uint32_t *first, const uint32_t *last,
-                                      const uint32_t *first_both, const uint32_t *last_both) {
-    const JoxInts alone = ji_sub(ji_load(last), ji_load(first));
-    const JoxInts both = ji_sub(ji_load(last_both), ji_load(first_both));
-    return ji_less(ji_add(alone, ji_set(1)), both);
-}
-
-/* Finds the cells in reach of the images of the lanes' agents, which are shifted by `shift` (m). */
-static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
-    const JoxNav *nav = packet->p->nav;
-    const JoxV2 least = nav->drift.least, most = nav->drift.most, low = nav->low;
-    const JoxFloats radius = jf_load(packet->radius);
-    const JoxFloats x = jf_load(packet->at_x) + shift.x;
-    const JoxFloats y = jf_load(packet->at_y) + shift.y;
-    Cells *own = &reach->own, *both = &reach->both;
-    jf_store(reach->x, x);
-    jf_store(reach->y, y);
-    jf_store(reach->radius2, radius * radius);
-    store_first(find_cells(x - radius - most.x, low.x, nav->per_metre.x, nav->columns), own->left,
-                both->left);
-    store_last(find_cells(x + radius - least.x, low.x, nav->per_metre.x, nav->columns), own->right,
-               both->right);
-    store_first(find_cells(y - radius - most.y, low.y, nav->per_metre.y, nav->rows), own->low,
-                both->low);
-    store_last(find_cells(y + radius - least.y, low.y, nav->per_metre.y, nav->rows), own->high,
-               both->high);
-    const JoxMask apart = jm_or(reach_many_more(own->left, own->right, both->left, both->right),
-                                reach_many_more(own->low, own->high, both->low, both->high));
-    reach->pairs = ~jm_bits(apart) & JOX_ALL_LANES >> 1; /* the last lane has no next one */
-}
+#include "nav/near/reach_lanes.h"
+#include "nav/near/seam_lanes.h"
 
 /* The data of one lane that searches, broadcast to all lanes, and its list. */
 typedef struct Seeker {
@@ -263,6 +203,63 @@ static inline Seeing find_seeing_lanes(const float *along, JoxFloats wide, float
     return s;
 }
 
+/* Keeps of the candidates of a lane from place `from` on those that it sees through a seam. */
+static void keep_seen_through(Packet *packet, uint32_t lane, uint32_t from, const JoxSeam *seam) {
+    const JoxAgents *a = packet->p->agents;
+    const JoxStoreys *s = a->storeys;
+    uint32_t *index = packet->index + (size_t)lane * LIST;
+    float *distance2 = packet->distance2 + (size_t)lane * LIST;
+    const JoxV2 own = {packet->at_x[lane], packet->at_y[lane] - (float)seam->here * s->pitch};
+    uint32_t kept = from;
+    for (uint32_t place = from; place < packet->count[lane]; place++) {
+        const uint32_t j = index[place];
+        const JoxV2 other = {a->x[j], a->y[j] - (float)seam->there * s->pitch};
+        index[kept] = j;
+        distance2[kept] = distance2[place];
+        kept += jox_seam_lets_see(seam, own, other);
+    }
+    packet->count[lane] = kept;
+}
+
+/* Adds the candidates that `lanes` (bits) see through seams. Lists that overflow stay as they are:
+   their lanes search again one at a time. */
+static __attribute__((noinline)) void list_through_seams(Packet *packet, uint32_t lanes,
+                                                         JoxFloats wide) {
+    const JoxStoreys *s = packet->p->agents->storeys;
+    const JoxVector at = {jf_load(packet->at_x), jf_load(packet->at_y)};
+    uint32_t first, last;
+    jox_find_seams(s, packet->at_y, lanes, &first, &last);
+    for (uint32_t k = first; k < last; k++) {
+        const JoxSeam *seam = &s->seams[k];
+        uint32_t before[JOX_WIDTH], seeing = lanes & jox_find_near_seam(s, seam, at, wide);
+        for (uint32_t left = seeing; left; left &= left - 1) {
+            const uint32_t lane = (uint32_t)__builtin_ctz(left);
+            before[lane] = packet->count[lane];
+            if (before[lane] > PLACES)
+                seeing &= ~(1u << lane);
+        }
+        if (!seeing)
+            continue;
+        list_image(packet, seeing, (JoxV2){0.0f, seam->shift}, true);
+        for (uint32_t left = seeing; left; left &= left - 1) {
+            const uint32_t lane = (uint32_t)__builtin_ctz(left);
+            if (packet->count[lane] <= PLACES)
+                keep_seen_through(packet, lane, before[lane], seam);
+        }
+    }
+}
+
+/* Returns whether any of `lanes` (bits) may see a seam. */
+static bool see_seams(const Packet *packet, uint32_t lanes, JoxFloats wide) {
+    const JoxStoreys *s = packet->p->agents->storeys;
+    const JoxVector at = {jf_load(packet->at_x), jf_load(packet->at_y)};
+    uint32_t first, last, seeing = 0;
+    jox_find_seams(s, packet->at_y, lanes, &first, &last);
+    for (uint32_t k = first; k < last && !seeing; k++)
+        seeing = lanes & jox_find_near_seam(s, &s->seams[k], at, wide);
+    return seeing != 0;
+}
+
 /* Makes the lists of `lanes` (bits) anew; those of the other lanes get empty. */
 static void list_lanes(Packet *packet, uint32_t lanes) {
     const JoxAgents *a = packet->p->agents;
@@ -270,7 +267,8 @@ static void list_lanes(Packet *packet, uint32_t lanes) {
     const Seeing x = find_seeing_lanes(packet->at_x, wide, a->origin.x, a->period.x);
     const Seeing y = find_seeing_lanes(packet->at_y, wide, a->origin.y, a->period.y);
     memset(packet->count, 0, sizeof packet->count);
-    const bool strays = (lanes & (x.lanes[0] | x.lanes[2] | y.lanes[0] | y.lanes[2])) != 0;
+    const bool seams = a->storeys && see_seams(packet, lanes, wide);
+    const bool strays = (lanes & (x.lanes[0] | x.lanes[2] | y.lanes[0] | y.lanes[2])) != 0 || seams;
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 3; column++) {
             const uint32_t seeing = lanes & x.lanes[column] & y.lanes[row];
@@ -278,6 +276,8 @@ static void list_lanes(Packet *packet, uint32_t lanes) {
             if (seeing)
                 list_image(packet, seeing, shift, strays);
         }
+    if (seams)
+        list_through_seams(packet, lanes, wide);
 }
 
 static inline void store_floats(float *to, JoxMask m, JoxFloats a) {
