@@ -36,7 +36,11 @@ typedef struct Laying {
     JoxWallImages *images;
     JoxWallGrid grid; /* over the walls and images of earlier shifts */
     JoxV2 shift;      /* m */
-    Span *spans;      /* covered parts of the edge in question */
+    /* The images of walls beyond a seam: only parts within JOX_SEAM_REACH of it are laid. NULL: all
+       is. `seam_a`: its end a as a position on this side. */
+    const JoxSeam *seam;
+    JoxV2 seam_a;
+    Span *spans; /* covered parts of the edge in question */
     uint32_t span_count;
     size_t span_capacity;
 } Laying;
@@ -142,6 +146,55 @@ static void append_vertex(Laying *l, uint32_t of, float along, bool covered) {
     walls->count++;
 }
 
+/* Narrows the part of an edge from `a`, of this direction and length, to where the linear function
+   that is `at` in `a` and grows by `by` a metre is at least 0. */
+static void clip_span(Span *part, float at, float by) {
+    if (by > 0.0f)
+        part->from = jox_maxf(part->from, -at / by);
+    else if (by < 0.0f)
+        part->to = jox_minf(part->to, -at / by);
+    else if (at < 0.0f)
+        part->to = -INFINITY;
+}
+
+/* Finds the part of an image's edge that is laid; false if there is none. */
+static bool find_laid_part(const Laying *l, uint32_t of, Span *part) {
+    const JoxWalls *walls = &l->images->walls;
+    const JoxWallVertex *v = &walls->vertices[of];
+    const JoxSeam *seam = l->seam;
+    const JoxV2 from = jox_sub(jox_add(v->point, l->shift), l->seam_a);
+    const float along = jox_dot(seam->along, from), beyond = jox_det(seam->along, from);
+    const float by_along = jox_dot(seam->along, v->direction);
+    const float by_beyond = jox_det(seam->along, v->direction);
+    *part = (Span){0.0f, jox_length(jox_sub(walls->vertices[v->next].point, v->point))};
+    clip_span(part, beyond, by_beyond);
+    clip_span(part, JOX_SEAM_REACH - beyond, -by_beyond);
+    clip_span(part, along + JOX_SEAM_REACH, by_along);
+    clip_span(part, seam->length + JOX_SEAM_REACH - along, -by_along);
+    return !v->covered && part->to - part->from > HAIR;
+}
+
+/* Appends the image of a part of an edge, cut where what covers it begins and ends; the rest of the
+   edge counts as covered. */
+static void append_part_image(Laying *l, uint32_t of, Span part) {
+    const JoxWallVertex v = l->images->walls.vertices[of];
+    const float length = jox_length(jox_sub(l->images->walls.vertices[v.next].point, v.point));
+    float at = part.from;
+    find_spans(l, jox_add(v.point, l->shift), v.direction, length);
+    const uint32_t spans = l->span_count;
+    for (uint32_t s = 0; s < spans && l->spans[s].from < part.to; s++) {
+        if (l->spans[s].to <= at)
+            continue;
+        if (l->spans[s].from - at >= HAIR)
+            append_vertex(l, of, at, false);
+        append_vertex(l, of, jox_maxf(l->spans[s].from, at), true);
+        at = l->spans[s].to;
+    }
+    if (part.to - at >= HAIR)
+        append_vertex(l, of, at, false);
+    append_vertex(l, of, part.to, true);
+}
+
 /* Appends the image of an edge, cut where what covers it begins and ends. */
 static void append_edge_image(Laying *l, uint32_t of) {
     const JoxWalls *walls = &l->images->walls;
@@ -165,10 +218,18 @@ static void append_ring_image(Laying *l, uint32_t of) {
     JoxWalls *walls = &l->images->walls;
     struct JoxWallRing ring = walls->rings[of];
     const uint32_t first = walls->count;
+    Span part;
     for (uint32_t v = ring.first; v < ring.first + ring.count; v++)
-        append_edge_image(l, v);
+        if (!l->seam)
+            append_edge_image(l, v);
+        else if (find_laid_part(l, v, &part))
+            append_part_image(l, v, part);
     ring.first = first;
     ring.count = walls->count - first;
+    if (ring.count == 0)
+        return;
+    if (l->seam) /* parts of a ring enclose nothing */
+        ring.solid = ring.outline = false;
     walls->vertices[first].previous = walls->count - 1;
     walls->vertices[walls->count - 1].next = first;
     JOX_RESERVE(walls->rings, walls->ring_capacity, walls->ring_count + 1);
@@ -231,7 +292,6 @@ static void mark_continued(JoxWallImages *images) {
 
 static void lay_images(JoxWallImages *images, const JoxWalls *standing, JoxV2 low, JoxV2 period,
                        JoxV2 reach) {
-    JOX_ASSERT(period.x > 0.0f || period.y > 0.0f);
     jox_walls_standing(&images->walls, standing, true);
     images->own_rings = images->walls.ring_count;
     images->own_vertices = images->walls.count;
@@ -241,6 +301,32 @@ static void lay_images(JoxWallImages *images, const JoxWalls *standing, JoxV2 lo
     if (period.y > 0.0f)
         lay_along(images, false, (Span){low.y, low.y + period.y},
                   jox_maxf(reach.y, reach_along(period.y)));
+    if (period.x > 0.0f || period.y > 0.0f)
+        mark_continued(images);
+}
+
+/* Lays the images of the walls beyond one seam, as far as they are seen from before it. */
+static void lay_beyond_seam(JoxWallImages *images, const JoxStoreys *s, const JoxSeam *seam) {
+    Laying l = {.images = images, .seam = seam, .shift = {0.0f, -seam->shift}};
+    const float wide = seam->length + 2.0f * JOX_SEAM_REACH;
+    const JoxV2 there = jox_on_sheet(s, seam->there, seam->a);
+    l.seam_a = jox_on_sheet(s, seam->here, seam->a);
+    l.grid.walls = &images->walls;
+    jox_wall_grid_reset(&l.grid, STRIDE);
+    for (uint32_t r = 0; r < images->own_rings; r++) {
+        const Span x = find_ring_extent(&images->walls, r, true);
+        const Span y = find_ring_extent(&images->walls, r, false);
+        if (x.from <= there.x + wide && x.to >= there.x - wide && y.from <= there.y + wide &&
+            y.to >= there.y - wide)
+            append_ring_image(&l, r);
+    }
+    jox_wall_grid_free(&l.grid);
+    jox_free(l.spans);
+}
+
+void jox_wall_images_lay_seams(JoxWallImages *images, const JoxStoreys *storeys) {
+    for (uint32_t k = 0; k < storeys->seam_count; k++)
+        lay_beyond_seam(images, storeys, &storeys->seams[k]);
     mark_continued(images);
 }
 

@@ -1,10 +1,12 @@
-/* Images of walls beyond joined (periodic) edges: copies that are moved by whole periods. The world
-   lays them whenever its walls change, so that grids over walls find the walls of both sides. */
+/* Images of walls beyond joined (periodic) edges and beyond seams between sheets: copies that are
+   moved by whole periods, or pitches. The world lays them whenever its walls change, so that grids
+   over walls find the walls of both sides. */
 #ifndef JOX_GEOM_WALL_IMAGES_H
 #define JOX_GEOM_WALL_IMAGES_H
 
 #include <stddef.h>
 
+#include "geom/storeys.h"
 #include "geom/walls.h"
 
 typedef struct JoxWallImages {
@@ -30,6 +32,8 @@ int jox_wall_images_turns(float period);
    lies there already, for instance of a wall that is drawn at both joined edges. Marks a vertex as
    `continued` where a wall and an image go on in one line. Keeps its memory. */
 void jox_wall_images_lay(JoxWallImages *images, const JoxWalls *standing, JoxV2 low, JoxV2 period);
+/* Lays the images of walls beyond seams after the others, of own walls alone. */
+void jox_wall_images_lay_seams(JoxWallImages *images, const JoxStoreys *storeys);
 /* Adds the images to standing walls, as far as jox_wall_images_lay does and at least `reach` m
    beyond joined edges; does nothing if no edges are joined. For callers that need no origins. */
 void jox_wall_images_add(JoxWalls *walls, JoxV2 low, JoxV2 period, JoxV2 reach);

@@ -150,13 +150,13 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
     return count;
 }
 
-static bool has_joined_edges(const JoWorld *world) {
+static bool has_images(const JoWorld *world) {
     const JoxV2 period = world->state.agents.period;
-    return period.x > 0.0f || period.y > 0.0f;
+    return period.x > 0.0f || period.y > 0.0f || world->state.agents.storeys;
 }
 
 const JoxWalls *jox_world_walls(const JoWorld *world) {
-    return has_joined_edges(world) ? &world->scratch.images.walls : &world->scratch.walls;
+    return has_images(world) ? &world->scratch.images.walls : &world->scratch.walls;
 }
 
 void jox_world_apply_walls(JoWorld *world) {
@@ -167,10 +167,12 @@ void jox_world_apply_walls(JoWorld *world) {
         return;
     jox_walls_standing(&world->scratch.walls, &world->model.all_walls, true);
     JOX_ASSERT(world->scratch.walls.count <= world->model.all_walls.count);
-    const bool joined = has_joined_edges(world);
+    const bool joined = has_images(world);
     if (joined) {
         jox_wall_images_lay(&world->scratch.images, &world->scratch.walls,
                             world->state.agents.origin, world->state.agents.period);
+        if (world->state.agents.storeys)
+            jox_wall_images_lay_seams(&world->scratch.images, world->state.agents.storeys);
         world->scratch.images_only = jox_wall_images_only(&world->scratch.images);
     }
     jox_entrances_clear(&world->scratch.entrances);
