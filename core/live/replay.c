@@ -311,7 +311,7 @@ static void sample_pressure(JoxReplay *r) {
                       .vy = r->vy,
                       .walls = find_standing_walls(r)};
     if (!r->local) {
-        r->local = jox_local_create(r->area.low, r->area.high);
+        r->local = jox_local_create(r->area.low, r->area.high, NULL);
         jox_local_enable_pressure(r->local);
     }
     if (r->shown == JOX_REPLAY_NOBODY || !jox_local_is_due(r->local, frame.time))

@@ -9,15 +9,16 @@
 static const float COARSE = 0.4f; /* m: largest cell */
 static const float FEW = 1e5f;    /* areas of more cells than this get larger cells */
 
-JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high) {
-    float cell = sqrtf((high.x - low.x) * (high.y - low.y) / FEW);
-    return jox_density_create(low, high, jox_clampf(cell, JOX_DENSITY_CELL, COARSE),
-                              JOX_DENSITY_KERNEL);
+JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high, const JoxStoreys *storeys) {
+    const float depth = jox_density_depth(storeys, low, high);
+    const float cell = sqrtf((high.x - low.x) * depth / FEW);
+    return jox_density_create_on_storeys(low, high, jox_clampf(cell, JOX_DENSITY_CELL, COARSE),
+                                         JOX_DENSITY_KERNEL, storeys);
 }
 
-JoxLocal *jox_local_create(JoxV2 low, JoxV2 high) {
+JoxLocal *jox_local_create(JoxV2 low, JoxV2 high, const JoxStoreys *storeys) {
     JoxLocal *l = jox_alloc(1, sizeof *l);
-    l->grid = jox_local_grid(low, high);
+    l->grid = jox_local_grid(low, high, storeys);
     l->time = NAN;
     l->half_second = INT64_MIN;
     return l;
@@ -83,6 +84,7 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
                                    .period = frame->period,
                                    .seen = seen,
                                    .weights = {NULL, l->vx, l->vy}};
+    jox_density_storeys(l->grid, frame->storeys);
     jox_density_walls(l->grid, frame->walls);
     jox_density_sample(l->grid, &crowd, l->pressure ? 3 : 1,
                        (float *[]){l->grid->now, l->flow_x, l->flow_y});

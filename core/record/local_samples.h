@@ -27,9 +27,11 @@ typedef struct JoxLocal {
     int64_t half_second;
 } JoxLocal;
 
-/* Creates a grid for local densities: cells of 0.2 m, up to 0.4 m where the area is large. */
-JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high);
-JoxLocal *jox_local_create(JoxV2 low, JoxV2 high);
+/* Creates a grid for local densities: cells of 0.2 m, up to 0.4 m where the area is large. With
+   storeys, `low` to `high` is in plan and the grid has all storeys; without, it is an area of
+   positions, also in a world with storeys. */
+JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high, const JoxStoreys *storeys);
+JoxLocal *jox_local_create(JoxV2 low, JoxV2 high, const JoxStoreys *storeys);
 /* Measures flow and crowd pressure from the next sample on, too. */
 void jox_local_enable_pressure(JoxLocal *local);
 /* Returns whether a frame at time t, s, would be sampled. */

@@ -102,7 +102,7 @@ void jox_render_widen_area(JoxRender *r) {
     if (!r->grid)
         return;
     jox_density_free(r->grid);
-    r->grid = jox_local_grid(p->low, p->high);
+    r->grid = jox_local_grid(p->low, p->high, NULL);
 }
 
 /* ---- colours ---- */
@@ -199,19 +199,20 @@ static bool choose_colours(JoxRender *r, JoError *error) {
 static void create_fields(JoxRender *r) {
     JoxPicture *p = &r->picture;
     if (p->colour == JOX_SHOW_DENSITY || p->floor == JOX_SHOW_DENSITY)
-        r->grid = jox_local_grid(p->low, p->high);
+        r->grid = jox_local_grid(p->low, p->high, NULL);
     if (p->floor != JOX_SHOW_PRESSURE)
         return;
     if (r->scene)
         jox_run_collect_danger_in(r->scene, p->low, p->high);
     else
-        r->danger = jox_danger_create(p->low, p->high);
+        r->danger = jox_danger_create(p->low, p->high, NULL);
 }
 
 /* Measures the density of the current frame on the grid and at each person. */
 static void measure_local_density(JoxRender *r) {
     JoxDensity *g = r->grid;
     const JoxFrame *f = &r->frame;
+    jox_density_storeys(g, f->storeys);
     jox_density_walls(g, f->walls);
     jox_density_add(g, f->period, f->x, f->y, f->count, f->time);
     JOX_RESERVE(r->density, r->density_capacity, f->count + 1);

@@ -165,13 +165,14 @@ static bool write_report(JoxReport *r, JoError *error) {
 static JoxDanger *create_report_danger(const JoxReport *r) {
     const JoxSceneSpec *spec = r->spec;
     if (spec && spec->heatmap)
-        return jox_danger_create(spec->heatmap_low, spec->heatmap_high);
+        return jox_danger_create(spec->heatmap_low, spec->heatmap_high, NULL);
     if (spec && spec->bounded)
-        return jox_danger_create(spec->low, spec->high);
+        return jox_danger_create(spec->low, spec->high, NULL);
     JoxV2 low = r->crowd->low, high = r->crowd->high;
     if (spec)
         jox_criteria_extend_area(spec->criteria, spec->criterion_count, spec->places, &low, &high);
-    return jox_danger_create(jox_sub(low, (JoxV2){EDGE, EDGE}), jox_add(high, (JoxV2){EDGE, EDGE}));
+    return jox_danger_create(jox_sub(low, (JoxV2){EDGE, EDGE}), jox_add(high, (JoxV2){EDGE, EDGE}),
+                             NULL);
 }
 
 /* Returns, per frame and once more for the end, how many people were in an earlier frame and are

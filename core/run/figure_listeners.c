@@ -76,8 +76,8 @@ const JoxRegions *jox_run_regions(const JoScene *scene) {
 static bool begin_densities(void *self, JoScene *scene, const void *options, JoError *error) {
     JoxV2 low, high;
     (void)options, (void)error;
-    jox_run_find_shown_area(scene, &low, &high);
-    JoxLocal *local = *(JoxLocal **)self = jox_local_create(low, high);
+    const JoxStoreys *storeys = jox_run_find_plan_area(scene, &low, &high);
+    JoxLocal *local = *(JoxLocal **)self = jox_local_create(low, high, storeys);
     local->mean_from = scene->spec->heatmap_from;
     local->grid->isa = scene->world->model.def.isa;
     return true;
@@ -128,8 +128,10 @@ double jox_run_greatest_density(const JoScene *scene) {
     JoxV2 low, high;
     if (!local || local->samples > 0)
         return local ? local->grid->most : NAN;
-    jox_run_find_shown_area(scene, &low, &high); /* no sample yet: measure people as they stand */
-    JoxDensity *now = jox_density_create(low, high, local->grid->cell, JOX_DENSITY_KERNEL);
+    /* No sample yet: measure people as they stand. */
+    const JoxStoreys *storeys = jox_run_find_plan_area(scene, &low, &high);
+    JoxDensity *now =
+        jox_density_create_on_storeys(low, high, local->grid->cell, JOX_DENSITY_KERNEL, storeys);
     jox_density_walls(now, &scene->world->scratch.walls);
     jox_density_add(now, a->period, a->x, a->y, a->count, jo_world_time(scene->world));
     double most = now->most;
@@ -148,7 +150,7 @@ static bool begin_danger(void *self, JoScene *scene, const void *options, JoErro
     const DangerArea *area = options;
     (void)error;
     JoxDanger *danger = *(JoxDanger **)self =
-        area ? jox_danger_create(area->low, area->high)
+        area ? jox_danger_create(area->low, area->high, NULL)
              : jox_danger_create_on(find_collector(scene, &LOCAL));
     jox_danger_add_plan(danger, scene->spec->places, scene->spec->place_count, scene->spec->probes,
                         scene->spec->probe_count);

@@ -78,6 +78,11 @@ static void fill_torsos(JoxRunFrame *f, const JoWorld *world) {
     f->frame.contact_radius = f->torsos.radius;
 }
 
+/* Returns the storeys of a world, NULL for one plane. */
+static const JoxStoreys *find_storeys(const JoWorld *world) {
+    return jox_has_storeys(&world->model.storeys) ? &world->model.storeys : NULL;
+}
+
 /* Starts the frame of a step with the columns that it shares with the world. */
 static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
     const JoWorld *world = scene->world;
@@ -113,8 +118,7 @@ static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
                           .struck = a->struck,
                           .objects = &world->scratch.objects,
                           .walls = &world->scratch.walls,
-                          .storeys = jox_has_storeys(&world->model.storeys) ? &world->model.storeys
-                                                                            : NULL};
+                          .storeys = find_storeys(world)};
     f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
 }
 
@@ -159,12 +163,27 @@ void jox_run_free_frame(JoScene *scene) {
 
 static const float MARGIN = 2.0f; /* m round the walls and people of a scene without bounds */
 
+static void widen_area(JoxV2 p, JoxV2 *low, JoxV2 *high) {
+    *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
+    *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
+}
+
+/* Widens an area by the margin; one without anything is set to a square about the origin. */
+static void add_margin(JoxV2 *low, JoxV2 *high) {
+    if (low->x > high->x)
+        *low = *high = (JoxV2){0.0f, 0.0f};
+    *low = jox_sub(*low, (JoxV2){MARGIN, MARGIN});
+    *high = jox_add(*high, (JoxV2){MARGIN, MARGIN});
+}
+
 void jox_run_find_shown_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
     if (spec->heatmap || spec->bounded) {
         *low = spec->heatmap ? spec->heatmap_low : spec->low;
         *high = spec->heatmap ? spec->heatmap_high : spec->high;
+        if (!spec->heatmap && find_storeys(world)) /* bounds are in plan */
+            high->y += (float)(world->model.storeys.sheet_count - 1) * world->model.storeys.pitch;
         return;
     }
     *low = (JoxV2){INFINITY, INFINITY};
@@ -174,12 +193,44 @@ void jox_run_find_shown_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
         JoxV2 p = i < walls->count ? walls->vertices[i].point
                                    : (JoxV2){world->state.agents.x[i - walls->count],
                                              world->state.agents.y[i - walls->count]};
-        *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
-        *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
+        widen_area(p, low, high);
     }
     jox_criteria_extend_area(spec->criteria, spec->criterion_count, spec->places, low, high);
-    if (low->x > high->x)
-        *low = *high = (JoxV2){0.0f, 0.0f};
-    *low = jox_sub(*low, (JoxV2){MARGIN, MARGIN});
-    *high = jox_add(*high, (JoxV2){MARGIN, MARGIN});
+    add_margin(low, high);
+}
+
+/* Sets the area of all walls, people and places in plan. */
+static void find_area_of_all_storeys(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
+    const JoWorld *world = scene->world;
+    const JoxStoreys *storeys = &world->model.storeys;
+    const JoxWalls *walls = &world->model.all_walls;
+    const JoxAgents *a = &world->state.agents;
+    *low = (JoxV2){INFINITY, INFINITY};
+    *high = (JoxV2){-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < walls->count; i++)
+        widen_area(jox_in_plan(storeys, walls->vertices[i].point), low, high);
+    for (uint32_t i = 0; i < a->count; i++)
+        widen_area(jox_in_plan(storeys, (JoxV2){a->x[i], a->y[i]}), low, high);
+    for (uint32_t p = 0; p < scene->spec->place_count; p++)
+        for (uint32_t k = 0; k < scene->spec->places[p].count; k++)
+            widen_area(jox_in_plan(storeys, scene->spec->places[p].points[k]), low, high);
+}
+
+const JoxStoreys *jox_run_find_plan_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
+    const JoxStoreys *storeys = find_storeys(scene->world);
+    if (!storeys || scene->spec->heatmap || scene->spec->bounded)
+        jox_run_find_shown_area(scene, low, high);
+    if (!storeys)
+        return NULL;
+    if (scene->spec->heatmap) {
+        *low = jox_in_plan(storeys, *low);
+        *high = jox_in_plan(storeys, *high);
+    } else if (scene->spec->bounded) {
+        *high = scene->spec->high;
+    } else {
+        find_area_of_all_storeys(scene, low, high);
+    }
+    /* The margin keeps people beyond an area, who count for its edge, within the rows. */
+    add_margin(low, high);
+    return storeys;
 }

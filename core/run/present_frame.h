@@ -24,5 +24,8 @@ void jox_run_free_frame(JoScene *scene);
 /* Writes the corners of the area that pictures and recordings show, m: the heat map's, else the
    scene's bounds, else a box round all walls and people. */
 void jox_run_find_shown_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
+/* As jox_run_find_shown_area, in plan, and returns the scene's storeys, NULL without any: the area
+   on which local densities are measured. */
+const JoxStoreys *jox_run_find_plan_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
 
 #endif

@@ -34,7 +34,7 @@ static JoxDanger *create_crowd_square(uint32_t side) {
         crowd.x[i] = 10.0f + SPACING * ((float)(i % side) - (float)(side - 1) / 2.0f);
         crowd.y[i] = 10.0f + SPACING * ((float)(i / side) - (float)(side - 1) / 2.0f);
     }
-    return jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
+    return jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20}, NULL);
 }
 
 static void show_square(JoxDanger *danger, double t) {
@@ -274,7 +274,7 @@ static void voronoi_density_is_for_one_person(void **state) {
     }
     jox_walls_add_polyline(&walls, wall, 2, false, INFINITY);
     for (int walled = 0; walled < 2; walled++) {
-        JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
+        JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20}, NULL);
         const JoxFrame frame = {.count = COUNT,
                                 .keys = COUNT,
                                 .key = key,
@@ -295,14 +295,14 @@ static void voronoi_density_is_for_one_person(void **state) {
         x[i] = i ? 10.0f + 0.4f * cosf((float)i * 1.0471976f) : 10.0f;
         y[i] = i ? 10.0f + 0.4f * sinf((float)i * 1.0471976f) : 10.0f;
     }
-    JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
+    JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20}, NULL);
     JoxFrame frame = {.count = 7, .keys = 7, .key = key, .x = x, .y = y, .vx = still, .vy = still};
     jox_danger_frame(danger, &frame, NULL);
     assert_float_equal(jox_danger_most(danger, JOX_DANGER_VORONOI).value, 7.217, 1e-2);
     assert_true(jox_danger_most(danger, JOX_DANGER_DENSITY).value < 2.5);
     assert_int_equal(jox_danger_count(danger, find_limit("voronoi_7")).people, 1);
     jox_danger_free(danger);
-    danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
+    danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20}, NULL);
     frame.count = 1;
     jox_danger_frame(danger, &frame, NULL);
     assert_true(isnan(jox_danger_most(danger, JOX_DANGER_VORONOI).value));

@@ -30,7 +30,7 @@ static JoxDanger *create_danger_with_door(uint32_t count) {
     crowd.count = count;
     for (uint32_t i = 0; i < MOST; i++)
         crowd.key[i] = i;
-    JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
+    JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20}, NULL);
     jox_danger_add_line(danger, "door", (JoxV2){10, 11}, (JoxV2){10, 9});
     jox_danger_add_line(danger, "again", (JoxV2){10, 11}, (JoxV2){10, 9});
     assert_int_equal(danger->lines.count, 1);
@@ -299,7 +299,7 @@ static void unknown_figures_are_null(void **state) {
     (void)state;
     JoxText text = {0};
     jox_danger_free(create_danger_with_door(1)); /* clears the crowd */
-    JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
+    JoxDanger *danger = jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20}, NULL);
     show_door_frame(danger, 0.0);
     JoxJson json = jox_json_begin(&text, 0);
     jox_json_object(&json, NULL);

@@ -38,7 +38,7 @@ static JoxLocal *place_lattice(int side, float spacing) {
         crowd.y[i] = 6 + spacing * ((float)(i / (uint32_t)side) - (float)(side - 1) / 2.0f) +
                      0.5f * spacing * (draw_uniform(&chance) - 0.5f);
     }
-    JoxLocal *local = jox_local_create((JoxV2){0, 0}, (JoxV2){12, 12});
+    JoxLocal *local = jox_local_create((JoxV2){0, 0}, (JoxV2){12, 12}, NULL);
     jox_local_enable_pressure(local);
     return local;
 }

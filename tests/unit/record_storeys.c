@@ -11,6 +11,7 @@
 #include "assert_near.h"
 #include "base/mem.h"
 #include "geom/storeys.h"
+#include "record/fields/density.h"
 #include "record/frame_track.h"
 
 /* Lays out two storeys, 3 m apart, on a plan of 20 m x 10 m. A stair leads from x = 8 up to x = 14,
@@ -64,9 +65,182 @@ static void agent_over_a_seam_walks_on_and_crosses_each_line_once(void **state) 
     jox_storeys_free(&storeys);
 }
 
+/* ---- densities ---- */
+
+enum { CROWD = 800 };
+static const float WEST = 8.0f, EAST = 14.0f; /* m: x of the foot and the head of the stair */
+
+/* A crowd in a room west of x = 8, on the stair and in a room east of x = 14: in one plane, and on
+   the sheets of storeys. */
+typedef struct Plan {
+    float turn; /* rad: all of the plan is turned by it */
+    uint32_t count;
+    float x[CROWD], flat[CROWD], sheets[CROWD];
+    JoxWalls flat_walls, sheet_walls;
+    JoxStoreys storeys;
+} Plan;
+
+static JoxV2 turn_point(const Plan *p, float x, float y) {
+    return jox_v2(x * cosf(p->turn) - y * sinf(p->turn), x * sinf(p->turn) + y * cosf(p->turn));
+}
+
+/* Returns the position on its sheet of a point that was not turned yet. */
+static JoxV2 put_on_sheet(const Plan *p, float x, float y) {
+    const uint32_t sheet = x < WEST ? 0 : x < EAST ? p->storeys.stairs[0].sheet : 1;
+    return jox_on_sheet(&p->storeys, sheet, turn_point(p, x, y));
+}
+
+static void add_walls(const Plan *p, const float (*points)[2], uint32_t count, bool closed,
+                      uint32_t sheet, JoxWalls *walls) {
+    JoxV2 at[4];
+    for (uint32_t k = 0; k < count; k++)
+        at[k] = jox_on_sheet(&p->storeys, sheet, turn_point(p, points[k][0], points[k][1]));
+    jox_walls_add_polyline(walls, at, count, closed, INFINITY);
+}
+
+/* Adds an outer wall and, at x, a wall with an opening for the stair. */
+static void add_room(const Plan *p, float x, uint32_t sheet, JoxWalls *walls) {
+    add_walls(p, (const float[][2]){{0, 0}, {20, 0}, {20, 10}, {0, 10}}, 4, true, sheet, walls);
+    add_walls(p, (const float[][2]){{x, 0}, {x, 4}}, 2, false, sheet, walls);
+    add_walls(p, (const float[][2]){{x, 6}, {x, 10}}, 2, false, sheet, walls);
+}
+
+/* Adds people 0.5 m apart, and twice as many beside each other in the middle of the stair. */
+static void add_crowd(Plan *p) {
+    for (float x = 0.25f; x < 20.0f; x += 0.5f)
+        for (float y = 0.2f; y<10.0f; y += x> 10.0f && x < 12.0f ? 0.25f : 0.5f) {
+            if (x > WEST && x < EAST && (y < 4.0f || y > 6.0f))
+                continue;
+            p->x[p->count] = turn_point(p, x, y).x;
+            p->flat[p->count] = turn_point(p, x, y).y;
+            p->sheets[p->count++] = put_on_sheet(p, x, y).y;
+        }
+}
+
+static Plan *make_plan(float turn) {
+    Plan *p = jox_alloc(1, sizeof *p);
+    p->turn = turn;
+    p->storeys = lay_out_two_storeys();
+    JoxStair *stair = &p->storeys.stairs[0];
+    for (uint32_t k = 0; k < 2; k++)
+        stair->path[k] = turn_point(p, stair->path[k].x, stair->path[k].y);
+    jox_storeys_lay_out(&p->storeys, jox_v2(-10, -10), jox_v2(20, 25));
+    add_crowd(p);
+    add_room(p, WEST, 0, &p->flat_walls);
+    add_room(p, EAST, 0, &p->flat_walls);
+    add_walls(p, (const float[][2]){{WEST, 4}, {EAST, 4}}, 2, false, 0, &p->flat_walls);
+    add_walls(p, (const float[][2]){{WEST, 6}, {EAST, 6}}, 2, false, 0, &p->flat_walls);
+    add_room(p, WEST, 0, &p->sheet_walls);
+    add_room(p, EAST, 1, &p->sheet_walls);
+    jox_storeys_add_walls(&p->storeys, &p->sheet_walls);
+    return p;
+}
+
+static void free_plan(Plan *p) {
+    jox_walls_free(&p->flat_walls);
+    jox_walls_free(&p->sheet_walls);
+    jox_storeys_free(&p->storeys);
+    jox_free(p);
+}
+
+/* Fails where the densities of a floor, 1/m2, differ by more than `within`, between x = from and
+   x = to. */
+static void compare_floors(const Plan *p, const JoxDensity *flat, const JoxDensity *sheets,
+                           float from, float to, double within) {
+    double most = 0.0;
+    for (float x = from + 0.1f; x < to; x += 0.2f)
+        for (float y = 0.3f; y < 9.8f; y += 0.2f) {
+            const JoxV2 plan = turn_point(p, x, y), at = put_on_sheet(p, x, y);
+            size_t a, b;
+            if (x > WEST - 0.3f && x < EAST + 0.3f && (y < 4.4f || y > 5.6f))
+                continue;
+            assert_true(jox_density_cell_of(flat, plan.x, plan.y, &a));
+            assert_true(jox_density_cell_of(sheets, at.x, at.y, &b));
+            most = fmax(most, fabs((double)flat->now[a] - (double)sheets->now[b]));
+        }
+    if (most > within)
+        fail_msg("densities differ by %g", most);
+}
+
+static double count_people(const JoxDensity *d) {
+    double people = 0.0;
+    for (size_t k = 0; k < (size_t)d->columns * d->rows; k++)
+        people += (double)d->now[k] * (double)jox_density_area(d, k);
+    return people;
+}
+
+static void densities_over_seams_are_those_of_one_plane(void **state) {
+    (void)state;
+    const struct {
+        float turn;
+        double within; /* 1/m2: rows of a turned stair lie between those of the one plane */
+    } CASES[] = {{0.0f, 0.001}, {0.5f, 0.1}, {2.0f, 0.1}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        Plan *p = make_plan(CASES[k].turn);
+        const JoxV2 low = {-21, -11}, high = {21, 26};
+        JoxDensity *flat = jox_density_create(low, high, 0.2f, JOX_DENSITY_KERNEL);
+        JoxDensity *sheets =
+            jox_density_create_on_storeys(low, high, 0.2f, JOX_DENSITY_KERNEL, &p->storeys);
+        jox_density_walls(flat, &p->flat_walls);
+        jox_density_walls(sheets, &p->sheet_walls);
+        jox_density_add(flat, jox_v2(0, 0), p->x, p->flat, p->count, 0.0);
+        jox_density_add(sheets, jox_v2(0, 0), p->x, p->sheets, p->count, 0.0);
+        compare_floors(p, flat, sheets, 0, WEST + 1, CASES[k].within);
+        compare_floors(p, flat, sheets, EAST - 1, 20, CASES[k].within);
+        assert_near(count_people(sheets), p->count, 0.5);
+        jox_density_free(sheets);
+        /* A map of one storey counts who is on the stair near it. */
+        for (uint32_t storey = 0; storey < 2; storey++) {
+            sheets = jox_density_create(jox_on_sheet(&p->storeys, storey, low),
+                                        jox_on_sheet(&p->storeys, storey, high), 0.2f,
+                                        JOX_DENSITY_KERNEL);
+            jox_density_storeys(sheets, &p->storeys);
+            jox_density_walls(sheets, &p->sheet_walls);
+            jox_density_add(sheets, jox_v2(0, 0), p->x, p->sheets, p->count, 0.0);
+            compare_floors(p, flat, sheets, storey ? EAST : 0, storey ? 20 : WEST, CASES[k].within);
+            jox_density_free(sheets);
+        }
+        jox_density_free(flat);
+        free_plan(p);
+    }
+}
+
+static void rows_of_a_density_leave_out_what_is_not_floor(void **state) {
+    (void)state;
+    JoxStoreys near = lay_out_two_storeys(), far = lay_out_two_storeys();
+    const JoxV2 low = {-1, -1}, high = {21, 11};
+    jox_storeys_lay_out(&far, jox_v2(0, -500), jox_v2(20, 500));
+    assert_true(far.pitch > 20 * near.pitch);
+    JoxDensity *d = jox_density_create_on_storeys(low, high, 0.2f, JOX_DENSITY_KERNEL, &near);
+    JoxDensity *e = jox_density_create_on_storeys(low, high, 0.2f, JOX_DENSITY_KERNEL, &far);
+    assert_int_equal(d->rows, 60 + 1 + 60 + 1 + 14);
+    assert_int_equal(e->rows, d->rows);
+    JoxWalls walls = {0};
+    jox_storeys_add_walls(&far, &walls);
+    jox_density_walls(e, &walls);
+    double area = 0.0;
+    for (size_t k = 0; k < (size_t)e->columns * e->rows; k++)
+        area += (double)jox_density_area(e, k);
+    assert_near(area, 2 * (22 * 12 - 12) + 12, 0.1); /* two storeys without the stair; the stair */
+    for (uint32_t sheet = 0; sheet < 3; sheet++) {
+        size_t cell;
+        const JoxV2 at = jox_on_sheet(&far, sheet, jox_v2(9.1f, 5.1f));
+        assert_true(jox_density_cell_of(e, at.x, at.y, &cell));
+        assert_near(jox_density_middle(e, cell).x, at.x, 0.1001);
+        assert_near(jox_density_middle(e, cell).y, at.y, 0.1001);
+    }
+    jox_walls_free(&walls);
+    jox_density_free(d);
+    jox_density_free(e);
+    jox_storeys_free(&near);
+    jox_storeys_free(&far);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agent_over_a_seam_walks_on_and_crosses_each_line_once),
+        cmocka_unit_test(densities_over_seams_are_those_of_one_plane),
+        cmocka_unit_test(rows_of_a_density_leave_out_what_is_not_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -210,7 +210,7 @@ static void danger_plots_survive_hostile_names(void **state) {
     for (int h = 0; h < HOSTILE_COUNT; h++) {
         JoxText error = {0};
         JoxExits exits = {0};
-        JoxDanger *measured = jox_danger_create(jox_v2(0, 0), jox_v2(8, 4));
+        JoxDanger *measured = jox_danger_create(jox_v2(0, 0), jox_v2(8, 4), NULL);
         struct JoxExit *exit = jox_exits_get(&exits, HOSTILE[h]);
         exit->people = 3;
         exits.left = 3;

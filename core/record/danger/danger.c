@@ -42,8 +42,8 @@ JoxDanger *jox_danger_create_on(JoxLocal *local) {
     return d;
 }
 
-JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
-    JoxDanger *d = jox_danger_create_on(jox_local_create(low, high));
+JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high, const JoxStoreys *storeys) {
+    JoxDanger *d = jox_danger_create_on(jox_local_create(low, high, storeys));
     d->owns_local = true;
     return d;
 }
@@ -306,6 +306,7 @@ void jox_danger_add_plan(JoxDanger *d, const JoxPlace *places, uint32_t place_co
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     reserve_danger_people(d, frame);
     /* Cells of people near walls are needed between samples, too. */
+    jox_density_storeys(d->local->grid, frame->storeys);
     jox_density_walls(d->local->grid, frame->walls);
     update_all_loads(d, frame);
     jox_congestion_frame(&d->congestion, frame->count, frame->time);

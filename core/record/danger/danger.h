@@ -78,9 +78,9 @@ typedef struct JoxDangerMost {
 } JoxDangerMost;
 
 typedef struct JoxDanger JoxDanger;
-/* Creates one with local densities of its own; `low` to `high` is the area of fields and maps,
-   m. */
-JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
+/* Creates one with local densities of its own; `low` to `high` is the area of fields and maps, m,
+   of all storeys if they are given (local_samples.h). */
+JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high, const JoxStoreys *storeys);
 /* Creates one on local densities of the caller, which gives each frame to `local` first. */
 JoxDanger *jox_danger_create_on(JoxLocal *local);
 /* Adds a line to measure, such as a door (line_counts.h), before the first frame. */

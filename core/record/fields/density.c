@@ -10,15 +10,18 @@
 
 enum { MOST_CELLS = 2000000, MOST_EDGE = JOX_DENSITY_MOST_REACH + 2 };
 
-JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) {
+JoxDensity *jox_density_create_on_storeys(JoxV2 low, JoxV2 high, float cell, float kernel,
+                                          const JoxStoreys *storeys) {
     JoxDensity *d = jox_alloc(1, sizeof *d);
-    float width = jox_maxf(high.x - low.x, 1.0f), height = jox_maxf(high.y - low.y, 1.0f);
+    const float width = jox_maxf(high.x - low.x, 1.0f);
+    const float height = jox_maxf(jox_density_depth(storeys, low, high), 1.0f);
     d->low = low;
     d->cell = jox_maxf(cell, sqrtf(width * height / MOST_CELLS));
     d->columns = (uint32_t)ceilf(width / d->cell);
-    d->rows = (uint32_t)ceilf(height / d->cell);
     d->kernel = kernel;
     d->edge = (int)jox_clampf(3.0f * kernel / d->cell + 2.0f, 2.0f, MOST_EDGE);
+    d->rows = jox_has_storeys(storeys) ? (uint32_t)jox_density_add_sheets(d, storeys, low, high)
+                                       : (uint32_t)ceilf(height / d->cell);
     d->wide = (int)d->columns + 2 * d->edge;
     d->high = (int)d->rows + 2 * d->edge;
     d->isa = JO_ISA_WIDEST;
@@ -26,6 +29,10 @@ JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) 
         d->stretch++;
     d->now = jox_alloc((size_t)d->columns * d->rows, sizeof *d->now);
     return d;
+}
+
+JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) {
+    return jox_density_create_on_storeys(low, high, cell, kernel, NULL);
 }
 
 static size_t index_in_working_grid(const JoxDensity *d,
@@ -54,7 +61,8 @@ static void sample_floor(JoxDensity *d, const JoxDensityCrowd *crowd, int fields
 
 void jox_density_sample(JoxDensity *d, const JoxDensityCrowd *crowd, int fields,
                         float *const *out) {
-    (d->floor ? sample_floor : jox_density_spread)(d, crowd, fields, out);
+    const JoxDensityCrowd packed = jox_density_pack_crowd(d, crowd);
+    (d->floor ? sample_floor : jox_density_spread)(d, &packed, fields, out);
 }
 
 void jox_density_want_mean(JoxDensity *d) {
@@ -100,6 +108,7 @@ void jox_density_add(JoxDensity *d, JoxV2 period, const float *x, const float *y
 
 bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
     int column, row;
+    y = jox_density_pack(d, y);
     if (!jox_density_locate(d, x, y, &column, &row))
         return false;
     /* A person inside a wall is read at the cell that received the person's mass. */
@@ -114,8 +123,9 @@ bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
 }
 
 JoxV2 jox_density_middle(const JoxDensity *d, size_t cell) {
+    const float y = d->low.y + ((float)(cell / d->columns) + 0.5f) * d->cell;
     return jox_v2(d->low.x + ((float)(cell % d->columns) + 0.5f) * d->cell,
-                  d->low.y + ((float)(cell / d->columns) + 0.5f) * d->cell);
+                  jox_density_unpack(d, y));
 }
 
 float jox_density_area(const JoxDensity *d, size_t cell) {
@@ -152,6 +162,7 @@ void jox_density_free(JoxDensity *d) {
     if (!d)
         return;
     jox_density_free_floor(d->floor);
+    jox_density_free_sheets(d->sheets);
     for (int f = 0; f < JOX_DENSITY_FIELDS; f++) {
         jox_free(d->work.mass[f]);
         jox_free(d->work.lines[f]);

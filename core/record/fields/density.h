@@ -11,6 +11,10 @@
    Walls are solids, thin lines and closed gates. Without walls the kernel is the Gaussian alone; a
    map may ask for that, as in Curtis et al.'s study of the Mataf.
 
+   With storeys, the floor goes on through the seams at which stairs meet storeys, as one plane
+   would; the floor of one storey is apart from that of another, and the footprints of stairs are no
+   floor of the storeys that they pass.
+
    A caller creates a density, sets the walls by jox_density_walls before each sample, samples
    crowds, and frees it. record/local_samples.h does this for most users. */
 #ifndef JOX_RECORD_FIELDS_DENSITY_H
@@ -22,6 +26,7 @@
 
 #include "base/sections.h"
 #include "base/vec.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 #include "simd/isa.h"
 
@@ -31,7 +36,8 @@
 #define JOX_DENSITY_CELL 0.2f                /* m: side of a cell */
 enum { JOX_DENSITY_FIELDS = 3 };             /* most fields sampled at once */
 
-typedef struct JoxDensityFloor JoxDensityFloor; /* where walls let people through */
+typedef struct JoxDensityFloor JoxDensityFloor;   /* where walls let people through */
+typedef struct JoxDensitySheets JoxDensitySheets; /* rows of several storeys */
 
 /* Scratch of a sample, for one strip of rows at a time: rows first to end - 1. */
 typedef struct JoxDensityWork {
@@ -71,7 +77,8 @@ typedef struct JoxDensity {
     int edge, wide, high;
     int stretch; /* a bit of `marks` stands for 2^stretch columns */
     JoxDensityWork work;
-    JoxDensityFloor *floor; /* NULL: no walls */
+    JoxDensityFloor *floor;   /* NULL: no walls */
+    JoxDensitySheets *sheets; /* NULL: one plane */
 } JoxDensity;
 
 /* People of a sample. */
@@ -87,6 +94,16 @@ typedef struct JoxDensityCrowd {
 /* Creates a density of the area `low` to `high`, m. Cells are enlarged if there would be more than
    two million. */
 JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel);
+/* Creates a density of the area `low` to `high`, m in plan, of all storeys and of the stairs
+   between them. Its rows lie one sheet after the other, without the empty space between sheets.
+   Without storeys it is that of jox_density_create. */
+JoxDensity *jox_density_create_on_storeys(JoxV2 low, JoxV2 high, float cell, float kernel,
+                                          const JoxStoreys *storeys);
+/* Returns the length along y of the rows that such a density has, m. */
+float jox_density_depth(const JoxStoreys *storeys, JoxV2 low, JoxV2 high);
+/* Tells a density of an area of positions about storeys, before each jox_density_walls, so that
+   people beyond the seams near the area count. Cheap after the first time; NULL for none. */
+void jox_density_storeys(JoxDensity *density, const JoxStoreys *storeys);
 /* Sets the walls that stand at present; NULL for none. Cheap if they have not
    changed. */
 void jox_density_walls(JoxDensity *density, const JoxWalls *walls);
@@ -107,6 +124,7 @@ void jox_density_add(JoxDensity *density, JoxV2 period, const float *x, const fl
 /* Sets the cell whose value applies to a person at (x, y): the nearest one on the same side of
    walls. Returns false outside the area. */
 bool jox_density_cell_of(const JoxDensity *density, float x, float y, size_t *cell);
+/* Returns the position of the middle of a cell; y is NAN in the rows between two sheets. */
 JoxV2 jox_density_middle(const JoxDensity *density, size_t cell);
 /* Returns the walkable area of a cell, m2. */
 float jox_density_area(const JoxDensity *density, size_t cell);

@@ -1,6 +1,8 @@
-/* Finds the nodes that a person is shared among, and whether walls hide a node from a point. */
+/* Finds the nodes that a person is shared among, and whether walls hide a node from a point, among
+   the edges that have been added. */
 #include <math.h>
 
+#include "base/mem.h"
 #include "record/fields/density_parts.h"
 
 static const double TOUCHES = 1e-9; /* share of a length that counts as touching */
@@ -11,6 +13,12 @@ JoxV2 jox_density_corner(const JoxDensity *d) {
 
 int jox_density_clamp_index(double value, int most) {
     return value < 0.0 ? 0 : value > most ? most : (int)value;
+}
+
+void jox_density_add_bar(JoxDensity *d, JoxV2 a, JoxV2 b) {
+    JoxDensityFloor *f = d->floor;
+    JOX_RESERVE(f->bars, f->bar_capacity, f->bar_count + 1);
+    f->bars[f->bar_count++] = (struct JoxDensityBar){a.x, a.y, b.x, b.y};
 }
 
 /* Returns whether segment a-b touches a bar, within rounding of both lengths. */
@@ -41,6 +49,11 @@ bool jox_density_is_hidden(const JoxDensity *d, JoxV2 a, JoxV2 b) {
                     return true;
         }
     return false;
+}
+
+bool jox_density_holds(const JoxDensity *d, JoxV2 at) {
+    int column, row;
+    return jox_density_locate(d, at.x, at.y, &column, &row);
 }
 
 bool jox_density_locate(const JoxDensity *d, float x, float y, int *column, int *row) {

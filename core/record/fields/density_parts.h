@@ -14,6 +14,7 @@ enum { JOX_DENSITY_MOST_REACH = 511 }; /* cells: greatest reach of the kernel; e
    is shared among the nodes around, and steps of diffusion move mass from node to node. */
 struct JoxDensityFloor {
     uint64_t hash; /* hash of the walls */
+    bool walled;   /* with storeys: the outlines of stairs are walls, too */
     /* m: nodes of the cells with walls, at `first` of the cell (jox_density_node_at) */
     JoxV2 *node;
     uint32_t node_capacity;
@@ -58,6 +59,9 @@ JoxV2 jox_density_corner(const JoxDensity *density);
 int jox_density_clamp_index(double value, int most);
 /* Sets the cell of (x, y). Returns false unless it has cells on all sides. */
 bool jox_density_locate(const JoxDensity *density, float x, float y, int *column, int *row);
+bool jox_density_holds(const JoxDensity *density, JoxV2 at); /* returns whether it does */
+/* Adds an edge of a wall. */
+void jox_density_add_bar(JoxDensity *density, JoxV2 a, JoxV2 b);
 /* Returns whether a wall lies between two points that are at most two cells apart. */
 bool jox_density_is_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
 /* Moves from the cell of (x, y) to the cell of the node that applies there: its own if visible,
@@ -78,6 +82,21 @@ bool jox_density_is_within_solid(JoxDensitySolids *solids, JoxV2 point);
 void jox_density_solids_free(JoxDensitySolids *solids);
 /* density_walls.c: frees a floor. */
 void jox_density_free_floor(JoxDensityFloor *floor);
+/* density_sheets.c: makes the blocks of a density on storeys, for an area in plan, and returns the
+   number of rows that are read. */
+int jox_density_add_sheets(JoxDensity *density, const JoxStoreys *storeys, JoxV2 low, JoxV2 high);
+void jox_density_free_sheets(JoxDensitySheets *sheets);
+const JoxStoreys *jox_density_storeys_of(const JoxDensity *density);
+/* Convert a position along y into the working grid, and back; NAN where there is no row for it. */
+float jox_density_pack(const JoxDensity *density, float y);
+float jox_density_unpack(const JoxDensity *density, float packed);
+/* Returns whether there is no floor of storeys and stairs at a point of the working grid. */
+bool jox_density_is_off_floor(const JoxDensity *density, JoxV2 packed);
+/* Return or add what a density with storeys works on: its crowd, valid until the next call; edges
+   of walls, outlines of stairs and seams, of which only seams without `walls`; solid walls. */
+JoxDensityCrowd jox_density_pack_crowd(JoxDensity *density, const JoxDensityCrowd *crowd);
+void jox_density_add_packed_bars(JoxDensity *density, const JoxWalls *walls);
+void jox_density_pack_solids(const JoxDensity *density, const JoxWalls *walls, JoxWalls *out);
 /* Sets of cells are bits in whole words for each row: words per row, the word of a cell, the bit of
    a column. */
 static inline size_t jox_density_words(const JoxDensity *density) {

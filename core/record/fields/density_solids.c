@@ -34,6 +34,7 @@ typedef struct Line {
 } Line;
 
 struct JoxDensitySolids {
+    const JoxDensity *floor_of; /* a point without floor of storeys is inside, too; NULL: none */
     struct Box {
         JoxV2 low, high;
     } * boxes; /* bounding boxes by solid */
@@ -86,6 +87,7 @@ static void add_solid_edges(JoxDensitySolids *s, uint32_t solid, const JoxV2 *ri
 JoxDensitySolids *jox_density_solids_create(const JoxDensity *d, const JoxWalls *walls) {
     JoxDensitySolids *s = jox_alloc(1, sizeof *s);
     uint32_t count = 0;
+    s->floor_of = d->sheets && d->floor && d->floor->walled ? d : NULL;
     s->low = jox_density_corner(d).y;
     s->cell = d->cell;
     s->rows = d->high;
@@ -191,6 +193,8 @@ static Line *find_line(JoxDensitySolids *s, float y) {
 }
 
 bool jox_density_is_within_solid(JoxDensitySolids *s, JoxV2 p) {
+    if (s->floor_of && jox_density_is_off_floor(s->floor_of, p))
+        return true;
     if (s->edge_count == 0)
         return false;
     const Line *line = find_line(s, p.y);

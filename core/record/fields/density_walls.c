@@ -59,13 +59,13 @@ static void list_bars(JoxDensity *d, const JoxWalls *walls) {
     JoxDensityFloor *f = d->floor;
     const size_t cells = (size_t)d->wide * (size_t)d->high;
     f->bar_count = 0;
-    for (uint32_t r = 0; r < walls->ring_count; r++) {
+    if (d->sheets)
+        jox_density_add_packed_bars(d, walls);
+    for (uint32_t r = 0; !d->sheets && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
-        for (uint32_t v = ring->first; v < ring->first + ring->count && !ring->open; v++) {
-            JoxV2 a = walls->vertices[v].point, b = walls->vertices[walls->vertices[v].next].point;
-            JOX_RESERVE(f->bars, f->bar_capacity, f->bar_count + 1);
-            f->bars[f->bar_count++] = (Bar){a.x, a.y, b.x, b.y};
-        }
+        for (uint32_t v = ring->first; v < ring->first + ring->count && !ring->open; v++)
+            jox_density_add_bar(d, walls->vertices[v].point,
+                                walls->vertices[walls->vertices[v].next].point);
     }
     memset(f->first, 0, (cells + 1) * sizeof *f->first);
     for (uint32_t b = 0; b < f->bar_count; b++)
@@ -197,6 +197,46 @@ static void add_side_ways(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2
     }
 }
 
+/* Returns the position of a cell's node in plan. */
+static JoxV2 locate_in_plan(const JoxDensity *d, int cell) {
+    const JoxV2 at = locate_node(d, cell);
+    return jox_in_plan(jox_density_storeys_of(d), (JoxV2){at.x, jox_density_unpack(d, at.y)});
+}
+
+/* Adds a way between nodes a and b on both sides of a seam, over `side` metres of it. Widens the
+   way added last if that joins the same nodes. */
+static void widen_seam_way(JoxDensity *d, int a, int b, float side) {
+    JoxDensityFloor *f = d->floor;
+    const struct JoxDensitySlant *last = f->slant_count ? &f->slants[f->slant_count - 1] : NULL;
+    const float apart = jox_length(jox_sub(locate_in_plan(d, a), locate_in_plan(d, b)));
+    const float open = side / jox_maxf(apart, d->cell);
+    if (last && last->a == (uint32_t)a && last->b == (uint32_t)b) {
+        f->slants[f->slant_count - 1].open += open;
+        return;
+    }
+    JOX_RESERVE(f->slants, f->slant_capacity, f->slant_count + 1);
+    f->slants[f->slant_count++] = (struct JoxDensitySlant){(uint32_t)a, (uint32_t)b, open};
+}
+
+/* Adds the ways through a seam. */
+static void open_seam(JoxDensity *d, const JoxSeam *seam, JoxDensitySolids *solids) {
+    const JoxStoreys *storeys = jox_density_storeys_of(d);
+    const JoxV2 off = jox_scale(jox_left(seam->along), OFF * d->cell);
+    const int count = (int)ceilf(seam->length / d->cell * SIDE);
+    for (int k = 0; k < count; k++) {
+        int a, b;
+        const float at = ((float)k + 0.5f) / (float)count * seam->length;
+        const JoxV2 p = jox_add(seam->a, jox_scale(seam->along, at));
+        JoxV2 before = jox_on_sheet(storeys, seam->here, jox_sub(p, off));
+        JoxV2 behind = jox_on_sheet(storeys, seam->there, jox_add(p, off));
+        before.y = jox_density_pack(d, before.y);
+        behind.y = jox_density_pack(d, behind.y);
+        if (jox_density_holds(d, before) && jox_density_holds(d, behind) &&
+            find_owner(d, before, solids, &a) && find_owner(d, behind, solids, &b))
+            widen_seam_way(d, a, b, seam->length / (float)count);
+    }
+}
+
 /* Adds all ways. The outermost ring of cells has none, so that no mass leaves the grid. */
 static void open_ways(JoxDensity *d, JoxDensitySolids *solids) {
     JoxDensityFloor *f = d->floor;
@@ -217,6 +257,10 @@ static void open_ways(JoxDensity *d, JoxDensitySolids *solids) {
                 add_side_ways(d, cell, cell + wide, jox_v2(x, y + d->cell), jox_v2(d->cell, 0),
                               solids);
         }
+    const JoxStoreys *storeys = d->sheets ? jox_density_storeys_of(d) : NULL;
+    for (uint32_t k = 0; storeys && k < storeys->seam_count; k++)
+        if (storeys->seams[k].enters) /* each seam is listed from either side */
+            open_seam(d, &storeys->seams[k], solids);
 }
 
 /* Marks cells next to walls or solids, where these may lie between a point of the cell and nodes
@@ -344,23 +388,28 @@ static uint64_t hash_rings(const JoxWalls *walls) {
 }
 
 void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
-    if (!walls || walls->count == 0) {
+    if ((!walls || walls->count == 0) && !d->sheets) {
         jox_density_free_floor(d->floor);
         d->floor = NULL;
         return;
     }
-    uint64_t hash = hash_rings(walls);
+    const uint64_t hash = walls ? hash_rings(walls) : 0;
     if (d->floor && d->floor->hash == hash)
         return;
     if (!d->floor)
         create_floor(d);
     d->floor->hash = hash;
-    JoxDensitySolids *solids = jox_density_solids_create(d, walls);
+    d->floor->walled = walls != NULL;
+    JoxWalls packed = {0};
+    if (d->sheets)
+        jox_density_pack_solids(d, walls, &packed);
+    JoxDensitySolids *solids = jox_density_solids_create(d, d->sheets ? &packed : walls);
     list_bars(d, walls);
     place_nodes(d, solids);
     make_ways(d, solids);
     jox_density_list_floor(d);
     jox_density_solids_free(solids);
+    jox_walls_free(&packed);
 }
 
 uint64_t jox_density_walls_hash(const JoxDensity *d) {

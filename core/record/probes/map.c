@@ -47,7 +47,7 @@ static size_t count_map_cells(const JoxDensity *g) {
 static void begin_map(const JoxProbeDef *def, void *state) {
     Map *m = state;
     m->grid = jox_density_create(def->low, def->high, (float)def->cell, (float)def->kernel);
-    m->local = jox_local_create(def->low, def->high);
+    m->local = jox_local_create(def->low, def->high, NULL);
     jox_local_enable_pressure(m->local);
     size_t cells = count_map_cells(m->grid), local_cells = count_map_cells(m->local->grid);
     for (int f = 0; f < FIELDS; f++)
@@ -123,6 +123,7 @@ static double mean_pressure(const Map *m, JoxV2 at) {
 
 /* Samples density, speed and compression into the sums. */
 static void sample_map(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const uint8_t *seen) {
+    jox_density_storeys(m->grid, frame->storeys);
     jox_density_walls(m->grid, def->through_walls ? NULL : frame->walls);
     JOX_RESERVE(m->speeds, m->speed_capacity, frame->count + 1);
     for (uint32_t i = 0; i < frame->count; i++) {

@@ -161,7 +161,7 @@ static bool sample_all(Samples *s, const char *const *paths, const JoCompareDef 
         JoxTrajectories *t = open_recording(paths[run], def, error);
         if (!t)
             return false;
-        s->local = jox_local_create(s->low, s->high);
+        s->local = jox_local_create(s->low, s->high, NULL);
         s->cells = (size_t)s->local->grid->columns * s->local->grid->rows;
         s->most = jox_alloc(s->cells, sizeof *s->most);
         sample_recording(s, t, run);
