@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "geom/ground/standable.h"
 #include "geom/polygon.h"
+#include "geom/storey_text.h"
 #include "run/run.h"
 
 static const float MOST_CELLS = 250000.0f; /* of the floor */
@@ -148,13 +149,16 @@ void jox_run_check_scenery(const JoScene *scene, JoxDiagnostics *diagnostics) {
         lay_floor(&floor, scene);
         for (uint32_t i = first; i < spec->scenery_count; i++) {
             const JoxScenery *scenery = &spec->scenery[i];
+            JoxText where = {0};
             JoxV2 spot;
-            if (is_obstacle(scenery) && find_walked(&floor, scenery, &spot))
-                jox_diag_warn(diagnostics, scenery->position, "scenery-without-wall",
-                              "Move it, or give it a wall: {solid: [[0, 0], [1, 0], [1, 1]]}",
-                              "people can walk through this %s, at (%.1f, %.1f) m",
-                              jox_scenery_kinds[scenery->kind].name, (double)spot.x,
-                              (double)spot.y);
+            if (!is_obstacle(scenery) || !find_walked(&floor, scenery, &spot))
+                continue;
+            jox_text_position(&where, &spec->storeys, spot, 1);
+            jox_diag_warn(diagnostics, scenery->position, "scenery-without-wall",
+                          "Move it, or give it a wall: {solid: [[0, 0], [1, 0], [1, 1]]}",
+                          "people can walk through this %s, at %s",
+                          jox_scenery_kinds[scenery->kind].name, where.data);
+            jox_text_free(&where);
         }
     }
     jox_standable_free(&floor.ground);

@@ -5,6 +5,7 @@
 
 #include "base/format/plurals.h"
 #include "base/mem.h"
+#include "geom/storey_text.h"
 #include "run/run.h"
 #include "run/standstill.h"
 #include "run/wall_checks.h"
@@ -121,8 +122,8 @@ static void report_standstill(const JoScene *scene, const JoxStandstill *still) 
     jox_text_printf(&text, "t = %.1f s: ", jo_world_time(scene->world));
     jox_text_noun(&text, still->people,
                   "person who wants to get on has|people who want to get on have");
-    jox_text_printf(&text, " stood still for %.0f s, most of them about (%.1f, %.1f) m",
-                    STANDSTILL_TIME, (double)still->at.x, (double)still->at.y);
+    jox_text_printf(&text, " stood still for %.0f s, most of them about ", STANDSTILL_TIME);
+    jox_text_position(&text, &scene->spec->storeys, still->at, 1);
     jox_place_where(scene->spec->places, scene->spec->place_count, still->at, true, &text);
     jox_text_add(&text, "\n");
     jox_run_send_text(scene, text.data);
@@ -191,8 +192,9 @@ static bool report_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t 
     scene->warnings++;
     jox_text_printf(&text, "t = %.1f s: warning: ", jo_world_time(scene->world));
     jox_text_noun(&text, count, "person|people");
-    jox_text_printf(&text, " cannot reach %.60s: no way leads there from (%.1f, %.1f) m",
-                    name ? name : "their goal", (double)at.x, (double)at.y);
+    jox_text_printf(&text, " cannot reach %.60s: no way leads there from ",
+                    name ? name : "their goal");
+    jox_text_position(&text, &scene->spec->storeys, at, 1);
     jox_place_where(scene->spec->places, scene->spec->place_count, at, true, &text);
     jox_text_add(&text, ", not through gates either: ");
     jox_run_say_hindrance(scene, &why, &text);

@@ -123,8 +123,8 @@ static void report_shifted(const JoxGroup *group, const JoxPlaced *placed,
 
 /* Warns of people who do not fit. Adds an error if nobody fits or, where the group gives a
    count, fewer than half do: figures of so few would be those of another scene. */
-static void report_not_placed(const JoxGroup *group, const JoxPlaced *placed,
-                              JoxDiagnostics *diagnostics) {
+static void report_not_placed(const JoxStoreys *storeys, const JoxGroup *group,
+                              const JoxPlaced *placed, JoxDiagnostics *diagnostics) {
     const bool given = group->fill == JOX_FILL_AT || group->starts;
     const uint32_t fit = group->count - placed->not_placed;
     const bool refused = fit == 0 || (!given && placed->not_placed > fit);
@@ -132,11 +132,11 @@ static void report_not_placed(const JoxGroup *group, const JoxPlaced *placed,
     char people[JOX_NOUN], hint[100];
     JoxText why = {0};
     if (placed->in_solid == placed->not_placed)
-        jox_world_explain_unplaced(JOX_BIRTH_IN_SOLID, (double)first.x, (double)first.y, &why);
+        jox_world_explain_unplaced(storeys, JOX_BIRTH_IN_SOLID, first, &why);
     else if (group->in_count)
         jox_text_add(&why, "no spot of its place is free");
     else
-        jox_world_explain_unplaced(JOX_BIRTH_NO_ROOM, (double)first.x, (double)first.y, &why);
+        jox_world_explain_unplaced(storeys, JOX_BIRTH_NO_ROOM, first, &why);
     if (placed->not_found)
         jox_text_printf(&why,
                         "; for %u of them the search was ended, as %d spots had been looked at",
@@ -158,7 +158,7 @@ static void place_groups(JoScene *scene, JoxDiagnostics *diagnostics) {
         if (placed[g].shifted)
             report_shifted(&spec->groups[g], &placed[g], diagnostics);
         if (placed[g].not_placed)
-            report_not_placed(&spec->groups[g], &placed[g], diagnostics);
+            report_not_placed(&spec->storeys, &spec->groups[g], &placed[g], diagnostics);
     }
     jox_free(placed);
 }

@@ -6,6 +6,7 @@
 
 #include "base/format/plurals.h"
 #include "base/mem.h"
+#include "geom/storey_text.h"
 #include "run/run.h"
 #include "run/wall_checks.h"
 #include "world/routes/hindrance.h"
@@ -153,7 +154,8 @@ void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, 
     default:
         return;
     }
-    jox_text_printf(out, " at (%.1f, %.1f) m", (double)hindrance->at.x, (double)hindrance->at.y);
+    jox_text_add(out, " at ");
+    jox_text_position(out, &scene->world->model.storeys, hindrance->at, 1);
 }
 
 bool jox_run_has_gate_opener(const JoScene *scene, const char *gate) {

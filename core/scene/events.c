@@ -119,6 +119,10 @@ bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool g
     if (!event->name)
         return false;
     event->placed = jox_yaml_get(map, "from") != NULL;
+    if (jox_yaml_get(map, "storey") && !event->placed)
+        jox_scene_error(r, jox_yaml_get(map, "storey"), "bad-event", "from: [2, 3, 1.5]",
+                        "`storey` is for a throw `from` a point; else the event is where its "
+                        "place or body is");
     event->every = isfinite(event->every) ? event->every : 0.0;
     check_throw_keys(r, map, event);
     check_push_keys(r, map, event);

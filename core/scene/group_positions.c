@@ -142,6 +142,7 @@ static void check_group_bounds(const JoxReader *r, const JoxYaml *node, const Jo
             continue;
         if (node->kind == JOX_YAML_LIST)
             node = node->items[i];
+        p = jox_in_plan(&s->storeys, p);
         jox_scene_error(r, node, "out-of-bounds", NULL,
                         "agent %u at (%g, %g) is outside the scene's bounds", i + 1, p.x, p.y);
         return;

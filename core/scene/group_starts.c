@@ -30,14 +30,16 @@ static bool read_start(const JoxReader *r, const JoxYaml *row, JoxStart *start) 
                         LEAST[k], GREATEST[k], UNITS[k]);
         return false;
     }
-    *start = (JoxStart){
-        .time = v[0], .at = {(float)v[1], (float)v[2]}, .velocity = {(float)v[3], (float)v[4]}};
+    *start = (JoxStart){.time = v[0],
+                        .at = jox_scene_position(r, (JoxV2){(float)v[1], (float)v[2]}),
+                        .velocity = {(float)v[3], (float)v[4]}};
     return true;
 }
 
 static bool check_start_bounds(const JoxReader *r, const JoxYaml *row, JoxV2 p) {
     if (jox_scene_is_within_bounds(r->draft->scene, p))
         return true;
+    p = jox_in_plan(&r->draft->scene->storeys, p);
     jox_scene_error(r, row, "out-of-bounds", NULL, "(%g, %g) is outside the scene's bounds", p.x,
                     p.y);
     return false;

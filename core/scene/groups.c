@@ -95,6 +95,10 @@ bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool g
     const JoxYaml *one = jox_yaml_get(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
     const JoxYaml *journey = jox_yaml_get(map, "journey");
     const size_t errors = r->diagnostics->errors;
+    if (jox_yaml_get(map, "storey") && !jox_yaml_get(map, "at") && !jox_yaml_get(map, "starts"))
+        jox_scene_error(r, jox_yaml_get(map, "storey"), "bad-group",
+                        "Write it to the places of `in`",
+                        "`storey` is for the points of `at` and `starts`");
     if (r->draft->measuring)
         return true;
     jox_place_group(r, map, group);

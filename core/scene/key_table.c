@@ -102,13 +102,13 @@ static const JoxKey KEYS[] = {
      RESTART("the world is made with it"), .meaning = "what to do with people and bodies whose numbers become invalid"},
     {"scene", "limits", TABLE, "", 0, 0, "", TO(JoxSceneSpec, limits), .content = "limits", RESTART("behaviours are loaded under them"), .meaning = "limits on scripts"},
     {"scene", "report", TABLE, "", 0, 0, "", TO(JoxSceneSpec, report), .content = "report", .example = "report: {author: A. Engineer, project: Station hall}", .meaning = "who made a report, and for what: its title block"},
+    JOX_STOREY_SCENE_ROWS
     {"scene", "heatmap", TABLE, "", 0, 0, "", SAME_STRUCT, .content = "heatmap",
      .meaning = "area and time of the density map"},
     {"scene", "camera", TABLE, "", 0, 0, "", TO(JoxSceneSpec, camera), .content = "camera",
      .meaning = "camera of the live page and of pictures"},
     {"scene", "view", TABLE, "", 0, 0, "", TO(JoxSceneSpec, view), .content = "view",
      .meaning = "what the live page shows at first, and the tools that it offers"},
-    JOX_STOREY_SCENE_ROWS
     {"scene", "places", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, places, place_count), .content = "place*",
      .meaning = "named points, lines and areas for behaviours and groups"},
     {"scene", "regions", TABLE, "", 0, 0, "", READ(jox_key_read_regions), .content = "xy[3]*",
@@ -160,10 +160,10 @@ static const JoxKey KEYS[] = {
      .meaning = "field shown on the floor"},
 
     {"scenery", "kind", TEXT, "", 0, 0, "!", TO(JoxScenery, kind), .choices = SCENERY, .meaning = "what it is; a table below has their sizes"},
-    {"scenery", "at", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_read_scenery_at, JoxScenery, at, at_count), .content = "spots", .meaning = "its centre, or those of several copies; with `body`: from the body's own centre"},
+    {"scenery", "at", POINTS, "m", -FAR, FAR, "", .placed = true, READ_TO(jox_key_read_scenery_at, JoxScenery, at, at_count), .content = "spots", .meaning = "its centre, or those of several copies; with `body`: from the body's own centre"},
     {"scenery", "through", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_read_points, JoxScenery, through, through_count), .content = "xy[2]", .meaning = "points of a line, parapet, fence or hedge, and corners of an area"},
     {"scenery", "turn", NUMBER, "deg", -1e4, 1e4, "0", TO(JoxScenery, turn), .meaning = "rotation about the vertical axis, anti-clockwise"},
-    {"scenery", "faces", POINT, "m", -FAR, FAR, "", READ_TO(jox_key_read_point, JoxScenery, faces, face_count), .meaning = "point that the front of each copy looks at, before it is turned by `turn`"},
+    {"scenery", "faces", POINT, "m", -FAR, FAR, "", .placed = true, READ_TO(jox_key_read_point, JoxScenery, faces, face_count), .meaning = "point that the front of each copy looks at, before it is turned by `turn`"},
     {"scenery", "size", POINT3, "m", 0, 1000, "", TO(JoxScenery, size), .meaning = "its own lengths along x, y and z; of what goes through points, y is the width. 0 and no size: those of its kind"},
     {"scenery", "colour", TEXT, "", 0, 0, "", READ_TO(jox_key_read_colour, JoxScenery, colour, colour), .meaning = "colour in place of that of its kind: " JOX_COLOUR_RULE},
     {"scenery", "doors", LIST, "m", -500, 500, "", READ(jox_key_read_doors), .content = "quantity[1]", .example = "doors: [-4, 4]", .meaning = "of a train: where along it its doors are, from its middle; each is 1.4 m wide. Default: four at even distances"},

@@ -31,7 +31,7 @@ void jox_key_read_place_points(const JoxReader *r, const JoxKey *key, const JoxY
 
 /* Takes the circle round a point, where a group may stand, into the extent of the plan. */
 static void widen_plan(const JoxReader *r, const JoxPlace *place) {
-    const JoxV2 centre = jox_v2(place->centre.x, place->centre.y - r->plan->shift);
+    const JoxV2 centre = jox_v2(place->centre.x, place->centre.y - r->placing->shift);
     const JoxV2 reach = jox_v2(place->radius, place->radius);
     jox_scene_position(r, jox_sub(centre, reach));
     jox_scene_position(r, jox_add(centre, reach));

@@ -60,7 +60,7 @@ JoxSceneSpec *jox_scene_read_text(const char *name, const char *text, size_t len
     JoxPlacing plan = {.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
     const size_t errors = diagnostics->errors;
     draft.reader.draft = &draft;
-    draft.reader.plan = &plan;
+    draft.reader.placing = &plan;
     draft.scene->memory = arena;
     draft.datadir = options ? options->datadir : NULL;
     draft.scene->path = jox_arena_text(arena, name);

@@ -61,6 +61,7 @@ typedef struct JoxWallDraft {
     JoxV2 *points;     /* m */
     uint32_t count;
     const JoxYaml *file; /* its name */
+    float shift;         /* m along y: of a file's walls, to the sheet of their storey */
 } JoxWallDraft;
 typedef struct JoxBodyDraft {
     JoxSceneBody body;

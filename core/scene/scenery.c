@@ -89,6 +89,11 @@ static bool check_form(const JoxReader *r, const JoxYaml *map, const JoxScenery 
                         "kind %s goes through at least %u points", kind->name, least);
         good = false;
     }
+    if (jox_yaml_get(map, "storey") && jox_yaml_get(map, "body")) {
+        jox_scene_error(r, jox_yaml_get(map, "storey"), "bad-scenery", "Leave it out",
+                        "what a body carries is on the storey of the body");
+        good = false;
+    }
     if (jox_yaml_get(map, "doors") && scenery->kind != JOX_SCENERY_KIND_TRAIN) {
         jox_scene_error(r, jox_yaml_get(map, "doors"), "bad-scenery", NULL,
                         "only a train has `doors`");

@@ -25,7 +25,13 @@
     {"stair", "landings", LIST, "m", 0, 10000, "", READ(jox_key_read_landings), .content = "quantity[2][1]", .example = "landings: [[2.4, 3.6]]", .meaning = "flat parts: [from, to] along the path, in plan"}, \
     {"stair", "rise", NUMBER, "m", 0.05, 100, "", TO(JoxStairDraft, rise), .meaning = "of steps on one storey: height of their head above their foot"}, \
     JOX_STOREY_OF("place", "storey or stair that it is on; default: the lowest storey. A place that is on two of them is two places and a set") \
-    JOX_STOREY_OF("wall", "storey or stair that it is on; default: the lowest storey")
+    {"wall", "storey", NAMES, "", 0, 0, "", READ(jox_key_read_storey), .first = true, .meaning = "storey or stair that it is on, or several: it stands on each of them; default: the lowest storey"}, \
+    {"scenery", "storey", NAMES, "", 0, 0, "", READ(jox_key_read_storey), .first = true, .meaning = "storey or stair that it is on, or several: it stands on each of them; default: the lowest storey, or that of its `body`"}, \
+    JOX_STOREY_OF("body", "storey or stair that it is on; default: the lowest storey. It stays there, above the floor at height 0: bodies do not go over stairs") \
+    JOX_STOREY_OF("group", "storey or stair on which the points of `at` and `starts` are; default: the lowest storey. Places of `in` have storeys of their own") \
+    JOX_STOREY_OF("probe", "storey or stair on which its points are; default: the lowest storey") \
+    JOX_STOREY_OF("event", "of a throw: storey or stair on which the point `from` is; default: the lowest storey") \
+    JOX_STOREY_OF("heatmap", "storey or stair on which its area is; default: the lowest storey")
 
 #define JOX_STOREY_OWNERS \
     {"storey", "Storeys", "`storeys` maps names to storeys, from the lowest up. All coordinates are in plan; `storey: NAME` says on which storey something is. What names no storey is on the lowest.", \

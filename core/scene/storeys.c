@@ -42,6 +42,8 @@ static void report_unknown_storey(const JoxReader *r, const JoxYaml *node, bool 
 void jox_key_read_storey(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const JoxStoreys *laid = &r->draft->scene->storeys;
     (void)item;
+    if (node && node->kind == JOX_YAML_LIST && key->type == JOX_TYPE_NAMES && node->count)
+        node = node->items[r->placing->copy];
     if (!jox_key_read_scalar(r, key, node, "name"))
         return;
     const int32_t storey = find_storey(r->draft, node->text);
@@ -49,7 +51,7 @@ void jox_key_read_storey(const JoxReader *r, const JoxKey *key, const JoxYaml *n
     if (storey < 0 && stair < 0)
         report_unknown_storey(r, node, true);
     else if (laid->sheet_count) /* else they are wrong, or the extent is being measured */
-        r->plan->shift =
+        r->placing->shift =
             (float)(storey < 0 ? laid->stairs[stair].sheet : (uint32_t)storey) * laid->pitch;
 }
 
@@ -149,14 +151,14 @@ static void lay_out(const JoxReader *r, const JoxYaml *node) {
                                 .stairs = stairs,
                                 .stair_count = from->stair_count};
     jox_storeys_copy(to, &written);
-    jox_storeys_lay_out(to, r->plan->low, r->plan->high);
+    jox_storeys_lay_out(to, r->placing->low, r->placing->high);
     const double end = (double)to->origin + (double)to->pitch * to->sheet_count;
     if (end > FARTHEST)
         jox_scene_error(r, node, "too-large",
                         "Take fewer storeys, or a plan that is less deep along y",
                         "%u storeys and the stairs between them on a plan of %.0f m along y are "
                         "more than Jostle computes precisely",
-                        to->storey_count, (double)(r->plan->high.y - r->plan->low.y));
+                        to->storey_count, (double)(r->placing->high.y - r->placing->low.y));
 }
 
 void jox_key_read_stairs(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {

@@ -26,19 +26,15 @@ static bool may_read_file(const JoxSceneDraft *draft, const JoxYaml *name, const
     return plain || !jox_scene_is_mod_file(draft, name->position.file);
 }
 
-/* Adds the walls of a file, and the file to the files of the scene; false with an error. */
-static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
+/* Reads a file of walls, and adds it to the files of the scene; NULL with an error. */
+static const JoxYamlFile *load_wall_file(JoxSceneDraft *draft, const JoxYaml *name, char *path) {
     const JoxReader *r = &draft->reader;
-    const JoxYaml *name = wall->file;
-    char *path = jox_arena_beside(r->arena, name->position.file, name->text);
-    JoxWallFileOptions options = {.unit = wall->unit, .height = wall->height};
-    options.origin_x = wall->origin[0], options.origin_y = wall->origin[1];
     size_t length = 0;
     bool allowed = may_read_file(draft, name, path);
     if (allowed && jox_path_is_foreign(name->position.file, path)) {
         jox_scene_error(r, name, "unreadable-file", "Copy it beside the scene",
                         "'%.200s' lies outside the folder of %.200s", path, name->position.file);
-        return false;
+        return NULL;
     }
     char *data = allowed ? jox_read_file(path, LARGEST_FILE, &length) : NULL;
     if (!data || draft->files->count == sizeof draft->files->items / sizeof *draft->files->items) {
@@ -51,7 +47,7 @@ static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
                         : errno == EFBIG ? "it is over 64 MB"
                                          : jox_file_error_text(errno));
         jox_free(data);
-        return false;
+        return NULL;
     }
     JoxYamlFile *file = &draft->files->items[draft->files->count++];
     file->path = path;
@@ -60,7 +56,7 @@ static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
     if (length >= 16 && memcmp(data, "SQLite format 3", 16) == 0) {
         jox_free(data);
         if (!(data = jox_wall_file_read_recorded(path, r->diagnostics)))
-            return false;
+            return NULL;
         length = strlen(data);
     }
     file->text = memcpy(jox_arena_take(r->arena, length + 1, 1), data, length);
@@ -68,11 +64,25 @@ static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
     jox_free(data);
     /* XML names its encoding itself; other texts must be UTF-8. */
     const bool is_xml = file->text[strspn(file->text, " \t\r\n")] == '<';
-    if (!is_xml && !jox_diag_check_text(r->diagnostics, path, file->text, length))
+    return is_xml || jox_diag_check_text(r->diagnostics, path, file->text, length) ? file : NULL;
+}
+
+/* Adds the walls of a file, which is read once for all storeys; false with an error. */
+static bool add_wall_file(JoxSceneDraft *draft, const JoxWallDraft *wall) {
+    const JoxReader *r = &draft->reader;
+    char *path = jox_arena_beside(r->arena, wall->file->position.file, wall->file->text);
+    JoxWallFileOptions options = {.unit = wall->unit, .height = wall->height};
+    options.origin_x = wall->origin[0], options.origin_y = wall->origin[1];
+    const JoxYamlFile *file = NULL;
+    for (uint32_t f = 0; r->placing->copy && f < draft->files->count; f++)
+        if (strcmp(draft->files->items[f].path, path) == 0)
+            file = &draft->files->items[f];
+    if (!file && !(file = load_wall_file(draft, wall->file, path)))
         return false;
     JoxWalls *walls = &draft->scene->walls;
     const uint32_t first = walls->count;
-    const bool good = jox_wall_file_read(path, file->text, length, &options, walls, r->diagnostics);
+    const bool good =
+        jox_wall_file_read(file->path, file->text, file->length, &options, walls, r->diagnostics);
     for (uint32_t v = first; v < walls->count; v++)
         walls->vertices[v].point = jox_scene_position(r, walls->vertices[v].point);
     return good;
@@ -90,8 +100,10 @@ void jox_key_read_wall_points(const JoxReader *r, const JoxKey *key, const JoxYa
 
 void jox_key_read_wall_file(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
                             void *item) {
+    JoxWallDraft *wall = item;
+    wall->shift = r->placing->shift;
     if (jox_key_read_scalar(r, key, node, "text"))
-        ((JoxWallDraft *)item)->file = node;
+        wall->file = node;
 }
 
 /* Returns the length of the walls from ring `first` on, m. */
@@ -104,16 +116,21 @@ static double measure_walls(const JoxWalls *walls, uint32_t first) {
     return length;
 }
 
-static void read_wall(const JoxReader *r, const JoxYaml *map) {
+/* Reads a wall, the copy of it on its storey number `copy`. */
+static void read_wall(const JoxReader *r, const JoxYaml *map, uint32_t copy) {
     JoxWalls *walls = &r->draft->scene->walls;
     const uint32_t first = walls->ring_count;
     JoxWallDraft wall = {0};
+    r->placing->copy = copy;
     jox_owner_read(r, map, "wall", &wall);
     const bool named = wall.name && *wall.name;
     if (wall.open && !named)
         jox_scene_error(r, jox_yaml_get(map, "open"), "bad-wall", "name: gate",
                         "a wall that starts open needs a name: else nothing closes it");
-    if (wall.file && !add_wall_file(r->draft, &wall))
+    r->placing->shift = wall.shift;
+    const bool good = !wall.file || add_wall_file(r->draft, &wall);
+    r->placing->shift = 0.0f;
+    if (!good)
         return;
     if (wall.points && wall.kind == JOX_WALL_SOLID)
         jox_walls_add_solid(walls, wall.points, wall.count, wall.height);
@@ -135,7 +152,10 @@ void jox_key_read_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *li
     double length = 0.0;
     for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
         const uint32_t first = walls->ring_count;
-        read_wall(r, list->items[i]);
+        const uint32_t copies = jox_owner_count_copies(r->format, "wall", list->items[i]);
+        const size_t before = r->diagnostics->errors;
+        for (uint32_t copy = 0; copy < copies && r->diagnostics->errors == before; copy++)
+            read_wall(r, list->items[i], copy);
         length += measure_walls(walls, first);
         if (length > LONGEST) {
             jox_scene_error(r, list->items[i], "too-large", "A length may be in millimetres: unit",

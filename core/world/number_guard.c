@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "base/format/plurals.h"
 #include "base/number/bits.h"
+#include "geom/storey_text.h"
 #include "world/world.h"
 
 enum { MOST_TOLD = 5 };
@@ -121,6 +122,23 @@ static void add_vector(JoxText *out, const char *label, JoxV3 v) {
     jox_text_printf(out, "%s (%.6g, %.6g, %.6g)", label, (double)v.x, (double)v.y, (double)v.z);
 }
 
+/* Adds a point, which may not be finite: in plan, with its storey. */
+static void add_point_in_plan(const JoWorld *w, JoxText *out, const char *label, JoxV2 at) {
+    const JoxStoreys *storeys = isfinite(at.y) ? &w->model.storeys : NULL;
+    const JoxV2 plan = jox_in_plan(storeys, at);
+    jox_text_printf(out, "%s (%.6g, %.6g) m", label, (double)plan.x, (double)plan.y);
+    jox_text_storey(out, storeys, at);
+}
+
+static void add_body_point(const JoWorld *w, JoxText *out, const char *label, JoxV3 at) {
+    const JoxV2 on_floor = {at.x, at.y};
+    const JoxStoreys *storeys = isfinite(at.y) ? &w->model.storeys : NULL;
+    const JoxV2 plan = jox_in_plan(storeys, on_floor);
+    add_vector(out, label, (JoxV3){plan.x, plan.y, at.z});
+    jox_text_add(out, " m");
+    jox_text_storey(out, storeys, on_floor);
+}
+
 static void add_machine(const JoWorld *w, uint32_t i, JoxText *out) {
     const uint16_t number = w->state.agents.machine[i];
     const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->model.machines.items[number];
@@ -155,9 +173,9 @@ static void describe_agent(const JoWorld *w, const Column *column, JoxText *out)
     jox_text_printf(out, "the %s of agent %u is %s", column->what, a->id[worst],
                     left ? "more than 10 km from the origin" : "not finite");
     add_machine(w, worst, out);
-    jox_text_printf(out, ", at (%.6g, %.6g) m, before at (%.6g, %.6g) m, with (%.6g, %.6g) m/s",
-                    (double)a->x[worst], (double)a->y[worst], (double)a->prev_x[worst],
-                    (double)a->prev_y[worst], (double)a->vx[worst], (double)a->vy[worst]);
+    add_point_in_plan(w, out, ", at", (JoxV2){a->x[worst], a->y[worst]});
+    add_point_in_plan(w, out, ", before at", (JoxV2){a->prev_x[worst], a->prev_y[worst]});
+    jox_text_printf(out, ", with (%.6g, %.6g) m/s", (double)a->vx[worst], (double)a->vy[worst]);
     add_forces(a, worst, out);
 }
 
@@ -243,9 +261,9 @@ void jox_world_report_lost_body(JoWorld *w, const JoxBodyGone *gone) {
     add_when(w, &what);
     jox_text_printf(&what, "body %u%s%s %s", gone->id, *gone->name ? ", " : "", gone->name,
                     ends[gone->why]);
-    add_vector(&what, ", at", gone->at);
-    add_vector(&what, " m, before at", gone->before);
-    add_vector(&what, " m, with", gone->velocity);
+    add_body_point(w, &what, ", at", gone->at);
+    add_body_point(w, &what, ", before at", gone->before);
+    add_vector(&what, ", with", gone->velocity);
     add_vector(&what, " m/s; people gave it", gone->force);
     jox_text_add(&what, " N");
     report_loss(w, w->model.def.lost_bodies, w->state.statistics.bodies_lost, &what);
@@ -259,13 +277,12 @@ void jox_world_end_overloaded(JoWorld *w, const JoxDriveLoad *load) {
     jox_text_printf(&what, "body %u%s%s presses ", body->id, *name ? ", " : "", name);
     jox_text_noun(&what, load->people, "person|people");
     jox_text_printf(&what, " with %.6g N, its limit", (double)load->force);
-    add_vector(&what, ", at", body->position);
-    jox_text_printf(&what, " m; agent %u bears most of it, %.6g N", load->agent,
+    add_body_point(w, &what, ", at", body->position);
+    jox_text_printf(&what, "; agent %u bears most of it, %.6g N", load->agent,
                     (double)load->hardest);
     const uint32_t i = jox_agents_find(&w->state.agents, load->agent);
     if (i != JOX_NO_INDEX)
-        jox_text_printf(&what, ", at (%.6g, %.6g) m", (double)w->state.agents.x[i],
-                        (double)w->state.agents.y[i]);
+        add_point_in_plan(w, &what, ", at", (JoxV2){w->state.agents.x[i], w->state.agents.y[i]});
     report_loss(w, JO_LOST_END, 0, &what);
 }
 

@@ -9,6 +9,7 @@
 #include "base/sort.h"
 #include "geom/area.h"
 #include "geom/polygon.h"
+#include "geom/storey_text.h"
 #include "nav/spots/spots.h"
 #include "world/world.h"
 
@@ -197,17 +198,23 @@ JoxBirthSpot jox_world_spawn_at(JoWorld *world, uint32_t group, JoxV2 at, uint32
     return jox_world_spawn(world, &birth, agent);
 }
 
-void jox_world_explain_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out) {
+void jox_world_explain_unplaced(const JoxStoreys *storeys, JoxBirthSpot spot, JoxV2 at,
+                                JoxText *out) {
+    JoxText where = {0};
+    const JoxV2 plan = jox_in_plan(storeys, at);
+    jox_text_printf(&where, "(%g, %g)", (double)plan.x, (double)plan.y);
+    jox_text_storey(&where, storeys, at);
     if (spot == JOX_BIRTH_IN_SOLID)
-        jox_text_printf(out, "(%g, %g) lies in a wall", x, y);
+        jox_text_printf(out, "%s lies in a wall", where.data);
     else if (spot == JOX_BIRTH_NOT_FOUND)
         jox_text_printf(out,
-                        "the search for a free spot near (%g, %g) was ended, as %d spots had been "
+                        "the search for a free spot near %s was ended, as %d spots had been "
                         "looked at",
-                        x, y, JOX_SPOTS_MOST);
+                        where.data, JOX_SPOTS_MOST);
     else
-        jox_text_printf(
-            out, "there is no free spot within 25 m of (%g, %g) on its side of all walls", x, y);
+        jox_text_printf(out, "there is no free spot within 25 m of %s on its side of all walls",
+                        where.data);
+    jox_text_free(&where);
 }
 
 /* ---- starts ---- */
@@ -274,7 +281,7 @@ static void give_up_start(JoWorld *world, const JoxStart *start) {
     jox_text_printf(news, "%s:%d:%d: t = %.2f s: a person of group '%.60s' is not placed: ",
                     group->position.file, group->position.line, group->position.column,
                     (double)world->state.tick * world->model.def.dt, group->name);
-    jox_world_explain_unplaced(JOX_BIRTH_IN_SOLID, (double)start->at.x, (double)start->at.y, news);
+    jox_world_explain_unplaced(&world->model.storeys, JOX_BIRTH_IN_SOLID, start->at, news);
     jox_text_add(news, "\n");
 }
 

@@ -8,6 +8,7 @@
 #include "base/number/distribution.h"
 #include "base/sections.h"
 #include "geom/start_positions.h"
+#include "geom/storeys.h"
 #include "machine/run.h"
 #include "nav/nav.h"
 
@@ -150,8 +151,9 @@ JoxBirth jox_world_birth(const JoWorld *world, uint32_t group, JoxV2 at);
 JoxBirthSpot jox_world_spawn(JoWorld *world, JoxBirth *birth, uint32_t *agent);
 /* Makes an agent of a group at a point, m, or near it. */
 JoxBirthSpot jox_world_spawn_at(JoWorld *world, uint32_t group, JoxV2 at, uint32_t *agent);
-/* Appends why no agent could be placed at a point. */
-void jox_world_explain_unplaced(JoxBirthSpot spot, double x, double y, JoxText *out);
+/* Appends why no agent could be placed at a position. */
+void jox_world_explain_unplaced(const JoxStoreys *storeys, JoxBirthSpot spot, JoxV2 at,
+                                JoxText *out);
 /* Before a step: makes agents whose start has come. One whose point is not free waits; later ones
    do not wait for it. */
 void jox_world_spawn_due_starts(JoWorld *world);

@@ -309,7 +309,7 @@ static void search_for_room_that_hits_its_limit_is_reported(void **state) {
     w->scratch.nav->spots.looked = JOX_SPOTS_MOST;
     const JoxBirthSpot spot = jox_world_spawn_at(w, 0, jox_v2(1, 0), &agent);
     assert_int_equal(spot, JOX_BIRTH_NOT_FOUND);
-    jox_world_explain_unplaced(spot, 1, 0, &told);
+    jox_world_explain_unplaced(&w->model.storeys, spot, jox_v2(1, 0), &told);
     assert_non_null(strstr(told.data, "was ended, as 5000000 spots had been looked at"));
     jox_text_free(&told);
     w->scratch.nav->spots.looked = 0;

@@ -7,6 +7,7 @@
 #include "base/format/plurals.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "geom/storey_text.h"
 #include "jostle_tools.h"
 #include "record/danger/trust.h"
 #include "run/criteria_listener.h"
@@ -197,17 +198,18 @@ static void say_standing(const JoScene *scene, JoxText *out) {
     if (still) {
         jox_text_printf(out, " A crowd of ");
         jox_text_noun(out, still->people, "person|people");
-        jox_text_printf(out, " stood still from %.0f to %.0f s, about (%.1f, %.1f) m", still->since,
-                        still->until, (double)still->at.x, (double)still->at.y);
+        jox_text_printf(out, " stood still from %.0f to %.0f s, about ", still->since,
+                        still->until);
+        jox_text_position(out, &spec->storeys, still->at, 1);
         jox_place_where(spec->places, spec->place_count, still->at, true, out);
         jox_text_add(out, ".");
     }
     if (stood && stood->id != JOX_NO_INDEX && stood->seconds >= SHORTEST_STAND) {
         jox_text_printf(out,
                         " Agent %u stood longest though it wanted to get on: for %.0f s until "
-                        "%.0f s, at (%.1f, %.1f) m",
-                        stood->id, stood->seconds, stood->until, (double)stood->at.x,
-                        (double)stood->at.y);
+                        "%.0f s, at ",
+                        stood->id, stood->seconds, stood->until);
+        jox_text_position(out, &spec->storeys, stood->at, 1);
         jox_place_where(spec->places, spec->place_count, stood->at, true, out);
         jox_text_add(out, ".");
     }

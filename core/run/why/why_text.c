@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/format/plurals.h"
+#include "geom/storey_text.h"
 #include "run/why/why.h"
 
 enum { WORD_WIDTH = 34 }; /* columns of a term; longer ones get a line of their own */
@@ -208,8 +209,9 @@ static void print_agent_head(const JoScene *scene, const JoxWhyAgent *why, JoxTe
         jox_text_printf(out, " of group %s", scene->spec->groups[a->group[i]].name);
     jox_text_printf(out, " (machine %s) has been in state %s for %.2f s, since %.2f s\n",
                     why->machine->name, why->state->name, why->now - why->since, why->since);
-    jox_text_printf(out, "  at (%.2f, %.2f) m, %.2f m/s\n", (double)a->x[i], (double)a->y[i],
-                    (double)jox_length((JoxV2){a->vx[i], a->vy[i]}));
+    jox_text_add(out, "  at ");
+    jox_text_position(out, &scene->spec->storeys, jox_v2(a->x[i], a->y[i]), 2);
+    jox_text_printf(out, ", %.2f m/s\n", (double)jox_length((JoxV2){a->vx[i], a->vy[i]}));
 }
 
 /* Appends where the agent came from, and why, if it was watched then. */

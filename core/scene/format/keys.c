@@ -224,9 +224,9 @@ bool jox_key_read_vector(const JoxReader *reader, const JoxKey *key, const JoxYa
         if (!jox_read_number(reader, node->items[i], key->unit, &out[i]) ||
             !check_range(reader, node->items[i], key, out[i]))
             return false;
-    if (key->placed && reader->plan) {
+    if (key->placed && reader->placing) {
         jox_scene_position(reader, jox_v2((float)out[0], (float)out[1]));
-        out[1] += (double)reader->plan->shift;
+        out[1] += (double)reader->placing->shift;
     }
     return true;
 }
@@ -310,7 +310,8 @@ bool jox_owner_read(const JoxReader *reader, const JoxYaml *map, const char *nam
     const size_t errors = reader->diagnostics->errors;
     const JoxOwner *owner = jox_owner_find(reader->format, name, strlen(name));
     const JoxKey *selecting = NULL;
-    const float shift = reader->plan ? reader->plan->shift : 0.0f; /* a key `storey` changes it */
+    const float shift =
+        reader->placing ? reader->placing->shift : 0.0f; /* a key `storey` changes it */
     JOX_ASSERT(owner && item);
     bool good = !map || jox_owner_check_keys(reader, map, name);
     map = good ? map : NULL;
@@ -324,8 +325,8 @@ bool jox_owner_read(const JoxReader *reader, const JoxYaml *map, const char *nam
     }
     good = good && reader->diagnostics->errors == errors;
     good = map && owner->finish ? owner->finish(reader, map, item, good) : good;
-    if (reader->plan)
-        reader->plan->shift = shift;
+    if (reader->placing)
+        reader->placing->shift = shift;
     return good;
 }
 
@@ -362,6 +363,26 @@ static void check_item_name(const JoxReader *reader, const JoxOwner *owner, JoxP
                        "'%.60s' is the name of something else already", name);
 }
 
+uint32_t jox_owner_count_copies(const JoxFormat *format, const char *owner, const JoxYaml *map) {
+    const JoxYaml *storey = map->kind == JOX_YAML_MAP ? jox_yaml_get(map, "storey") : NULL;
+    const JoxKey *key = storey ? jox_key_find(format, owner, "storey") : NULL;
+    const bool several = key && key->type == JOX_TYPE_NAMES && storey->kind == JOX_YAML_LIST;
+    return several && storey->count ? storey->count : 1;
+}
+
+/* Stores name and position of an item, which are those of the parent's map or list. */
+static void name_item(const JoxReader *reader, const JoxOwner *owner, bool map, const JoxYaml *node,
+                      uint32_t index, char *item) {
+    if (map && owner->name_offset) {
+        *JOX_MEMBER(char *, item, owner->name_offset - 1) =
+            jox_arena_text(reader->arena, node->keys[index]);
+        check_item_name(reader, owner, node->key_positions[index], node->keys[index]);
+    }
+    if (owner->position_offset)
+        *JOX_MEMBER(JoxPosition, item, owner->position_offset - 1) =
+            map ? node->key_positions[index] : node->items[index]->position;
+}
+
 void jox_key_read_items(const JoxReader *reader, const JoxKey *key, const JoxYaml *node,
                         void *item) {
     size_t length = strcspn(key->content, "*[");
@@ -372,24 +393,26 @@ void jox_key_read_items(const JoxReader *reader, const JoxKey *key, const JoxYam
     *count = 0;
     if (!check_items_node(reader, key, node, owner, map))
         return;
-    char *items = jox_arena_take(reader->arena, node->count, owner->struct_size);
-    const JoxYaml **from = jox_arena_take(reader->arena, node->count, sizeof *from);
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < node->count; i++)
+        most += jox_owner_count_copies(reader->format, owner->name, node->items[i]);
+    char *items = jox_arena_take(reader->arena, most, owner->struct_size);
+    const JoxYaml **from = jox_arena_take(reader->arena, most, sizeof *from);
     *JOX_MEMBER(void *, item, key->offset) = items;
     for (uint32_t i = 0; i < node->count; i++) {
-        char *one = items + *count * owner->struct_size;
-        memset(one, 0, owner->struct_size); /* the last one may not have been kept */
-        if (map && owner->name_offset) {
-            *JOX_MEMBER(char *, one, owner->name_offset - 1) =
-                jox_arena_text(reader->arena, node->keys[i]);
-            check_item_name(reader, owner, node->key_positions[i], node->keys[i]);
+        const size_t errors = reader->diagnostics->errors;
+        const uint32_t copies = jox_owner_count_copies(reader->format, owner->name, node->items[i]);
+        for (uint32_t copy = 0; copy < copies && reader->diagnostics->errors == errors; copy++) {
+            char *one = items + *count * owner->struct_size;
+            memset(one, 0, owner->struct_size); /* the last one may not have been kept */
+            name_item(reader, owner, map, node, i, one);
+            if (reader->placing)
+                reader->placing->copy = copy;
+            from[*count] = node->items[i];
+            *count += jox_owner_read(reader, node->items[i], owner->name, one);
         }
-        if (owner->position_offset)
-            *JOX_MEMBER(JoxPosition, one, owner->position_offset - 1) =
-                map ? node->key_positions[i] : node->items[i]->position;
-        from[*count] = node->items[i];
-        *count += jox_owner_read(reader, node->items[i], owner->name, one);
     }
-    JOX_ASSERT(*count <= node->count);
+    JOX_ASSERT(*count <= most);
     for (uint32_t i = 0; owner->resolve && i < *count; i++)
         owner->resolve(reader, from[i], items + i * owner->struct_size);
 }

@@ -157,6 +157,9 @@ bool jox_owner_check_keys(const JoxReader *reader, const JoxYaml *map, const cha
 /* Fills `item`, the struct of an owner, with the values of a map, or with defaults; reports all
    that is wrong. `map` NULL: a map without keys. Returns whether to keep the item. */
 bool jox_owner_read(const JoxReader *reader, const JoxYaml *map, const char *owner, void *item);
+/* Returns on how many storeys an item is that is read once for each of them: the length of a list
+   `storey`, else 1. */
+uint32_t jox_owner_count_copies(const JoxFormat *format, const char *owner, const JoxYaml *map);
 /* Reads the map or list of a key with JOX_STORE_ITEMS into `item`. */
 void jox_key_read_items(const JoxReader *reader, const JoxKey *key, const JoxYaml *node,
                         void *item);

@@ -30,7 +30,7 @@ bool jox_scene_check_name(const JoxReader *reader, JoxPosition at, const char *w
 }
 
 JoxV2 jox_scene_position(const JoxReader *reader, JoxV2 plan) {
-    JoxPlacing *all = reader->plan;
+    JoxPlacing *all = reader->placing;
     if (!all)
         return plan;
     all->low = jox_v2(jox_minf(all->low.x, plan.x), jox_minf(all->low.y, plan.y));

@@ -9,6 +9,7 @@
 /* Where points that are read come to lie, and the extent of all that have been read. */
 typedef struct JoxPlacing {
     float shift;     /* m along y, added to points: that of the sheet of their storey */
+    uint32_t copy;   /* which of the storeys of an item that is on several */
     JoxV2 low, high; /* m, of points before they are shifted; low is above high if there are none */
 } JoxPlacing;
 
@@ -17,7 +18,7 @@ typedef struct JoxReader {
     JoxDiagnostics *diagnostics;
     const struct JoxFormat *format; /* see keys.h */
     struct JoxSceneDraft *draft;    /* the scene that is being read, see scene_draft.h; or NULL */
-    JoxPlacing *plan;               /* of that scene; or NULL */
+    JoxPlacing *placing;            /* of that scene; or NULL */
 } JoxReader;
 
 /* Reports an error at a node; `hint` may be NULL. */

@@ -3,6 +3,7 @@
 #include "scene/scene.h"
 
 #define OPENING "jostle: 1\n"
+#define STOREYS "storeys: {ground: {height: 0}, first: {height: 3.5}}\n"
 #define STANDER "groups: {people: {behaviour: stander.lua, at: [[2, 2]]}}\n"
 /* clang-format off */
 const JoxExample jox_scene_examples[] = {
@@ -140,6 +141,10 @@ const JoxExample jox_scene_examples[] = {
     {"heatmap", OPENING
      "heatmap: {area: [[-5, -5], [5, 5]], from: 30 s}\n"
      STANDER},
+    {"heatmap", OPENING
+     STOREYS
+     "heatmap: {area: [[-5, -5], [5, 5]], storey: first}\n"
+     STANDER},
     {"camera", OPENING
      "camera: {position: [0, -20, 15], target: [0, 0, 1]}\n"
      STANDER},
@@ -157,7 +162,7 @@ const JoxExample jox_scene_examples[] = {
      "groups:\n"
      "  walkers: {behaviour: walker.lua, at: [[2, 2], [2, 3]], set: {goal: tree}}\n"},
     {"place", OPENING
-     "storeys: {ground: {height: 0}, first: {height: 3.5}}\n"
+     STOREYS
      "places: {hall: {polygon: [[0, 0], [9, 0], [9, 6], [0, 6]], storey: first}}\n"
      STANDER},
     {"wall", OPENING
@@ -168,8 +173,9 @@ const JoxExample jox_scene_examples[] = {
      "  - {file: hall.wkt, unit: 1 cm, origin: [-3000, 0]}   # drawn in centimetres; 30 m further east\n"
      STANDER},
     {"wall", OPENING
-     "storeys: {ground: {height: 0}, first: {height: 3.5}}\n"
-     "walls: [{line: [[0, 0], [20, 0]], storey: first}]\n"
+     STOREYS
+     "walls: # on two storeys\n"
+     "  - {line: [[0, 0], [20, 0]], storey: [ground, first]}\n"
      STANDER},
     {"scenery", OPENING
      "floor: asphalt\n"
@@ -181,6 +187,10 @@ const JoxExample jox_scene_examples[] = {
      "  - {kind: area, through: [[-8, -6], [8, -6], [8, -3], [-8, -3]], colour: green}\n"
      "  - {kind: train, at: [0, 0], size: [12, 2.6, 3.2], doors: [-4, 4], body: coach}\n"
      "bodies: [{name: coach, shape: {box: {size: [12, 2.6, 3]}}, kinematic: true, at: [-20, -4.5, 1.5], velocity: [1, 0, 0]}]\n"
+     STANDER},
+    {"scenery", OPENING
+     STOREYS
+     "scenery: [{kind: bench, at: [[6, 4], [9, 4]], storey: [ground, first]}]\n"
      STANDER},
     {"body", OPENING
      "bodies:\n"
@@ -198,6 +208,9 @@ const JoxExample jox_scene_examples[] = {
      "  - {name: turnstile, shape: {box: {size: [3, 0.1, 1]}}, kinematic: true, at: [-6, 0, 1], spin: [0, 0, 20 deg/s], force_limit: 300 N, at_limit: yield}\n"
      "  - {name: lift, shape: {box: {size: [2, 2, 0.2]}}, kinematic: true, at: [0, 9, 0.1], path: {through: [[0, 9, 4]], speed: 0.5, end: back}}\n"
      STANDER},
+    {"body", OPENING
+     STOREYS
+     "bodies: [{shape: {box: {size: [1, 1, 1]}}, mass: 20, at: [6, 3, 0.5], storey: first}]\n"},
     {"path", OPENING
      "bodies:\n"
      "  - name: door                       # open after 5 s, for 20 s, and closed again\n"
@@ -303,6 +316,9 @@ const JoxExample jox_scene_examples[] = {
      "    in: hall\n"
      "    profiles: {alone: {share: 3}, luggage: {share: 1, set: {radius: 0.3, mass: 95}}}\n"
      "    journey: [{exit: exit}]\n"},
+    {"group", OPENING
+     STOREYS
+     "groups: {people: {behaviour: stander.lua, at: [[2, 2], [3, 2]], storey: first}}\n"},
     {"source", OPENING
      "places: {street: {point: [1, 5], radius: 1}, hall: {polygon: [[5, 0], [20, 0], [20, 10], [5, 10]]}, exit: {point: [25, 5], radius: 1}}\n"
      "groups: {visitors: {count: 10, in: hall, journey: [{exit: exit}]}}\n"
@@ -327,6 +343,11 @@ const JoxExample jox_scene_examples[] = {
      JOX_PROBES(X)
 #undef X
     },
+    {"probe", OPENING
+     STOREYS
+     "stairs: {north: {from: ground, to: first, path: [[4, 0], [10, 0]]}}\n"
+     "probes: {down the stair: {flow: [[7, -0.6], [7, 0.6]], storey: north}}\n"
+     STANDER},
     {"map", OPENING
      "include: running-through.yaml\n"
      "probes: {fields: {map: {area: [[-2, -2], [6, 6]], cell: 0.1, kernel: 0.7, through_walls: true}}}\n"},
@@ -352,6 +373,10 @@ const JoxExample jox_scene_examples[] = {
      "  - {at: 1 min, close: gate}\n"
      "  - {at: 10, every: 5, until: 60, throw: crate, from: [4, 5, 2], velocity: [-4, 0, 3], spin: [0, 0, 2]}\n"
      "  - {at: 20, every: 10, push: crate, force: [60, 0], lasts: 1.5}\n"},
+    {"event", OPENING
+     STOREYS
+     "bodies: [{name: ball, shape: {sphere: {radius: 0.2}}, mass: 2, at: [6, 3, 0.2], storey: first}]\n"
+     "events: [{at: 5, throw: ball, from: [2, 2, 1.5], storey: first, velocity: [4, 0, 2]}]\n"},
     {"mod",
      "name: calm\n"
      "title: Calm crowds\n"

@@ -45,9 +45,11 @@ static bool read_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUNT
                                   (double)JOX_WORLD_FARTHEST, error);
 }
 
-static void refuse_birth(JoxBirthSpot spot, const JoAgentDef *def, JoError *error) {
+static void refuse_birth(const JoWorld *world, JoxBirthSpot spot, const JoAgentDef *def,
+                         JoError *error) {
     JoxText why = {0};
-    jox_world_explain_unplaced(spot, def->x, def->y, &why);
+    jox_world_explain_unplaced(&world->model.storeys, spot, jox_v2((float)def->x, (float)def->y),
+                               &why);
     jox_error(error, JO_INPUT, "the agent is not added: %s", why.data);
     jox_text_free(&why);
 }
@@ -68,7 +70,7 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
     const JoxBirthSpot found = jox_nav_find_birth(world->scratch.nav, a, &wish, &spot);
     if (!jox_birth_succeeds(found)) {
         world->state.statistics.not_placed++;
-        refuse_birth(found, def, error);
+        refuse_birth(world, found, def, error);
         return (JoAgent){0};
     }
     const uint32_t i = jox_world_add_agent(world, spot.x, spot.y);

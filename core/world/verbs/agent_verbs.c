@@ -93,7 +93,7 @@ bool jox_perform_spawn(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
             return true;
         }
         world->state.statistics.not_placed++;
-        jox_world_explain_unplaced(spot, entry->numbers[0], entry->numbers[1], why);
+        jox_world_explain_unplaced(&world->model.storeys, spot, at, why);
         return false;
     }
     return jox_event_refuse_name("group", entry->names[0], names, count, why);
@@ -110,14 +110,15 @@ bool jox_perform_remove(JoWorld *world, const JoxInputEntry *entry, JoxText *why
 
 bool jox_perform_teleport(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     JoxAgents *a = &world->state.agents;
-    JoxV2 at = {(float)entry->numbers[0], (float)entry->numbers[1]};
+    const JoxV2 wanted = {(float)entry->numbers[0], (float)entry->numbers[1]};
+    JoxV2 at = wanted;
     uint32_t i = find_live_agent(world, entry->number, why);
     if (i == JOX_NO_INDEX)
         return false;
     jox_world_apply_walls(world);
     const JoxBirthSpot spot = jox_nav_free_spot(world->scratch.nav, a, i, &at);
     if (!jox_birth_succeeds(spot)) {
-        jox_world_explain_unplaced(spot, entry->numbers[0], entry->numbers[1], why);
+        jox_world_explain_unplaced(&world->model.storeys, spot, wanted, why);
         return false;
     }
     a->x[i] = a->prev_x[i] = a->still_x[i] = at.x;
