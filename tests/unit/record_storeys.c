@@ -12,7 +12,9 @@
 #include "base/mem.h"
 #include "geom/storeys.h"
 #include "record/fields/density.h"
+#include "record/fields/voronoi_people.h"
 #include "record/frame_track.h"
+#include "record/probes/probe.h"
 
 /* Lays out two storeys, 3 m apart, on a plan of 20 m x 10 m. A stair leads from x = 8 up to x = 14,
    about y = 5, 2 m wide. */
@@ -236,11 +238,92 @@ static void rows_of_a_density_leave_out_what_is_not_floor(void **state) {
     jox_storeys_free(&far);
 }
 
+/* ---- Voronoi cells ---- */
+
+static void voronoi_cells_over_seams_are_those_of_one_plane(void **state) {
+    (void)state;
+    for (float turn = 0.0f; turn < 3.0f; turn += 0.7f) {
+        Plan *p = make_plan(turn);
+        float *here = jox_alloc(p->count, sizeof *here), *of[2];
+        for (uint32_t i = 0; i < p->count; i++)
+            here[i] = 5.0f;
+        for (int k = 0; k < 2; k++) {
+            JoxVoronoiPeople voronoi = {0};
+            const JoxDensityCrowd crowd = {.count = p->count,
+                                           .x = p->x,
+                                           .y = k ? p->sheets : p->flat,
+                                           .storeys = k ? &p->storeys : NULL};
+            of[k] = jox_alloc(p->count, sizeof *here);
+            jox_voronoi_people_measure(&voronoi, &crowd, k ? &p->sheet_walls : &p->flat_walls, 1,
+                                       here, of[k]);
+            jox_voronoi_people_free(&voronoi);
+        }
+        for (uint32_t i = 0; i < p->count; i++)
+            assert_near(of[1][i] / of[0][i], 1.0, 1e-3);
+        jox_free(here);
+        jox_free(of[0]);
+        jox_free(of[1]);
+        free_plan(p);
+    }
+}
+
+/* Measures a square of 1 m beside a seam, before it or beyond, in one plane or on its sheet. */
+static JoxFigures measure_square(Plan *p, float x, bool on_sheets) {
+    JoxV2 square[4];
+    uint32_t key[CROWD];
+    float still[CROWD] = {0};
+    const float corners[4][2] = {
+        {x - 0.5f, 4.5f}, {x + 0.5f, 4.5f}, {x + 0.5f, 5.5f}, {x - 0.5f, 5.5f}};
+    for (int k = 0; k < 4; k++)
+        square[k] =
+            jox_on_sheet(&p->storeys, on_sheets && x > WEST ? p->storeys.stairs[0].sheet : 0,
+                         turn_point(p, corners[k][0], corners[k][1]));
+    for (uint32_t i = 0; i < p->count; i++)
+        key[i] = i;
+    JoxProbeDef def = {.name = "square",
+                       .kind = JOX_PROBE_MEASURE,
+                       .points = square,
+                       .count = 4,
+                       .every = 1.0,
+                       .cutoff = 1.0,
+                       .until = INFINITY};
+    const JoxFrame frame = {.time = 0.5,
+                            .count = p->count,
+                            .keys = p->count,
+                            .key = key,
+                            .x = p->x,
+                            .y = on_sheets ? p->sheets : p->flat,
+                            .vx = still,
+                            .vy = still,
+                            .walls = on_sheets ? &p->sheet_walls : &p->flat_walls,
+                            .storeys = on_sheets ? &p->storeys : NULL};
+    JoxProbe *probe = jox_probe_create(&def);
+    jox_probe_frame(probe, &frame);
+    const JoxFigures figures = jox_probe_figures(probe);
+    jox_probe_free(probe);
+    return figures;
+}
+
+static void measured_squares_beside_a_seam_are_those_of_one_plane(void **state) {
+    (void)state;
+    Plan *p = make_plan(0.4f);
+    for (int beyond = 0; beyond < 2; beyond++) {
+        const float x = beyond ? WEST + 0.5f : WEST - 0.5f;
+        const JoxFigures flat = measure_square(p, x, false), sheets = measure_square(p, x, true);
+        assert_true(flat.count > 5 && flat.items[3].value > 3.0);
+        for (uint32_t f = 0; f < 7; f++)
+            assert_near(sheets.items[f].value, flat.items[f].value, 1e-3);
+    }
+    free_plan(p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agent_over_a_seam_walks_on_and_crosses_each_line_once),
         cmocka_unit_test(densities_over_seams_are_those_of_one_plane),
         cmocka_unit_test(rows_of_a_density_leave_out_what_is_not_floor),
+        cmocka_unit_test(voronoi_cells_over_seams_are_those_of_one_plane),
+        cmocka_unit_test(measured_squares_beside_a_seam_are_those_of_one_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -250,8 +250,11 @@ static void update_maxima(JoxDanger *d, const JoxFrame *frame) {
 
 /* Sets the Voronoi density of each person in a sample. */
 static void measure_voronoi(JoxDanger *d, const JoxFrame *frame) {
-    const JoxDensityCrowd crowd = {
-        .count = frame->count, .x = frame->x, .y = frame->y, .period = frame->period};
+    const JoxDensityCrowd crowd = {.count = frame->count,
+                                   .x = frame->x,
+                                   .y = frame->y,
+                                   .period = frame->period,
+                                   .storeys = frame->storeys};
     jox_voronoi_people_measure(&d->voronoi, &crowd, frame->walls,
                                jox_density_walls_hash(d->local->grid), d->gaussian_density,
                                d->voronoi_density);

@@ -87,6 +87,7 @@ typedef struct JoxDensityCrowd {
     const float *x, *y; /* m */
     /* m: a person near a periodic edge is added beyond the opposite edge, too; 0: not periodic */
     JoxV2 period;
+    const JoxStoreys *storeys;                /* for Voronoi cells; NULL: one plane */
     const uint8_t *seen;                      /* 1 for people who count; NULL: everybody counts */
     const float *weights[JOX_DENSITY_FIELDS]; /* weight of each person, by field; NULL: 1 */
 } JoxDensityCrowd;

@@ -127,11 +127,21 @@ void jox_sites_clear(JoxSites *s) {
     s->count = 0;
 }
 
-void jox_sites_add(JoxSites *s, JoxV2 point, uint32_t person) {
+static void add_site(JoxSites *s, JoxV2 point, uint32_t person, uint32_t seam) {
     JOX_RESERVE(s->points, s->capacity, s->count + 1);
     JOX_RESERVE(s->person, s->person_capacity, s->count + 1);
+    JOX_RESERVE(s->seam, s->seam_capacity, s->count + 1);
     s->points[s->count] = point;
+    s->seam[s->count] = seam;
     s->person[s->count++] = person;
+}
+
+void jox_sites_add(JoxSites *s, JoxV2 point, uint32_t person) {
+    add_site(s, point, person, 0);
+}
+
+void jox_sites_add_image(JoxSites *s, JoxV2 point, uint32_t person, uint32_t seam) {
+    add_site(s, point, person, seam + 1);
 }
 
 static uint32_t find_bin_column(const JoxSites *s, float x) {
@@ -230,6 +240,19 @@ static bool is_behind_bar(const JoxSites *s, JoxV2 a, JoxV2 b) {
     return crossed;
 }
 
+/* Returns whether one of two sites is an image that the other does not see through its seam. Images
+   beyond different seams do not see each other. */
+static bool is_behind_seam(const JoxSites *s, uint32_t a, uint32_t b) {
+    if (s->seam[a] == s->seam[b])
+        return false;
+    if (s->seam[a] && s->seam[b])
+        return true;
+    const uint32_t image = s->seam[a] ? a : b, own = s->seam[a] ? b : a;
+    return !jox_seam_lets_see(&s->storeys->seams[s->seam[image] - 1],
+                              jox_in_plan(s->storeys, s->points[image]),
+                              jox_in_plan(s->storeys, s->points[own]));
+}
+
 /* Cuts a cell by the visible sites of the bins at a distance of `ring` bins. */
 static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
     JoxV2 at = s->points[site];
@@ -247,7 +270,7 @@ static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
                 JoxV2 other = s->points[s->order[k]];
                 double x = (double)other.x - at.x, y = (double)other.y - at.y;
                 if (s->order[k] == site || x * x + y * y >= 4.0 * reach2 ||
-                    is_behind_bar(s, at, other))
+                    is_behind_seam(s, site, s->order[k]) || is_behind_bar(s, at, other))
                     continue;
                 if (jox_cell_cut(out, x, y))
                     reach2 = jox_cell_reach2(out);
@@ -270,6 +293,7 @@ void jox_sites_cell(const JoxSites *s, uint32_t site, double cutoff, JoxCell *ou
 void jox_sites_free(JoxSites *s) {
     jox_free(s->points);
     jox_free(s->person);
+    jox_free(s->seam);
     jox_free(s->first);
     jox_free(s->order);
     jox_free(s->repeated);

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 #include "base/vec.h"
+#include "geom/storeys.h"
 
 enum { JOX_CELL_CORNERS = 32, JOX_MOST_CORNERS = 256 };
 
@@ -47,10 +48,12 @@ void jox_cell_visible_area(const JoxCell *cell, JoxV2 at, const JoxBars *bars, c
 /* Sites in bins, for fast search of neighbours. Initialise to zero and keep for later frames;
    jox_sites_free frees it. */
 typedef struct JoxSites {
-    const JoxBars *bars; /* sites behind these are no neighbours; NULL: no walls */
+    const JoxBars *bars;       /* sites behind these are no neighbours; NULL: no walls */
+    const JoxStoreys *storeys; /* of images beyond seams; NULL: none */
     JoxV2 *points;
     uint32_t *person; /* number given by the caller */
-    uint32_t count, capacity, person_capacity;
+    uint32_t *seam;   /* of images: 1 + the seam, from the person's side; 0: no image */
+    uint32_t count, capacity, person_capacity, seam_capacity;
     JoxV2 low;
     double bin;        /* m: side of a bin */
     JoxCell lone_cell; /* cell of a person without neighbours */
@@ -66,6 +69,8 @@ typedef struct JoxSites {
 
 void jox_sites_clear(JoxSites *sites);
 void jox_sites_add(JoxSites *sites, JoxV2 point, uint32_t person);
+/* Adds the image of a person beyond a seam of `storeys` (seam_images.h). */
+void jox_sites_add_image(JoxSites *sites, JoxV2 point, uint32_t person, uint32_t seam);
 /* Puts the sites into bins. Call it after adding all sites, and before jox_sites_cell with the same
    cutoff, m. */
 void jox_sites_sort(JoxSites *sites, double cutoff);

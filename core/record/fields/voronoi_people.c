@@ -10,6 +10,7 @@ static void gather_crowd_sites(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd
     const float reach = 2.0f * (float)JOX_VORONOI_CUTOFF;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     jox_sites_clear(&v->sites);
+    v->sites.storeys = crowd->storeys;
     for (uint32_t i = 0; i < crowd->count; i++) {
         const JoxV2 p = {crowd->x[i], crowd->y[i]};
         jox_sites_add(&v->sites, p, i);
@@ -26,6 +27,8 @@ static void gather_crowd_sites(JoxVoronoiPeople *v, const JoxDensityCrowd *crowd
                     p.y > low.y - reach && p.y < high.y + reach)
                     jox_sites_add(&v->sites, p, i);
             }
+    for (uint32_t i = 0; crowd->storeys && i < crowd->count; i++)
+        jox_seam_images_add(&v->sites, crowd->storeys, (JoxV2){crowd->x[i], crowd->y[i]}, i, reach);
     jox_sites_sort(&v->sites, JOX_VORONOI_CUTOFF);
 }
 
@@ -53,7 +56,7 @@ void jox_voronoi_people_measure(JoxVoronoiPeople *v, const JoxDensityCrowd *crow
     if (!any)
         return;
     const bool same = v->walls.walls && v->walls_hash == walls_hash;
-    v->walls.walls = walls;
+    v->walls.walls = jox_seam_walls_of(&v->seam_walls, walls, crowd->storeys);
     if (!same)
         jox_wall_grid_reset(&v->walls, 2.0f * (float)JOX_VORONOI_CUTOFF);
     v->walls_hash = walls_hash;
@@ -76,5 +79,6 @@ void jox_voronoi_people_free(JoxVoronoiPeople *v) {
     jox_sites_free(&v->sites);
     jox_free(v->near.items);
     jox_wall_grid_free(&v->walls);
+    jox_seam_walls_free(&v->seam_walls);
     *v = (JoxVoronoiPeople){0};
 }

@@ -10,6 +10,7 @@
 
 #include "geom/wall_grid.h"
 #include "record/fields/density.h"
+#include "record/fields/seam_images.h"
 #include "record/fields/voronoi.h"
 
 #define JOX_VORONOI_CUTOFF 1.0 /* m */
@@ -20,6 +21,7 @@ typedef struct JoxVoronoiPeople {
     JoxSites sites;
     JoxBars near; /* walls near one person */
     JoxWallGrid walls;
+    JoxSeamWalls seam_walls;
     uint64_t walls_hash;
 } JoxVoronoiPeople;
 

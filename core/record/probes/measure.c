@@ -18,6 +18,7 @@
 #include "base/mem.h"
 #include "base/number/statistics.h"
 #include "geom/polygon.h"
+#include "record/fields/seam_images.h"
 #include "record/fields/voronoi.h"
 #include "record/probes/probe_parts.h"
 
@@ -35,6 +36,7 @@ typedef struct Measure {
     double area; /* m2 */
     JoxSites sites;
     JoxBars bars; /* edges of walls that may cut a cell */
+    JoxSeamWalls seam_walls;
     Interval *rows;
     uint32_t count, capacity;
     void *line; /* flow over the line `during`; NULL without one */
@@ -53,19 +55,23 @@ static bool is_near_polygon(const Measure *m, JoxV2 p, float reach) {
            p.y <= m->high.y + reach;
 }
 
-/* Collects all people, and their images across periodic edges, that may shape a cell reaching into
-   the polygon. */
+/* Collects all people, and their images across periodic edges and seams, that may shape a cell
+   reaching into the polygon. */
 static void gather_people(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
     int across = frame->period.x > 0.0f, up = frame->period.y > 0.0f;
+    const float reach = 3.0f * (float)def->cutoff;
     jox_sites_clear(&m->sites);
+    m->sites.storeys = frame->storeys;
     for (uint32_t i = 0; i < frame->count; i++)
         for (int c = -across; c <= across; c++)
             for (int r = -up; r <= up; r++) {
                 JoxV2 p = {frame->x[i] + (float)c * frame->period.x,
                            frame->y[i] + (float)r * frame->period.y};
-                if (is_near_polygon(m, p, 3.0f * (float)def->cutoff))
+                if (is_near_polygon(m, p, reach))
                     jox_sites_add(&m->sites, p, i);
             }
+    for (uint32_t i = 0; frame->storeys && i < frame->count; i++)
+        jox_seam_images_add(&m->sites, frame->storeys, (JoxV2){frame->x[i], frame->y[i]}, i, reach);
     jox_sites_sort(&m->sites, def->cutoff);
 }
 
@@ -73,12 +79,14 @@ static void gather_people(const JoxProbeDef *def, Measure *m, const JoxFrame *fr
    most `cutoff` from the polygon. */
 static void gather_walls_near_polygon(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
     float reach = 2.0f * (float)def->cutoff;
+    const JoxWalls *walls = jox_seam_walls_of(&m->seam_walls, frame->walls, frame->storeys);
     m->bars.count = 0;
-    for (uint32_t w = 0; frame->walls && w < frame->walls->count; w++) {
-        JoxV2 a = frame->walls->vertices[w].point;
-        JoxV2 b = frame->walls->vertices[frame->walls->vertices[w].next].point;
-        if (jox_maxf(a.x, b.x) < m->low.x - reach || jox_minf(a.x, b.x) > m->high.x + reach ||
-            jox_maxf(a.y, b.y) < m->low.y - reach || jox_minf(a.y, b.y) > m->high.y + reach)
+    for (uint32_t w = 0; walls && w < walls->count; w++) {
+        JoxV2 a = walls->vertices[w].point;
+        JoxV2 b = walls->vertices[walls->vertices[w].next].point;
+        if (walls->vertices[w].covered || jox_maxf(a.x, b.x) < m->low.x - reach ||
+            jox_minf(a.x, b.x) > m->high.x + reach || jox_maxf(a.y, b.y) < m->low.y - reach ||
+            jox_minf(a.y, b.y) > m->high.y + reach)
             continue;
         JOX_RESERVE(m->bars.items, m->bars.capacity, m->bars.count + 1);
         m->bars.items[m->bars.count++] = (struct JoxBar){a, b};
@@ -260,6 +268,7 @@ static void free_measure(void *state) {
     Measure *m = state;
     jox_sites_free(&m->sites);
     jox_free(m->bars.items);
+    jox_seam_walls_free(&m->seam_walls);
     jox_free(m->rows);
     jox_flow_free(m->line);
 }
