@@ -30,8 +30,9 @@ static void add_wall_obstacles(JoxHands *h, const JoxWalls *walls, float lowest,
         if (ring->open || ring->height <= lowest)
             continue;
         for (uint32_t v = ring->first; v < ring->first + ring->count; v++)
-            add_edge(h, walls->vertices[v].point, walls->vertices[walls->vertices[v].next].point,
-                     from, reach);
+            if (!walls->vertices[v].absent)
+                add_edge(h, walls->vertices[v].point,
+                         walls->vertices[walls->vertices[v].next].point, from, reach);
     }
 }
 

@@ -462,3 +462,22 @@ void jox_place_where(const JoxPlace *places, uint32_t count, JoxV2 at, bool near
     if (place)
         jox_text_printf(out, ", %.1f m from %.60s", (double)away, place->name);
 }
+
+JoxPlace *jox_places_copy_goal(const JoxPlace *places, uint32_t place, uint32_t *count) {
+    const JoxPlace *from = &places[place];
+    JoxPlace *goal = jox_alloc(1 + (size_t)from->member_count, sizeof *goal);
+    *count = 1 + from->member_count;
+    jox_place_copy(&goal[0], from);
+    for (uint32_t m = 0; m < from->member_count; m++) {
+        JOX_ASSERT(from->members[m] >= 0);
+        jox_place_copy(&goal[m + 1], &places[from->members[m]]);
+        goal[0].members[m] = (int32_t)m + 1;
+    }
+    return goal;
+}
+
+void jox_places_free_goal(JoxPlace *places, uint32_t count) {
+    for (uint32_t p = 0; p < count; p++)
+        jox_place_free(&places[p]);
+    jox_free(places);
+}

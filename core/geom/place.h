@@ -111,6 +111,10 @@ void jox_place_finish_set(const JoxPlace *places, JoxPlace *set, JoxPlaceBoxes *
 /* Copies a place into memory of its own; `to` may be uninitialised. The name may be NULL. */
 void jox_place_copy(JoxPlace *to, const JoxPlace *from);
 void jox_place_free(JoxPlace *place);
+/* Copies a place as a goal of ways, followed by its members: *count places, freed by
+   jox_places_free_goal. */
+JoxPlace *jox_places_copy_goal(const JoxPlace *places, uint32_t place, uint32_t *count);
+void jox_places_free_goal(JoxPlace *places, uint32_t count);
 /* Returns whether a point is at a place: inside a polygon, within a point's radius, within half a
    spacing of a queue's head, within 0.5 m of a line; a set: at any member. `places` is the table
    that members index. */

@@ -49,6 +49,7 @@ static void lay_outline(JoxStair *stair) {
         stair->outline[k] = point_at(stair, k, -half);
         stair->outline[2 * n - 1 - k] = point_at(stair, k, half);
     }
+    jox_bounds(stair->outline, 2 * n, &stair->low, &stair->high);
     JOX_ASSERT(jox_polygon_area(stair->outline, 2 * n) > 0.0);
 }
 
@@ -72,7 +73,8 @@ static void append_flight(JoxStoreys *s, uint32_t stair, uint32_t segment, float
         (JoxFlight){.stair = stair,
                     .from = jox_add(path[segment], jox_scale(along, from)),
                     .along = along,
-                    .run = to - from};
+                    .run = to - from,
+                    .slowness = {1.0f, 1.0f}};
 }
 
 /* Appends the flights of one segment, which begins `begun` m from the foot: what landings leave. */
@@ -116,9 +118,8 @@ static void lay_flights(JoxStoreys *s, uint32_t stair) {
 /* Finds the box around a stair whose floor and walls its sheet has. */
 static void find_claim(const JoxStair *stair, JoxV2 *low, JoxV2 *high) {
     const float margin = JOX_SEAM_REACH + 1.0f;
-    jox_bounds(stair->outline, 2 * stair->path_count, low, high);
-    *low = jox_sub(*low, jox_v2(margin, margin));
-    *high = jox_add(*high, jox_v2(margin, margin));
+    *low = jox_sub(stair->low, jox_v2(margin, margin));
+    *high = jox_add(stair->high, jox_v2(margin, margin));
 }
 
 static bool claims_meet(const JoxStair *a, const JoxStair *b) {
@@ -201,20 +202,20 @@ void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
     s->sheet_count = s->storey_count;
     for (uint32_t k = 0; k < s->stair_count; k++) {
         JoxStair *st = &s->stairs[k];
-        JoxV2 least, most;
         JOX_ASSERT(st->path_count >= 2 && st->lower <= st->upper && st->upper < s->storey_count);
         if (joins_storeys(st))
             st->rise = s->storeys[st->upper].height - s->storeys[st->lower].height;
         lay_outline(st);
         lay_flights(s, k);
         choose_sheet(s, k);
-        jox_bounds(st->outline, 2 * st->path_count, &least, &most);
-        low = jox_v2(jox_minf(low.x, least.x), jox_minf(low.y, least.y));
-        high = jox_v2(jox_maxf(high.x, most.x), jox_maxf(high.y, most.y));
+        low = jox_v2(jox_minf(low.x, st->low.x), jox_minf(low.y, st->low.y));
+        high = jox_v2(jox_maxf(high.x, st->high.x), jox_maxf(high.y, st->high.y));
     }
     const float depth = jox_maxf(high.y - low.y, 0.0f) + BETWEEN;
     s->pitch = jox_maxf(ceilf(depth / PITCH_UNIT) * PITCH_UNIT, LEAST_PITCH);
-    s->origin = low.y - 0.5f * BETWEEN;
+    s->low = low.y;
+    s->high = jox_maxf(high.y, low.y);
+    s->origin = s->low - 0.5f * BETWEEN;
     s->sheets = jox_realloc(s->sheets, s->sheet_count, sizeof *s->sheets);
     list_stairs(s);
     list_seams(s);
@@ -387,20 +388,21 @@ uint32_t jox_storey_at(const JoxStoreys *s, JoxV2 at) {
     return storey;
 }
 
-bool jox_is_floor(const JoxStoreys *s, JoxV2 at) {
-    if (!jox_has_storeys(s))
-        return true;
-    const uint32_t sheet = jox_sheet_of(s, at.y);
-    const JoxV2 plan = {at.x, at.y - (float)sheet * s->pitch};
+bool jox_is_floor_of(const JoxStoreys *s, uint32_t sheet, JoxV2 plan) {
     const bool on_storey = sheet < s->storey_count;
     for (uint32_t k = 0; k < s->stair_count; k++) {
         const JoxStair *st = &s->stairs[k];
         const bool here = on_storey ? joins_storeys(st) && st->lower <= sheet && sheet <= st->upper
                                     : st->sheet == sheet;
-        if (here && jox_polygon_contains(st->outline, 2 * st->path_count, plan))
+        if (here && jox_is_within(plan, st->low, st->high) &&
+            jox_polygon_contains(st->outline, 2 * st->path_count, plan))
             return !on_storey;
     }
     return on_storey;
+}
+
+bool jox_is_floor(const JoxStoreys *s, JoxV2 at) {
+    return !jox_has_storeys(s) || jox_is_floor_of(s, jox_sheet_of(s, at.y), jox_in_plan(s, at));
 }
 
 const JoxSeam *jox_find_crossed_seam(const JoxStoreys *s, JoxV2 at) {

@@ -49,7 +49,8 @@ typedef struct JoxStair {
     float belt; /* m/s along the slope: an escalator's speed, positive upwards; else 0 */
     /* Laid out: */
     uint32_t sheet;
-    JoxV2 *outline; /* m, in plan, counter-clockwise: 2 * path_count points */
+    JoxV2 *outline;  /* m, in plan, counter-clockwise: 2 * path_count points */
+    JoxV2 low, high; /* m, in plan: its bounding box */
     uint32_t first_flight, flight_count;
     bool closed; /* nobody sets out over it; who is on it goes on. State of the world */
 } JoxStair;
@@ -61,6 +62,8 @@ typedef struct JoxFlight {
     float run;         /* m in plan */
     float low;         /* m: elevation of its lower end */
     float slope;       /* m of rise per m in plan */
+    /* Time per metre in plan of who goes up, and down, in that on level floor; set by the world. */
+    float slowness[2];
 } JoxFlight;
 
 /* One side of a seam, where a stair meets a storey: the segment a-b, in plan, that who goes from
@@ -87,8 +90,9 @@ typedef struct JoxStoreys {
     JoxStair *stairs;
     uint32_t stair_count;
     /* Laid out: */
-    float pitch;  /* m along y from sheet to sheet; 0: not laid out */
-    float origin; /* m: y in plan at which sheets begin */
+    float pitch;     /* m along y from sheet to sheet; 0: not laid out */
+    float origin;    /* m: y in plan at which sheets begin */
+    float low, high; /* m: extent of the plan along y */
     JoxSheet *sheets;
     uint32_t sheet_count;
     uint32_t *sheet_stairs;
@@ -139,6 +143,7 @@ uint32_t jox_storey_at(const JoxStoreys *storeys, JoxV2 at);
 /* Returns whether there is floor at a position: within the outline of a stair on its sheet, outside
    the footprints of stairs on a storey. */
 bool jox_is_floor(const JoxStoreys *storeys, JoxV2 at);
+bool jox_is_floor_of(const JoxStoreys *storeys, uint32_t sheet, JoxV2 plan);
 /* Returns the seam beyond which a position lies: an agent there belongs to the sheet `there`, and
    has to be moved by `shift`. NULL if it belongs where it is. */
 const JoxSeam *jox_find_crossed_seam(const JoxStoreys *storeys, JoxV2 at);

@@ -36,10 +36,11 @@ typedef struct Laying {
     JoxWallImages *images;
     JoxWallGrid grid; /* over the walls and images of earlier shifts */
     JoxV2 shift;      /* m */
-    /* The images of walls beyond a seam: only parts within JOX_SEAM_REACH of it are laid. NULL: all
+    /* The images of walls beyond a seam: only parts within `reach` m of it are laid. NULL: all
        is. `seam_a`: its end a as a position on this side. */
     const JoxSeam *seam;
     JoxV2 seam_a;
+    float reach;
     Span *spans; /* covered parts of the edge in question */
     uint32_t span_count;
     size_t span_capacity;
@@ -168,9 +169,9 @@ static bool find_laid_part(const Laying *l, uint32_t of, Span *part) {
     const float by_beyond = jox_det(seam->along, v->direction);
     *part = (Span){0.0f, jox_length(jox_sub(walls->vertices[v->next].point, v->point))};
     clip_span(part, beyond, by_beyond);
-    clip_span(part, JOX_SEAM_REACH - beyond, -by_beyond);
-    clip_span(part, along + JOX_SEAM_REACH, by_along);
-    clip_span(part, seam->length + JOX_SEAM_REACH - along, -by_along);
+    clip_span(part, l->reach - beyond, -by_beyond);
+    clip_span(part, along + l->reach, by_along);
+    clip_span(part, seam->length + l->reach - along, -by_along);
     return !v->covered && part->to - part->from > HAIR;
 }
 
@@ -193,6 +194,7 @@ static void append_part_image(Laying *l, uint32_t of, Span part) {
     if (part.to - at >= HAIR)
         append_vertex(l, of, at, false);
     append_vertex(l, of, part.to, true);
+    l->images->walls.vertices[l->images->walls.count - 1].absent = true;
 }
 
 /* Appends the image of an edge, cut where what covers it begins and ends. */
@@ -228,8 +230,6 @@ static void append_ring_image(Laying *l, uint32_t of) {
     ring.count = walls->count - first;
     if (ring.count == 0)
         return;
-    if (l->seam) /* parts of a ring enclose nothing */
-        ring.solid = ring.outline = false;
     walls->vertices[first].previous = walls->count - 1;
     walls->vertices[walls->count - 1].next = first;
     JOX_RESERVE(walls->rings, walls->ring_capacity, walls->ring_count + 1);
@@ -306,9 +306,10 @@ static void lay_images(JoxWallImages *images, const JoxWalls *standing, JoxV2 lo
 }
 
 /* Lays the images of the walls beyond one seam, as far as they are seen from before it. */
-static void lay_beyond_seam(JoxWallImages *images, const JoxStoreys *s, const JoxSeam *seam) {
-    Laying l = {.images = images, .seam = seam, .shift = {0.0f, -seam->shift}};
-    const float wide = seam->length + 2.0f * JOX_SEAM_REACH;
+static void lay_beyond_seam(JoxWallImages *images, const JoxStoreys *s, const JoxSeam *seam,
+                            float reach) {
+    Laying l = {.images = images, .seam = seam, .shift = {0.0f, -seam->shift}, .reach = reach};
+    const float wide = seam->length + 2.0f * reach;
     const JoxV2 there = jox_on_sheet(s, seam->there, seam->a);
     l.seam_a = jox_on_sheet(s, seam->here, seam->a);
     l.grid.walls = &images->walls;
@@ -324,9 +325,9 @@ static void lay_beyond_seam(JoxWallImages *images, const JoxStoreys *s, const Jo
     jox_free(l.spans);
 }
 
-void jox_wall_images_lay_seams(JoxWallImages *images, const JoxStoreys *storeys) {
+void jox_wall_images_lay_seams(JoxWallImages *images, const JoxStoreys *storeys, float reach) {
     for (uint32_t k = 0; k < storeys->seam_count; k++)
-        lay_beyond_seam(images, storeys, &storeys->seams[k]);
+        lay_beyond_seam(images, storeys, &storeys->seams[k], reach);
     mark_continued(images);
 }
 
@@ -340,6 +341,14 @@ void jox_wall_images_add(JoxWalls *walls, JoxV2 low, JoxV2 period, JoxV2 reach) 
         return;
     lay_images(&images, walls, low, period, reach);
     jox_walls_free(walls);
+    *walls = images.walls;
+    jox_free(images.origins);
+}
+
+void jox_wall_images_add_seams(JoxWalls *walls, const JoxStoreys *storeys, float reach) {
+    JoxWallImages images = {
+        .walls = *walls, .own_rings = walls->ring_count, .own_vertices = walls->count};
+    jox_wall_images_lay_seams(&images, storeys, reach);
     *walls = images.walls;
     jox_free(images.origins);
 }

@@ -32,8 +32,10 @@ int jox_wall_images_turns(float period);
    lies there already, for instance of a wall that is drawn at both joined edges. Marks a vertex as
    `continued` where a wall and an image go on in one line. Keeps its memory. */
 void jox_wall_images_lay(JoxWallImages *images, const JoxWalls *standing, JoxV2 low, JoxV2 period);
-/* Lays the images of walls beyond seams after the others, of own walls alone. */
-void jox_wall_images_lay_seams(JoxWallImages *images, const JoxStoreys *storeys);
+/* Lays the images of walls within `reach` m beyond seams after the others, of own walls alone. */
+void jox_wall_images_lay_seams(JoxWallImages *images, const JoxStoreys *storeys, float reach);
+/* Adds them to standing walls, for callers that need no origins. */
+void jox_wall_images_add_seams(JoxWalls *walls, const JoxStoreys *storeys, float reach);
 /* Adds the images to standing walls, as far as jox_wall_images_lay does and at least `reach` m
    beyond joined edges; does nothing if no edges are joined. For callers that need no origins. */
 void jox_wall_images_add(JoxWalls *walls, JoxV2 low, JoxV2 period, JoxV2 reach);

@@ -17,6 +17,7 @@ typedef struct JoxWallVertex {
     bool convex;    /* the ring turns left here (ends of polylines count as convex) */
     bool is_new;    /* the edge was closed or added after people were last moved out of new walls */
     bool covered;   /* images: an edge already lies there, so grids omit this one */
+    bool absent;    /* images: no edge leads to the next vertex, as only parts of a wall are laid */
     bool continued; /* images: no corner, as a wall continues straight here (wall_images.h) */
 } JoxWallVertex;
 

@@ -27,7 +27,8 @@ static int64_t stopping_edge(const JoxWalls *walls, uint32_t but, JoxV2 from, Jo
         for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
             const JoxV2 a = walls->vertices[v].point,
                         b = walls->vertices[walls->vertices[v].next].point;
-            if (!misses_box(from, to, a, b) && jox_segments_cross(from, to, a, b))
+            if (!misses_box(from, to, a, b) && !walls->vertices[v].absent &&
+                jox_segments_cross(from, to, a, b))
                 return v;
         }
     }

@@ -172,7 +172,8 @@ void jox_world_apply_walls(JoWorld *world) {
         jox_wall_images_lay(&world->scratch.images, &world->scratch.walls,
                             world->state.agents.origin, world->state.agents.period);
         if (world->state.agents.storeys)
-            jox_wall_images_lay_seams(&world->scratch.images, world->state.agents.storeys);
+            jox_wall_images_lay_seams(&world->scratch.images, world->state.agents.storeys,
+                                      JOX_SEAM_REACH);
         world->scratch.images_only = jox_wall_images_only(&world->scratch.images);
     }
     jox_entrances_clear(&world->scratch.entrances);

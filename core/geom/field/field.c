@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field/field_parts.h"
+#include "geom/field/field_sheets.h"
 
 static const float MOST_CELLS = 4000000.0f;
 static const float LEAST_CELL = 0.1f, MOST_CELL = 2.0f; /* m */
@@ -44,11 +45,9 @@ static void set_grid(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 
     JOX_ASSERT(f->columns > 0 && f->rows > 0);
 }
 
-JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
-                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd,
-                           JoxFieldMarks **marks) {
-    JoxField *f = jox_alloc(1, sizeof *f);
-    set_grid(f, places, place, low, high, cell);
+/* Fills a field whose grid is set. */
+static void make_field(JoxField *f, const JoxWalls *walls, const JoxPlace *places, uint32_t place,
+                       float clearance, const JoxFieldCrowd *crowd, JoxFieldMarks **marks) {
     f->clearance = clearance > LEAST_CLEARANCE ? clearance : LEAST_CLEARANCE;
     size_t count = (size_t)f->columns * (size_t)f->rows;
     f->cells = jox_alloc(count, sizeof *f->cells);
@@ -64,7 +63,45 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     jox_field_marks_free(own);
     jox_free(work.time);
     jox_free(work.slowness);
+}
+
+JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
+                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd,
+                           const JoxStoreys *storeys, JoxFieldMarks **marks) {
+    JoxField *f = jox_alloc(1, sizeof *f);
+    if (!jox_has_storeys(storeys)) {
+        set_grid(f, places, place, low, high, cell);
+        make_field(f, walls, places, place, clearance, crowd, marks);
+        return f;
+    }
+    JoxWalls packed_walls = {0};
+    JoxFieldCrowd packed_crowd = {0};
+    uint32_t count;
+    low.y = 0.0f;
+    high.y = jox_field_height_of_sheets(storeys, cell);
+    set_grid(f, places, place, low, high, cell);
+    jox_field_lay_sheets(f, storeys);
+    JoxPlace *goal = jox_field_pack_goal(f, places, place, &count);
+    jox_field_pack_walls(f, walls, &packed_walls);
+    if (crowd)
+        jox_field_pack_crowd(f, crowd, &packed_crowd);
+    make_field(f, &packed_walls, goal, 0, clearance, crowd ? &packed_crowd : NULL, marks);
+    jox_places_free_goal(goal, count);
+    jox_walls_free(&packed_walls);
+    jox_free(packed_crowd.at);
     return f;
+}
+
+void jox_field_set_storeys(JoxField *f, const JoxStoreys *storeys) {
+    const int rows = f ? f->rows : 0;
+    if (!f || !jox_has_storeys(storeys))
+        return;
+    jox_field_lay_sheets(f, storeys);
+    if (f->rows != rows) { /* of other storeys: it leads nowhere */
+        jox_free(f->sheets);
+        f->sheets = NULL;
+        f->rows = rows;
+    }
 }
 
 /* ---- sampling ---- */
@@ -180,7 +217,8 @@ static bool find_sample_at_wall(const JoxField *f, const GridPoint *s, Sampled *
     return false;
 }
 
-float jox_field_distance(const JoxField *f, JoxV2 p) {
+/* Returns jox_field_distance of a point in the grid. */
+static float find_distance(const JoxField *f, JoxV2 p) {
     GridPoint s = locate_point(f, p);
     float beyond = jox_length(s.beyond);
     if (s.cell->patch == JOX_FIELD_PLAIN)
@@ -213,6 +251,10 @@ float jox_field_distance(const JoxField *f, JoxV2 p) {
     return jox_maxf(0.0f, sum) + beyond;
 }
 
+float jox_field_distance(const JoxField *f, JoxV2 p) {
+    return find_distance(f, jox_field_pack(f, p));
+}
+
 /* Returns the direction of the way from a point in a cell with a patch. */
 static JoxV2 find_direction_at_wall(const JoxField *f, const GridPoint *s) {
     const JoxFieldPatch *patch = &f->patches[s->cell->patch];
@@ -237,7 +279,7 @@ static JoxV2 find_direction_at_wall(const JoxField *f, const GridPoint *s) {
 }
 
 JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
-    GridPoint s = locate_point(f, p);
+    GridPoint s = locate_point(f, jox_field_pack(f, p));
     JoxV2 way = {s.cell->x, s.cell->y};
     if (s.cell->patch >= 0) {
         way = find_direction_at_wall(f, &s);
@@ -256,7 +298,7 @@ JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
     }
     if (s.beyond.x == 0.0f && s.beyond.y == 0.0f)
         return way;
-    if (way.x == 0.0f && way.y == 0.0f && !(jox_field_distance(f, s.point) < INFINITY))
+    if (way.x == 0.0f && way.y == 0.0f && !(find_distance(f, s.point) < INFINITY))
         return way;
     /* Outside the box, the way leads to the box; within one cell of it, it turns into the way
        there. */
@@ -286,5 +328,6 @@ void jox_field_free(JoxField *f) {
     jox_free(f->patches);
     jox_free(f->edges);
     jox_free(f->refs);
+    jox_free(f->sheets);
     jox_free(f);
 }

@@ -6,6 +6,7 @@
 
 #include "base/sections.h"
 #include "geom/place.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 #include "simd/isa.h"
 
@@ -29,10 +30,16 @@ typedef struct JoxFieldCrowd {
    clearances and 0.6 cells are open, gaps narrower than 1.7 clearances are closed; between these it
    depends on the grid's position. `marks`, if not NULL, caches the effect of walls between calls
    (*marks is NULL at first): the same walls over the same box are not evaluated again, which
-   changes no result. Returns a field that the caller frees; never NULL. */
+   changes no result. `storeys`: NULL, or laid out; then the box counts along x alone, and seams
+   that may not be crossed are closed. It is borrowed. Returns a field that the caller frees; never
+   NULL. */
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
                            JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd,
-                           JoxFieldMarks **marks);
+                           const JoxStoreys *storeys, JoxFieldMarks **marks);
+/* Returns the height of the grid of a field over storeys with cells of this size, m. */
+float jox_field_height_of_sheets(const JoxStoreys *storeys, float cell);
+/* Gives a field that was restored its storeys; NULL: none. */
+void jox_field_set_storeys(JoxField *field, const JoxStoreys *storeys);
 void jox_field_marks_free(JoxFieldMarks *marks);
 /* Returns the length of the way from a point, m: 0 inside a polygon that is the goal; INFINITY
    inside solids and where no way leads. From outside the box: straight to it, and on from there. */

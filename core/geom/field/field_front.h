@@ -25,6 +25,8 @@ typedef struct JoxFrontNode {
     uint16_t ends;
     bool even; /* the nodes of this cell and its neighbours are at their cells' centres */
     bool reached, is_done; /* added to the front; finished */
+    bool is_copied;        /* cells over a seam repeat this one */
+    bool repeats;          /* repeats a cell over a seam, and is finished with it */
 } JoxFrontNode;
 
 typedef struct JoxFront {

@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field/field_front.h"
+#include "geom/field/field_sheets.h"
 
 static const float SEED_CELLS = 4.5f; /* cells: so near the goal, ways are straight and lengths
                                          exact */
@@ -26,6 +27,7 @@ static const float STRETCH = 1.0f;
 
 typedef struct March {
     JoxFieldWork *w;
+    JoxFieldTwins twins;
     int steps[8];   /* offset of the index from a cell to each ring neighbour */
     float least[2]; /* m: least advance by a neighbour beside it, across a corner */
     JoxFront front;
@@ -70,10 +72,11 @@ static int seed_within(March *m, const JoxPlace *place, float reach, bool blindl
     int c0, c1, r0, r1, seeds = 0;
     jox_field_span(low.x - reach, high.x + reach, f->low.x, f->size, f->columns, &c0, &c1);
     jox_field_span(low.y - reach, high.y + reach, f->low.y, f->size, f->rows, &r0, &r1);
+    jox_field_keep_to_sheet(f, place->points[0].y, &r0, &r1);
     for (int r = r0; r <= r1; r++)
         for (int c = c0; c <= c1; c++) {
             int cell = r * f->columns + c;
-            if (w->walled.node[cell] == JOX_FIELD_BLOCKED)
+            if (w->walled.node[cell] == JOX_FIELD_BLOCKED || m->front.nodes[cell].repeats)
                 continue;
             JoxV2 p = jox_field_node(w, cell), goal = jox_place_nearest(place, 0, p);
             float distance = jox_length(jox_sub(goal, p));
@@ -251,6 +254,52 @@ static INLINE void visit_neighbour(March *m, const JoxFrontNode *from, int k, ui
         reach_even_beside(m, n, back, finished);
 }
 
+/* Returns the first of the twins of a cell; they end where the cell changes. */
+static const JoxFieldTwin *find_twins(const March *m, int of) {
+    uint32_t low = 0, high = m->twins.count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (m->twins.items[middle].of < of)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return &m->twins.items[low];
+}
+
+/* Finishes the cells beyond seams that repeat one that was just finished. */
+static void finish_twins(March *m, int of, bool plain) {
+    const JoxFrontNode *from = &m->front.nodes[of];
+    JoxField *f = m->w->f;
+    for (const JoxFieldTwin *twin = find_twins(m, of);
+         twin < m->twins.items + m->twins.count && twin->of == of; twin++) {
+        JoxFrontNode *n = &m->front.nodes[twin->copy];
+        n->time = from->time;
+        n->length = from->length;
+        n->is_done = true;
+        m->w->time[twin->copy] = n->time;
+        f->cells[twin->copy].length = n->length;
+        f->cells[twin->copy].x = f->cells[of].x;
+        f->cells[twin->copy].y = f->cells[of].y;
+        for (int k = 0; k < 8; k++)
+            if ((n->links & ~(uint32_t)n->finished) >> k & 1 && !(n + m->steps[k])->is_done)
+                visit_neighbour(m, n, k, 1u << k, plain);
+    }
+}
+
+/* Lets cells that repeat others be reached by no neighbour: to their neighbours they count as
+   finished, and have no time until they are. */
+static void begin_twins(March *m) {
+    for (uint32_t t = 0; t < m->twins.count; t++) {
+        JoxFrontNode *n = &m->front.nodes[m->twins.items[t].copy];
+        m->front.nodes[m->twins.items[t].of].is_copied = true;
+        n->repeats = true;
+        for (int k = 0; k < 8; k++)
+            if (n->links >> k & 1)
+                (n + m->steps[k])->finished |= (uint8_t)(1u << ((k + 4) & 7));
+    }
+}
+
 /* Finishes nodes in order of time until none is left. */
 static void march_all(March *m) {
     const float most = MOST_TIME * m->w->f->size;
@@ -269,6 +318,8 @@ static void march_all(March *m) {
         visit_neighbour(m, n, 5, open, plain);
         visit_neighbour(m, n, 6, open, plain);
         visit_neighbour(m, n, 7, open, plain);
+        if (n->is_copied)
+            finish_twins(m, i, plain);
     }
 }
 
@@ -322,8 +373,17 @@ void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
         w->time[i] = INFINITY;
         f->cells[i].length = INFINITY;
     }
+    m.twins = jox_field_list_twins(w);
+    begin_twins(&m);
     seed_place(&m, places, place);
     march_all(&m);
     refine_directions(w);
+    for (uint32_t t = 0; t < m.twins.count; t++) { /* refined alike */
+        const JoxFieldCell *of = &f->cells[m.twins.items[t].of];
+        JoxFieldCell *copy = &f->cells[m.twins.items[t].copy];
+        copy->x = of->x;
+        copy->y = of->y;
+    }
+    jox_free(m.twins.items);
     jox_front_end(&m.front);
 }

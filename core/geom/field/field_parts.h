@@ -47,6 +47,16 @@ typedef struct JoxFieldEdge {
     uint32_t solid; /* 1: solid matter on the left */
 } JoxFieldEdge;
 
+/* Where a sheet lies in the grid of a field over storeys. A point of the plan is moved by `shift`
+   along y. */
+typedef struct JoxFieldSheet {
+    float low, high; /* m in plan, along y */
+    float shift;     /* m */
+    int first_row, rows;
+    int to_row; /* rows by which it is moved: shift / size */
+} JoxFieldSheet;
+#define JOX_FIELD_SEAM_REACH 2.0f /* m: walls this near to a seam are seen from its other side */
+
 struct JoxField {
     JoxV2 low;
     float size, clearance; /* m */
@@ -58,7 +68,19 @@ struct JoxField {
     uint32_t edge_count;
     uint32_t *refs; /* edges near each cell, cell by cell */
     uint32_t ref_count;
+    const JoxStoreys *storeys; /* borrowed; NULL: one plane */
+    JoxFieldSheet *sheets;     /* of each sheet; NULL: one plane */
 };
+
+/* Returns where a point lies in the grid. */
+static inline JoxV2 jox_field_pack(const JoxField *f, JoxV2 at) {
+    if (!f->sheets)
+        return at;
+    const uint32_t k = jox_sheet_of(f->storeys, at.y);
+    const JoxFieldSheet *sheet = &f->sheets[k];
+    const float plan = at.y - (float)k * f->storeys->pitch;
+    return (JoxV2){at.x, jox_clampf(plan, sheet->low, sheet->high) + sheet->shift};
+}
 
 /* Along one axis, a sample's coordinate, and the two cell centres around it: index of the first,
    and the weight of each. */

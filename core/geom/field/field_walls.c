@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "geom/field/field_parts.h"
+#include "geom/field/field_sheets.h"
 
 const int JOX_FIELD_RING[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                   {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
@@ -25,6 +25,8 @@ static void collect_edges_of_walls(JoxField *f, const JoxWalls *walls) {
         for (uint32_t k = 0; k < walls->rings[r].count; k++) {
             const JoxWallVertex *v = &walls->vertices[walls->rings[r].first + k];
             JoxV2 a = v->point, b = walls->vertices[v->next].point;
+            if (v->absent)
+                continue;
             bool back = b.x < a.x || (!(a.x < b.x) && b.y < a.y);
             if (back && !walls->rings[r].solid)
                 continue; /* thin walls run there and back: once is enough */
@@ -307,6 +309,10 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **mark
     fill_solids(w, walls);
     for (int i = 0; i < w->count; i++)
         place_node(w, i);
+    if (f->storeys) {
+        jox_field_block_beyond_floor(w);
+        jox_field_slow_stairs(w);
+    }
     compute_positions(w);
     for (int r = 0; r < f->rows; r++)
         for (int c = 0; c < f->columns; c++)

@@ -40,9 +40,20 @@ static inline JoxInts clamp_to_index(JoxFloats x, int most) {
     return ji_select(ji_less(whole, ji_set(most)), whole, ji_set(most));
 }
 
+/* Returns where points lie along y in the grid of a field over storeys, as jox_field_pack. */
+static JoxFloats pack_lanes(const JoxField *f, JoxFloats y) {
+    float at[JOX_WIDTH];
+    jf_store(at, y);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        at[lane] = jox_field_pack(f, (JoxV2){0.0f, at[lane]}).y;
+    return jf_load(at);
+}
+
 /* Does the same as locate_point of field.c; lanes outside the box are in no cell. */
 static inline JoxMask locate_lanes(const JoxField *f, JoxVector p, Spot *s) {
     const JoxFloats zero = jf_set(0.0f), size = jf_set(f->size);
+    if (f->sheets)
+        p.y = pack_lanes(f, p.y);
     s->at = p;
     s->in_cells = (JoxVector){(p.x - f->low.x) / size, (p.y - f->low.y) / size};
     JoxMask within = jm_and(jf_le(zero, s->in_cells.x), jf_le(zero, s->in_cells.y));

@@ -52,8 +52,9 @@ static void append_wall_edges(JoxStandable *s, JoxV2 low, JoxV2 high, const JoxW
     for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++)
-            append_ground_edge(s, walls->vertices[v].point,
-                               walls->vertices[walls->vertices[v].next].point, low, high);
+            if (!walls->vertices[v].absent)
+                append_ground_edge(s, walls->vertices[v].point,
+                                   walls->vertices[walls->vertices[v].next].point, low, high);
     }
 }
 

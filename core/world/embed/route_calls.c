@@ -44,7 +44,7 @@ static const JoxField *get_field(JoWorld *w, uint32_t place, JoxV2 from) {
     if (over_edges) {
         jox_routes_add_wall_images(a, &standing);
         jox_routes_box_over_edges(a, CELL, &low, &high);
-        places = jox_routes_copy_goal(w->model.places, place, &count);
+        places = jox_places_copy_goal(w->model.places, place, &count);
         jox_routes_add_goal_images(a, &places, &count);
         goal = 0;
     }
@@ -52,10 +52,10 @@ static const JoxField *get_field(JoWorld *w, uint32_t place, JoxV2 from) {
     jox_field_marks_free(h->marks);
     h->field = NULL;
     h->marks = NULL;
-    h->field =
-        jox_field_create(&standing, places, goal, low, high, CELL, CLEARANCE, NULL, &h->marks);
+    h->field = jox_field_create(&standing, places, goal, low, high, CELL, CLEARANCE, NULL,
+                                a->storeys, &h->marks);
     if (over_edges)
-        jox_routes_free_goal(places, count);
+        jox_places_free_goal(places, count);
     h->field_place = place;
     h->field_walls = w->state.walls_version;
     jox_walls_free(&standing);

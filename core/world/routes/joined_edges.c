@@ -14,25 +14,6 @@ void jox_routes_add_wall_images(const JoxAgents *a, JoxWalls *walls) {
     jox_wall_images_add(walls, a->origin, a->period, a->period);
 }
 
-JoxPlace *jox_routes_copy_goal(const JoxPlace *places, uint32_t place, uint32_t *count) {
-    const JoxPlace *from = &places[place];
-    JoxPlace *goal = jox_alloc(1 + (size_t)from->member_count, sizeof *goal);
-    *count = 1 + from->member_count;
-    jox_place_copy(&goal[0], from);
-    for (uint32_t m = 0; m < from->member_count; m++) {
-        JOX_ASSERT(from->members[m] >= 0);
-        jox_place_copy(&goal[m + 1], &places[from->members[m]]);
-        goal[0].members[m] = (int32_t)m + 1;
-    }
-    return goal;
-}
-
-void jox_routes_free_goal(JoxPlace *places, uint32_t count) {
-    for (uint32_t p = 0; p < count; p++)
-        jox_place_free(&places[p]);
-    jox_free(places);
-}
-
 /* Returns whether a place lies between two joined edges, from `low` on. */
 static bool lies_between_edges(float from, float to, float reach, float low, float period) {
     return from - reach >= low && to + reach <= low + period;

@@ -12,10 +12,6 @@
 bool jox_routes_lead_over_edges(const JoxAgents *agents, const JoxWalls *walls);
 /* Adds the images of walls a period beyond joined edges. */
 void jox_routes_add_wall_images(const JoxAgents *agents, JoxWalls *walls);
-/* Copies a place as a goal of routes, followed by its members: *count places, freed by
-   jox_routes_free_goal. */
-JoxPlace *jox_routes_copy_goal(const JoxPlace *places, uint32_t place, uint32_t *count);
-void jox_routes_free_goal(JoxPlace *places, uint32_t count);
 /* Adds the images of the goal, places[0], or of its members, which are the other places: it becomes
    a set of them all. A place that lies across a joined edge, or beyond, has none there. */
 void jox_routes_add_goal_images(const JoxAgents *agents, JoxPlace **places, uint32_t *count);

@@ -39,6 +39,9 @@ typedef struct Making {
     JoxV2 low, high;
     float cell, clearance; /* m */
     JoxFieldCrowd crowd;
+    const JoxStoreys *storeys; /* of the world; NULL: one plane */
+    JoxStoreys
+        stairs; /* the same, with a copy of the stairs: which are closed may change meanwhile */
     bool keeps_marks;
     JoxFieldMarks *marks; /* marks of the previous field, then of this one; NULL: none */
     JoxField *field;
@@ -92,8 +95,9 @@ static const char *find_fault(const JoxRouteStage *w) {
 /* ---- making one ---- */
 
 static void free_making(Making *making) {
-    jox_routes_free_goal(making->places, making->place_count);
+    jox_places_free_goal(making->places, making->place_count);
     jox_walls_free(&making->walls);
+    jox_free(making->stairs.stairs);
     jox_free(making->crowd.at);
     jox_free(making->crowd.held);
     jox_field_free(making->field);
@@ -103,8 +107,10 @@ static void free_making(Making *making) {
 
 static void make_field(JoxWorkItem *item) {
     Making *m = (Making *)item;
-    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, m->clearance,
-                                &m->crowd, m->keeps_marks ? &m->marks : NULL);
+    m->field =
+        jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, m->clearance, &m->crowd,
+                         m->storeys ? &m->stairs : NULL, m->keeps_marks ? &m->marks : NULL);
+    jox_field_set_storeys(m->field, m->storeys);
 }
 
 static void make_fields(void *context, uint32_t begin_route, uint32_t end, uint32_t worker) {
@@ -173,6 +179,12 @@ static bool can_reuse_box(const JoxField *before, JoxV2 low, JoxV2 high, float c
            (to.x - from.x) * (to.y - from.y) < MOST_ROOM * width * height;
 }
 
+/* Returns the height of a field's grid, m. */
+static float measure_height(const JoxRouteStage *w, JoxV2 low, JoxV2 high, float cell) {
+    return w->agents->storeys ? jox_field_height_of_sheets(w->agents->storeys, cell)
+                              : high.y - low.y;
+}
+
 /* Sets the box of a field round all walls, open gates too, and agents; its corner is on the grid of
    cells. If possible it is the box of the previous field, so that narrow gaps are judged alike and
    marks of walls can be reused. */
@@ -193,9 +205,14 @@ static void set_box(const JoxRouteStage *w, const JoxField *before, float most_c
     if (over_edges)
         jox_routes_box_over_edges(w->agents, 0.0f, &low, &high);
     int c = 0;
-    while (c < 3 && (high.x - low.x) * (high.y - low.y) > most_cells * CELLS[c] * CELLS[c])
+    while (c < 3 && (high.x - low.x) * measure_height(w, low, high, CELLS[c]) >
+                        most_cells * CELLS[c] * CELLS[c])
         c++;
     float cell = CELLS[c];
+    if (w->agents->storeys) { /* inside the grid, whose rows depend on the cells alone */
+        low.y = cell;
+        high.y = 2.0f * cell;
+    }
     if (over_edges)
         jox_routes_box_over_edges(w->agents, cell, &low, &high);
     JOX_ASSERT(low.x < high.x && low.y < high.y); /* there are walls or agents */
@@ -213,6 +230,16 @@ static void set_box(const JoxRouteStage *w, const JoxField *before, float most_c
     making->high = high;
 }
 
+static void copy_stairs(const JoxStoreys *storeys, Making *making) {
+    making->storeys = storeys;
+    if (!storeys)
+        return;
+    making->stairs = *storeys;
+    making->stairs.stairs = jox_alloc((size_t)storeys->stair_count + 1, sizeof(JoxStair));
+    if (storeys->stair_count)
+        memcpy(making->stairs.stairs, storeys->stairs, storeys->stair_count * sizeof(JoxStair));
+}
+
 /* Copies all that a field is made of. `before`: the field that it replaces, or NULL. */
 static Making *prepare_field(const JoxRouteStage *w, uint32_t place,
                              const JoxRouteFieldOptions *look, float most_cells,
@@ -220,9 +247,10 @@ static Making *prepare_field(const JoxRouteStage *w, uint32_t place,
     Making *making = jox_alloc(1, sizeof *making);
     making->item.run = make_field;
     making->clearance = look->clearance;
+    copy_stairs(w->agents->storeys, making);
     jox_walls_standing(&making->walls, w->all_walls, look->gates);
     jox_obstacles_add(&w->routes->obstacles, look->bodies, &making->walls);
-    making->places = jox_routes_copy_goal(w->places, place, &making->place_count);
+    making->places = jox_places_copy_goal(w->places, place, &making->place_count);
     if (jox_routes_lead_over_edges(w->agents, w->all_walls)) {
         jox_routes_add_wall_images(w->agents, &making->walls);
         jox_routes_add_goal_images(w->agents, &making->places, &making->place_count);
@@ -443,7 +471,7 @@ static void clear_routes(JoxRoutes *routes) {
 }
 
 /* Lists a route: its times and versions, the field in use, and the one being made. */
-static void list_route(JoxRoutes *routes, uint32_t at, JoxSections *s) {
+static void list_route(JoxRoutes *routes, const JoxStoreys *storeys, uint32_t at, JoxSections *s) {
     Route *route = &routes->items[at];
     bool used = jox_section_count(s, "used", routes->fields[at] != NULL, 1) > 0;
     bool made = jox_section_count(s, "made", route->making != NULL, 1) > 0;
@@ -459,6 +487,12 @@ static void list_route(JoxRoutes *routes, uint32_t at, JoxSections *s) {
         jox_field_sections(&routes->fields[at], s);
     if (made)
         jox_field_sections(&route->making->field, s);
+    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed) {
+        jox_field_set_storeys(routes->fields[at], storeys);
+        jox_field_set_storeys(made ? route->making->field : NULL, storeys);
+        if (made)
+            route->making->storeys = storeys;
+    }
 }
 
 void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
@@ -476,7 +510,7 @@ void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
     JOX_SECTION(s, "count", routes->count);
     jox_section(s, "wanted", routes->wanted, 1, routes->capacity);
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
-        list_route(routes, at, s);
+        list_route(routes, w->agents->storeys, at, s);
     if (s->mode == JOX_SECTIONS_RESTORE && find_fault(w))
         jox_sections_fail(s, "routes", find_fault(w));
 }
