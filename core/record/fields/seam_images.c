@@ -38,7 +38,7 @@ const JoxWalls *jox_seam_walls_of(JoxSeamWalls *w, const JoxWalls *walls, const 
     if (!w->laid || w->hash != hash) {
         const JoxV2 none = {0.0f, 0.0f};
         jox_wall_images_lay(&w->images, walls, none, none);
-        jox_wall_images_lay_seams(&w->images, s);
+        jox_wall_images_lay_seams(&w->images, s, JOX_SEAM_REACH);
         w->laid = true;
         w->hash = hash;
     }
