@@ -201,7 +201,7 @@ bool jox_area_contains(const JoxAreaIndex *index, JoxV2 p) {
         in = is_in_indexed_place(index, i, area->in[i], p);
     for (uint32_t i = 0; i < area->out_count && in; i++)
         in = !is_in_indexed_place(index, area->in_count + i, area->out[i], p);
-    return in && is_clear_of_walls(index, p);
+    return in && jox_is_floor(area->storeys, p) && is_clear_of_walls(index, p);
 }
 
 /* ---- size ---- */
@@ -288,7 +288,7 @@ static bool is_in_area(const JoxAreaIndex *index, const Crossings *c, JoxV2 p) {
         in = is_between_crossings(index, c, i, area->in[i], p);
     for (uint32_t i = 0; i < area->out_count && in; i++)
         in = !is_between_crossings(index, c, area->in_count + i, area->out[i], p);
-    return in && is_clear_of_walls(index, p);
+    return in && jox_is_floor(area->storeys, p) && is_clear_of_walls(index, p);
 }
 
 /* Returns the size of an area, m2, by samples `step` m apart; low, high: its extent. */

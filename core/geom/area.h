@@ -7,16 +7,18 @@
 #include <stdint.h>
 
 #include "geom/place.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 
 /* An area: inside any place of `in`, outside all places of `out` (indices), at least `clear` m from
-   walls. Random points also keep their spacing from the points `taken` and, if edges of the area
+   walls, where there is floor. Random points also keep their spacing from the points `taken` and, if edges of the area
    are joined with period `period`, from each other across the edges. */
 typedef struct JoxArea {
     const JoxPlace *places;
     const uint32_t *in, *out;
     uint32_t in_count, out_count;
     const JoxWalls *walls;
+    const JoxStoreys *storeys; /* NULL: there is floor everywhere */
     float clear;
     JoxV2 period; /* m; 0 along an axis: not joined */
     const JoxV2 *taken;

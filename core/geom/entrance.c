@@ -210,7 +210,8 @@ static void measure_shares(JoxEntrance *e, const JoxPlace *place) {
     e->area = (double)e->open_count * (double)e->cell * (double)e->cell;
 }
 
-void jox_entrance_make(JoxEntrance *e, JoxWallGrid *grid, const JoxPlace *place) {
+void jox_entrance_make(JoxEntrance *e, const JoxStoreys *storeys, JoxWallGrid *grid,
+                       const JoxPlace *place) {
     static const uint32_t FLOOR[] = {0};
     const JoxWalls *walls = grid->walls;
     JoxV2 high;
@@ -228,8 +229,12 @@ void jox_entrance_make(JoxEntrance *e, JoxWallGrid *grid, const JoxPlace *place)
     e->columns = (uint32_t)(size.x / e->cell) + 1;
     e->rows = (uint32_t)(size.y / e->cell) + 1;
     jox_wall_grid_fit(grid, 1.5f * e->cell);
-    e->clear =
-        (JoxArea){.places = &e->floor, .in = FLOOR, .in_count = 1, .walls = walls, .clear = CLEAR};
+    e->clear = (JoxArea){.places = &e->floor,
+                         .in = FLOOR,
+                         .in_count = 1,
+                         .walls = walls,
+                         .storeys = storeys,
+                         .clear = CLEAR};
     e->index = jox_area_index(&e->clear);
     e->cells = jox_alloc((size_t)e->columns * e->rows, sizeof *e->cells);
     for (uint32_t cell = 0; cell < e->columns * e->rows; cell++)

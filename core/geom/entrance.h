@@ -45,7 +45,8 @@ typedef struct JoxEntrance {
 /* Makes the entrance of a place that is no set. `grid` is the grid of the closed walls; its reach
    is extended as needed. Place and grid must not change until the entrance is freed. The entrance
    must not be moved in memory, as it points to itself. */
-void jox_entrance_make(JoxEntrance *entrance, JoxWallGrid *grid, const JoxPlace *place);
+void jox_entrance_make(JoxEntrance *entrance, const JoxStoreys *storeys, JoxWallGrid *grid,
+                       const JoxPlace *place);
 void jox_entrance_free(JoxEntrance *entrance);
 /* Returns whether a point lies on the floor, on the side of the walls where people enter. */
 bool jox_entrance_holds(const JoxEntrance *entrance, JoxV2 point);

@@ -13,7 +13,8 @@ static const float LEAST_FLIGHT = 0.05f; /* m: shorter flights are flat */
 static const float BETWEEN = 20.0f;      /* m: between the plans of two sheets at least */
 static const float PITCH_UNIT = 9.0f;    /* m: whole cells of fields for most sizes of cells */
 static const float LEAST_PITCH = 45.0f;  /* m: so that people see 20 m */
-static const float RAIL = 1.1f; /* m: height of the walls round a stair on the upper floor */
+static const float SAME_END = 0.02f; /* m: ends of stairs this near to each other are the same */
+static const float RAIL = 1.1f;      /* m: height of the walls round a stair on the upper floor */
 
 static JoxV2 point_at(const JoxStair *stair, uint32_t at, float aside) {
     const JoxV2 *path = stair->path;
@@ -241,6 +242,32 @@ static void add_stair_walls(const JoxStoreys *s, const JoxStair *st, uint32_t sh
     jox_free(ring);
 }
 
+/* Returns the corners of a stair's foot or head. */
+static void find_end(const JoxStair *st, bool at_head, JoxV2 *right, JoxV2 *left) {
+    const uint32_t n = st->path_count;
+    *right = st->outline[at_head ? n - 1 : 0];
+    *left = st->outline[at_head ? n : 2 * n - 1];
+}
+
+/* Returns whether a storey is open to a stair at its foot or head, or to another stair whose foot
+   or head is there, as where stairs lie one above the other. */
+static bool is_open_at(const JoxStoreys *s, const JoxStair *st, uint32_t storey, bool at_head) {
+    JoxV2 a, b, c, d;
+    find_end(st, at_head, &a, &b);
+    for (uint32_t k = 0; k < 2 * s->stair_count; k++) {
+        const JoxStair *other = &s->stairs[k / 2];
+        const bool head = k & 1;
+        if (!joins_storeys(other) || (head ? other->upper : other->lower) != storey)
+            continue;
+        find_end(other, head, &c, &d);
+        if ((other == st && head == at_head) ||
+            jox_minf(jox_maxf(jox_length(jox_sub(a, c)), jox_length(jox_sub(b, d))),
+                     jox_maxf(jox_length(jox_sub(a, d)), jox_length(jox_sub(b, c)))) < SAME_END)
+            return true;
+    }
+    return false;
+}
+
 void jox_storeys_add_walls(const JoxStoreys *s, JoxWalls *walls) {
     for (uint32_t k = 0; k < s->stair_count; k++) {
         const JoxStair *st = &s->stairs[k];
@@ -248,8 +275,9 @@ void jox_storeys_add_walls(const JoxStoreys *s, JoxWalls *walls) {
             continue;
         add_stair_walls(s, st, st->sheet, true, true, INFINITY, walls);
         for (uint32_t storey = st->lower; storey <= st->upper; storey++)
-            add_stair_walls(s, st, storey, storey == st->lower, storey == st->upper,
-                            storey == st->lower ? INFINITY : RAIL, walls);
+            add_stair_walls(s, st, storey, is_open_at(s, st, storey, false),
+                            is_open_at(s, st, storey, true), storey == st->lower ? INFINITY : RAIL,
+                            walls);
     }
 }
 

@@ -35,7 +35,7 @@ static const char *check_entrance(const JoScene *scene, const JoxAgentSource *so
                                   JoxWallGrid *grid, JoxDiagnostics *diagnostics) {
     const JoxPlace *places = scene->world->model.places;
     JoxEntrance entrance;
-    jox_entrance_make(&entrance, grid, &places[door]);
+    jox_entrance_make(&entrance, &scene->world->model.storeys, grid, &places[door]);
     const bool shut = entrance.cut && entrance.open_count == 0;
     const char *cause = name_cause(&entrance);
     if (shut && door != source->place)
@@ -315,11 +315,12 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
 
 /* Whether walls fill a place, so that nobody is ever inside. Lines and queues are reached from
    beside. */
-static bool is_filled_by_walls(JoxWallGrid *grid, const JoxPlace *place) {
+static bool is_filled_by_walls(const JoxStoreys *storeys, JoxWallGrid *grid,
+                               const JoxPlace *place) {
     if (!jox_place_is_spot(place) && !jox_place_is_area(place))
         return false;
     JoxEntrance entrance;
-    jox_entrance_make(&entrance, grid, place);
+    jox_entrance_make(&entrance, storeys, grid, place);
     const bool filled = entrance.outside == 0.0 && entrance.blocked > 1.0 - LEAST_SHARE;
     jox_entrance_free(&entrance);
     return filled;
@@ -335,7 +336,7 @@ static void check_step_place(const JoScene *scene, JoxPosition position, int32_t
     const bool set = jox_place_is_set(&places[goal]);
     for (uint32_t m = 0; m < (set ? places[goal].member_count : 1); m++) {
         const JoxPlace *place = set ? &places[places[goal].members[m]] : &places[goal];
-        if (is_filled_by_walls(grid, place))
+        if (is_filled_by_walls(&scene->world->model.storeys, grid, place))
             jox_diag_warn(diagnostics, position, "goal-in-wall",
                           "Move it to where people can stand, or widen it beyond the wall",
                           "nobody can be inside '%.60s': it lies in a wall", place->name);

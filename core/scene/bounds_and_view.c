@@ -44,6 +44,9 @@ void jox_key_read_periodic(const JoxReader *r, const JoxKey *key, const JoxYaml 
     else if ((s->periodic_x && size.x < 1.0f) || (s->periodic_y && size.y < 1.0f))
         jox_scene_error(r, node, "bad-value", NULL,
                         "bounds that are joined must be at least 1 m apart");
+    else if (s->periodic_y && jox_yaml_get(r->draft->root, "storeys"))
+        jox_scene_error(r, node, "bad-value", "periodic: x, or turn the plan by 90 degrees",
+                        "bounds cannot be joined along y in a scene with storeys");
 }
 
 bool jox_scene_is_mod_file(const JoxSceneDraft *draft, const char *file) {

@@ -259,6 +259,7 @@ void jox_place_group(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
                  .in_count = fill->in_count,
                  .out_count = fill->outside_count,
                  .walls = &walls,
+                 .storeys = &s->storeys,
                  .clear = 0.2f,
                  .period = get_period(s)};
     group->count = compute_count(r, map, &a, group);

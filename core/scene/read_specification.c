@@ -41,7 +41,10 @@ static void read_scene_keys(JoxSceneDraft *draft, const JoxYaml *root) {
     draft->root = root;
     if (has_content(jox_yaml_get(root, "storeys")))
         measure_plan(draft, root);
+    const size_t errors = draft->reader.diagnostics->errors;
     jox_owner_read(&draft->reader, root, "scene", draft->scene);
+    if (draft->reader.diagnostics->errors == errors)
+        jox_scene_check_storeys(&draft->reader);
     if (!has_content(jox_yaml_get(root, "groups")) && !has_content(jox_yaml_get(root, "bodies")) &&
         !has_content(jox_yaml_get(root, "probes"))) /* probes alone measure a recording */
         jox_scene_error(&draft->reader, root, "empty-scene", "See scenes/circle.yaml",

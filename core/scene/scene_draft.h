@@ -99,6 +99,11 @@ JoxKeyRead jox_key_read_storey, jox_key_read_stairs, jox_key_read_stair_storey,
     jox_key_read_landings;
 JoxOwnerFinish jox_finish_storey, jox_finish_stair;
 
+/* stair_checks.c. Checks a stair whose keys are read; checks all storeys and stairs once the scene
+   is read without errors. */
+void jox_scene_check_stair(const JoxReader *reader, const JoxYaml *map, const JoxStair *stair);
+void jox_scene_check_storeys(const JoxReader *reader);
+
 /* places.c */
 JoxKeyRead jox_key_read_place_points, jox_key_read_place_start, jox_key_read_regions;
 JoxOwnerFinish jox_finish_place;

@@ -110,6 +110,7 @@ void jox_key_read_landings(const JoxReader *r, const JoxKey *key, const JoxYaml 
 }
 
 bool jox_finish_stair(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
+    const size_t errors = r->diagnostics->errors;
     JoxStairDraft *draft = item;
     JoxStair *stair = &draft->stair;
     if (!good)
@@ -136,6 +137,13 @@ bool jox_finish_stair(const JoxReader *r, const JoxYaml *map, void *item, bool g
                         "only an escalator has a speed");
     const float speed = isfinite(draft->speed) ? (float)draft->speed : BELT_SPEED;
     stair->belt = !moves ? 0.0f : stair->way == JOX_STAIR_DOWN ? -speed : speed;
+    if (find_storey(r->draft, stair->name) >= 0)
+        jox_scene_error(r, map, "bad-name", "Choose another", "there is a storey named '%.60s'",
+                        stair->name);
+    if (r->draft->storeys.stair_count >= JOX_MOST_STAIRS)
+        jox_scene_error(r, map, "too-many", NULL, "a scene has at most %d stairs", JOX_MOST_STAIRS);
+    if (r->diagnostics->errors == errors)
+        jox_scene_check_stair(r, map, stair);
     return true;
 }
 

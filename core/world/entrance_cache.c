@@ -3,8 +3,9 @@
 #include "base/assert.h"
 #include "base/mem.h"
 
-const JoxEntrance *jox_entrances_get(JoxEntrances *e, const JoxWalls *walls, const JoxPlace *places,
-                                     uint32_t count, uint32_t place) {
+const JoxEntrance *jox_entrances_get(JoxEntrances *e, const JoxStoreys *storeys,
+                                     const JoxWalls *walls, const JoxPlace *places, uint32_t count,
+                                     uint32_t place) {
     JOX_ASSERT(place < count && (!e->items || e->count == count));
     if (!e->items) {
         e->count = count;
@@ -13,7 +14,7 @@ const JoxEntrance *jox_entrances_get(JoxEntrances *e, const JoxWalls *walls, con
     }
     if (!e->items[place]) {
         e->items[place] = jox_alloc(1, sizeof *e->items[place]);
-        jox_entrance_make(e->items[place], &e->grid, &places[place]);
+        jox_entrance_make(e->items[place], storeys, &e->grid, &places[place]);
     }
     return e->items[place];
 }

@@ -14,8 +14,9 @@ typedef struct JoxEntrances {
 
 /* Returns the entrance of a place that is no set, one of `count` of a scene, between standing
    walls. */
-const JoxEntrance *jox_entrances_get(JoxEntrances *entrances, const JoxWalls *walls,
-                                     const JoxPlace *places, uint32_t count, uint32_t place);
+const JoxEntrance *jox_entrances_get(JoxEntrances *entrances, const JoxStoreys *storeys,
+                                     const JoxWalls *walls, const JoxPlace *places, uint32_t count,
+                                     uint32_t place);
 /* Frees all entrances; call it if places or standing walls changed. */
 void jox_entrances_clear(JoxEntrances *entrances);
 

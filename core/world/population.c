@@ -342,6 +342,7 @@ static JoxPlaced place_group(JoWorld *world, uint32_t number) {
     const JoxArea area = {.places = world->model.places,
                           .in = group->in,
                           .out = group->outside,
+                          .storeys = &world->model.storeys,
                           .in_count = group->in_count,
                           .out_count = group->outside_count};
     JoxAreaIndex *index = group->in_count ? jox_area_index(&area) : NULL;

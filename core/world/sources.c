@@ -29,8 +29,9 @@ uint32_t jox_source_door(const JoWorld *world, uint32_t source, uint32_t number)
 }
 
 const JoxEntrance *jox_source_entrance(JoWorld *world, uint32_t source, uint32_t number) {
-    return jox_entrances_get(&world->scratch.entrances, jox_world_walls(world), world->model.places,
-                             world->model.scene_places, jox_source_door(world, source, number));
+    return jox_entrances_get(&world->scratch.entrances, &world->model.storeys,
+                             jox_world_walls(world), world->model.places, world->model.scene_places,
+                             jox_source_door(world, source, number));
 }
 
 /* ---- where agents enter ---- */
