@@ -40,8 +40,9 @@ typedef struct Laying {
        is. `seam_a`: its end a as a position on this side. */
     const JoxSeam *seam;
     JoxV2 seam_a;
-    float reach;
-    Span *spans; /* covered parts of the edge in question */
+    float reach;         /* m: beyond the seam */
+    float before, after; /* m: along its line, before its end a and after its end b */
+    Span *spans;         /* covered parts of the edge in question */
     uint32_t span_count;
     size_t span_capacity;
 } Laying;
@@ -170,8 +171,10 @@ static bool find_laid_part(const Laying *l, uint32_t of, Span *part) {
     *part = (Span){0.0f, jox_length(jox_sub(walls->vertices[v->next].point, v->point))};
     clip_span(part, beyond, by_beyond);
     clip_span(part, l->reach - beyond, -by_beyond);
-    clip_span(part, along + l->reach, by_along);
-    clip_span(part, seam->length + l->reach - along, -by_along);
+    clip_span(part, along + l->before, by_along);
+    clip_span(part, seam->length + l->after - along, -by_along);
+    if (fabsf(by_beyond) < HAIR && beyond < HAIR)
+        return false; /* on the line of the seam, where other floor of this side may begin */
     return !v->covered && part->to - part->from > HAIR;
 }
 
@@ -305,6 +308,28 @@ static void lay_images(JoxWallImages *images, const JoxWalls *standing, JoxV2 lo
         mark_continued(images);
 }
 
+/* Finds how far images are laid along the line of a seam: half way to other seams beside it, as
+   floor beyond those is not floor beyond this one. */
+static void find_sides(const JoxStoreys *s, Laying *l) {
+    const JoxSeam *seam = l->seam;
+    const JoxSheet *on = &s->sheets[seam->here];
+    l->before = l->after = l->reach;
+    for (uint32_t k = on->first_seam; k < on->first_seam + on->seam_count; k++) {
+        const JoxSeam *other = &s->seams[k];
+        const JoxV2 a = jox_sub(other->a, seam->a), b = jox_sub(other->b, seam->a);
+        const float at_a = jox_dot(seam->along, a), at_b = jox_dot(seam->along, b);
+        const float beyond =
+            jox_minf(fabsf(jox_det(seam->along, a)), fabsf(jox_det(seam->along, b)));
+        const float beside = jox_minf(at_a, at_b) - seam->length;
+        if (other == seam || beyond > l->reach)
+            continue;
+        if (beside > -HAIR)
+            l->after = jox_minf(l->after, 0.5f * jox_maxf(beside, 0.0f));
+        else if (jox_maxf(at_a, at_b) < HAIR)
+            l->before = jox_minf(l->before, 0.5f * jox_maxf(-jox_maxf(at_a, at_b), 0.0f));
+    }
+}
+
 /* Lays the images of the walls beyond one seam, as far as they are seen from before it. */
 static void lay_beyond_seam(JoxWallImages *images, const JoxStoreys *s, const JoxSeam *seam,
                             float reach) {
@@ -313,6 +338,7 @@ static void lay_beyond_seam(JoxWallImages *images, const JoxStoreys *s, const Jo
     const JoxV2 there = jox_on_sheet(s, seam->there, seam->a);
     l.seam_a = jox_on_sheet(s, seam->here, seam->a);
     l.grid.walls = &images->walls;
+    find_sides(s, &l);
     jox_wall_grid_reset(&l.grid, STRIDE);
     for (uint32_t r = 0; r < images->own_rings; r++) {
         const Span x = find_ring_extent(&images->walls, r, true);

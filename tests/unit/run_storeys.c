@@ -1,0 +1,38 @@
+/* Runs of scenes with storeys: people find their way over stairs, also stairs one above the other.
+ */
+#include "unit/scene_loader.h"
+
+#define TOWER                                                                                      \
+    "jostle: 1\n"                                                                                  \
+    "storeys: {ground: {height: 0}, first: {height: 3.5}, second: {height: 7}}\n"                  \
+    "stairs:\n"                                                                                    \
+    "  a: {from: ground, to: first, path: [[8, 2], [12, 2], [12, 3.6], [8, 3.6]], width: 1.4}\n"   \
+    "  b: {from: first, to: second, path: [[8, 2], [12, 2], [12, 3.6], [8, 3.6]], width: 1.4}\n"   \
+    "walls:\n"                                                                                     \
+    "  - {line: [[0, 9], [0, 0], [20, 0], [20, 12], [0, 12], [0, 11]]}\n"                          \
+    "  - {line: [[0, 0], [20, 0], [20, 12], [0, 12]], closed: true, storey: [first, second]}\n"    \
+    "places:\n"                                                                                    \
+    "  one: {polygon: [[2, 1], [18, 1], [18, 11], [2, 11]], storey: first}\n"                      \
+    "  two: {polygon: [[2, 1], [18, 1], [18, 11], [2, 11]], storey: second}\n"                     \
+    "  street: {line: [[-2, 8], [-2, 12]]}\n"                                                      \
+    "groups: {people: {count: 30, in: [one, two], journey: [{exit: street}]}}\n"
+
+static void stairs_one_above_the_other_empty_a_tower(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_file(write_test_file("scene.yaml", TOWER), NULL, 0);
+    const JoWorld *w = scene->world;
+    assert_null(scene_messages.data);
+    for (uint32_t i = 0; i < w->state.agents.count; i++) /* nobody starts below a stair */
+        assert_true(
+            jox_is_floor(&w->model.storeys, jox_v2(w->state.agents.x[i], w->state.agents.y[i])));
+    step_scene_seconds(scene, 60);
+    assert_int_equal(w->state.agents.count, 0);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stairs_one_above_the_other_empty_a_tower),
+    };
+    return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
+}
