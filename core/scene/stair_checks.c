@@ -208,7 +208,7 @@ static bool check_floor(const JoxReader *r, const JoxYaml *node, JoxV2 at, const
     const bool on_stair = jox_stair_at(s, at) >= 0;
     jox_scene_error(r, node, "no-floor",
                     on_stair ? "Move it onto the stair"
-                             : "Move it, or write `storey: NAME` of the stair if it is meant on it",
+                             : "Move it, or write the name of the stair as its `storey`",
                     on_stair ? "%s at %s is beside the stair"
                              : "%s at %s is where a stair leads through the storey",
                     what, where.data);

@@ -172,11 +172,14 @@ static void lay_out(const JoxReader *r, const JoxYaml *node) {
 void jox_key_read_stairs(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const size_t errors = r->diagnostics->errors;
     const JoxStoreysDraft *all = &r->draft->storeys;
+    if (node && all->storey_count == 0) {
+        if (!jox_yaml_get(r->draft->root, "storeys")) /* else they are wrong, and reported */
+            jox_scene_error(r, node, "missing-key",
+                            "storeys: {ground: {height: 0}, first: {height: 3.5}}",
+                            "stairs need `storeys`");
+        return;
+    }
     jox_key_read_items(r, key, node, item);
-    if (node && all->storey_count == 0)
-        jox_scene_error(r, node, "missing-key",
-                        "storeys: {ground: {height: 0}, first: {height: 3.5}}",
-                        "stairs need `storeys`");
     if (all->storey_count > 0 && !r->draft->measuring && r->diagnostics->errors == errors)
         lay_out(r, node ? node : jox_yaml_get(r->draft->root, "storeys"));
 }

@@ -14,10 +14,7 @@
 
 #include "scene_texts.h"
 
-/* Texts with one error. An `@`, which is removed, marks its position. */
-static const struct Case {
-    const char *text, *code, *hint;
-} CASES[] = {
+static const JoxErrorCase CASES[] = {
     {"@seeed: 3\n" GROUP, "unknown-key", "Did you mean 'seed'?"},
     /* Texts with zero bytes, and bytes that are no characters. */
     {"title: @\"a\\0b\"\n" GROUP, "bad-text", "Take \\0 or"},
@@ -351,30 +348,7 @@ static const struct Case {
 
 static void every_error_has_position_and_hint(void **state) {
     (void)state;
-    int wrong = 0;
-    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
-        char text[1024];
-        snprintf(text, sizeof text, "jostle: 1\n%s", CASES[c].text);
-        char *at = strchr(text, '@');
-        int line = 1, column = 1;
-        for (char *k = text; k < at; k++) {
-            column = *k == '\n' ? 1 : column + ((*k & 0xc0) != 0x80); /* characters */
-            line += *k == '\n';
-        }
-        memmove(at, at + 1, strlen(at));
-        JoxDiagnostics d = {0};
-        JoxSceneSpec *scene = read_scene_text(text, NULL, 0, &d);
-        if (scene || d.errors != 1 ||
-            !is_diagnostic(&d.items[0], CASES[c].code, line, column, CASES[c].hint) ||
-            strcmp(d.items[0].file, "scenes/test.yaml") != 0) {
-            print_message("wanted one %s at %d:%d\n", CASES[c].code, line, column);
-            print_diagnostics(&d, text);
-            wrong++;
-        }
-        jox_scene_free(scene);
-        jox_diag_free(&d);
-    }
-    assert_int_equal(wrong, 0);
+    assert_int_equal(count_wrong_cases(CASES, sizeof CASES / sizeof *CASES), 0);
 }
 
 /* Errors of a whole scene are reported at its first key. */

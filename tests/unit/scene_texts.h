@@ -46,4 +46,37 @@ static inline bool is_diagnostic(const JoxDiagnostic *d, const char *code, int l
            (!hint || (d->hint && strstr(d->hint, hint)));
 }
 
+/* A text with one error. An `@`, which is removed, marks its position. */
+typedef struct JoxErrorCase {
+    const char *text, *code, *hint;
+} JoxErrorCase;
+
+/* Reads texts; returns of how many the one error is not as it should be, and prints those. */
+static inline int count_wrong_cases(const JoxErrorCase *cases, size_t count) {
+    int wrong = 0;
+    for (size_t c = 0; c < count; c++) {
+        char text[1024];
+        snprintf(text, sizeof text, "jostle: 1\n%s", cases[c].text);
+        char *at = strchr(text, '@');
+        int line = 1, column = 1;
+        for (char *k = text; k < at; k++) {
+            column = *k == '\n' ? 1 : column + ((*k & 0xc0) != 0x80); /* characters */
+            line += *k == '\n';
+        }
+        memmove(at, at + 1, strlen(at));
+        JoxDiagnostics d = {0};
+        JoxSceneSpec *scene = read_scene_text(text, NULL, 0, &d);
+        if (scene || d.errors != 1 ||
+            !is_diagnostic(&d.items[0], cases[c].code, line, column, cases[c].hint) ||
+            strcmp(d.items[0].file, "scenes/test.yaml") != 0) {
+            print_message("wanted one %s at %d:%d\n", cases[c].code, line, column);
+            print_diagnostics(&d, text);
+            wrong++;
+        }
+        jox_scene_free(scene);
+        jox_diag_free(&d);
+    }
+    return wrong;
+}
+
 #endif
