@@ -11,8 +11,8 @@
 #include "geom/walls.h"
 
 /* An area: inside any place of `in`, outside all places of `out` (indices), at least `clear` m from
-   walls, where there is floor. Random points also keep their spacing from the points `taken` and, if edges of the area
-   are joined with period `period`, from each other across the edges. */
+   walls, where there is floor. Random points also keep their spacing from the points `taken` and,
+   if edges of the area are joined with period `period`, from each other across the edges. */
 typedef struct JoxArea {
     const JoxPlace *places;
     const uint32_t *in, *out;
