@@ -202,6 +202,8 @@ typedef struct JoxAgents {
        seam stand whole pitches apart. Borrowed. */
     const struct JoxStoreys *storeys;
     float pitch;
+    /* The same, if a floor has a slope: some stair, ramp or escalator has flights; else NULL. */
+    const struct JoxStoreys *flights;
     void *spare; /* for permuting: a column of 4 bytes per agent */
     void *row;   /* for permuting: one wider entry */
     uint32_t *order;

@@ -54,6 +54,7 @@ void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law) {
 void jox_world_set_storeys(JoWorld *world, const JoxStoreys *storeys) {
     JOX_ASSERT(world->state.tick == 0 && world->model.storeys.storey_count == 0);
     jox_storeys_copy(&world->model.storeys, storeys);
+    world->state.agents.flights = storeys->flight_count ? &world->model.storeys : NULL;
     if (!jox_has_storeys(&world->model.storeys))
         return;
     world->state.agents.storeys = &world->model.storeys;

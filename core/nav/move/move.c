@@ -139,12 +139,18 @@ void jox_nav_move(JoxNav *nav, const JoxStep *step) {
                     .step = jox_nav_step(step),
                     .unhidden2 = jox_nav_unhidden2(nav),
                     .served = jox_minf(nav->grid.reach, jox_wall_images_reach(agents->period))};
-    jox_stage_memory_begin(nav->memory, 2 * jox_stage_memory_bytes(agents->count, sizeof(JoxV2)));
+    const bool belts = jox_nav_has_belts(agents);
+    jox_stage_memory_begin(nav->memory,
+                           (2 + belts) * jox_stage_memory_bytes(agents->count, sizeof(JoxV2)));
     for (int i = 0; i < 2; i++)
         move.position[i] =
             jox_stage_memory_take(nav->memory, agents->count, sizeof *move.position[i]);
+    if (belts)
+        move.carried = jox_stage_memory_take(nav->memory, agents->count, sizeof *move.carried);
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)timing->dt / STIFF_STEP);
     jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN, integrate_range, &move);
+    if (belts)
+        jox_nav_carry(&move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {
         jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN,
                          move.step.touched ? sweep_contacts : sweep_neighbours, &move);
