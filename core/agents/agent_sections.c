@@ -55,9 +55,22 @@ static void list_own(JoxAgents *a, JoxSections *s, const uint32_t *order) {
     }
 }
 
+/* Returns whether a rare parameter is at its default in all agents, and left out of hashes. */
+static bool is_unused(const JoxAgents *a, JoxParameter p) {
+    if (p < (JoxParameter)JOX_FIRST_RARE_PARAM)
+        return false;
+    const float usual = jox_parameter_store(p, jox_parameters[p].value);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (jox_param(a, p, i) != usual)
+            return false;
+    return true;
+}
+
 /* Lists a parameter with a cell per agent, even if it is stored once. */
 static void list_parameter(JoxAgents *a, JoxSections *s, JoxParameter p, const uint32_t *order) {
     float *cells = a->spare;
+    if (s->mode == JOX_SECTIONS_HASH && is_unused(a, p))
+        return;
     if (s->mode == JOX_SECTIONS_RESTORE || s->mode == JOX_SECTIONS_VISIT)
         jox_param_differ(a, p); /* restoring and visiting write to the cells */
     if (a->param[p].mask)

@@ -40,7 +40,12 @@
     X(stance, "m", 0, 1, 0,                                                                        \
       "how far to either side of an agent that stands its feet are; they hold it against forces "  \
       "from the side")                                                                             \
-    X(rise, "s", 0, 1e6, 5, "time that an agent lies after a fall, until it gets up")
+    X(rise, "s", 0, 1e6, 5, "time that an agent lies after a fall, until it gets up")              \
+    X(stair_up, "m/s", 0, 5, 0,                                                                    \
+      "wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope")   \
+    X(stair_down, "m/s", 0, 5, 0, "the same down stairs")                                          \
+    X(escalator_walk, "", 0, 1, 0.25,                                                              \
+      "chance that an agent walks on a running escalator; otherwise it stands on it")
 
 typedef enum JoxParameter {
 #define X(name, unit, least, greatest, value, meaning) JOX_PARAM_##name,
@@ -48,6 +53,9 @@ typedef enum JoxParameter {
 #undef X
         JOX_PARAM_COUNT
 } JoxParameter;
+/* Parameters from this one on have an own value only in machines that give them one, or of which a
+   group of the scene sets them: otherwise each new parameter would change the draws of all. */
+enum { JOX_FIRST_RARE_PARAM = JOX_PARAM_stair_up };
 
 typedef struct JoxParameterInfo {
     const char *name, *unit, *meaning;

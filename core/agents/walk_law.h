@@ -34,6 +34,8 @@
     X(course_time, "s", 0.01, 10, 0.2, "time in which the course follows the way chosen")          \
     X(start_time, "s", 0.01, 5, 0.145, "time in which people reach a speed")                       \
     X(stop_time, "s", 0.01, 5, 0.32, "time in which they slow down and turn")                      \
+    X(stair_gap_up, "", 0.1, 5, 2, "factor of the time gap up a stair of 30 degrees")              \
+    X(stair_gap_down, "", 0.1, 5, 1.65, "factor of the time gap down a stair of 30 degrees")       \
     X(close, "m", 0, 5, 0.5, "gap below which other people restrict velocities")                   \
     X(close_time, "s", 0.01, 5, 0.1, "time in which such a gap may be used up")                    \
     X(crowd_slowing, "m2", 0, 20, 0.6, "cost of a way through people held up, a person per m2")

@@ -5,11 +5,16 @@
 #include "base/assert.h"
 #include "lua/read_table.h"
 
-/* Gives every parameter an own value of its name, so that a group of the scene can set it. */
+/* Gives every parameter an own value of its name, so that a group of the scene can set it; rare
+   ones get it when a group does (jox_machine_own_parameter). */
 void jox_read_parameter_values(JoxBuild *b) {
     JOX_ASSERT(b->machine->own_count == 0);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
+        if (p >= JOX_FIRST_RARE_PARAM) {
+            b->machine->defaults[p] = (JoxValue){JOX_VALUE_CONST, info->value, 0, 0, 0};
+            continue;
+        }
         int32_t slot = jox_build_own(b, info->name);
         b->machine->own[slot].dist = jox_dist_constant(info->value);
         b->machine->defaults[p] = (JoxValue){JOX_VALUE_OWN, 0.0, slot, 0, 0};
@@ -20,6 +25,17 @@ void jox_read_parameter_values(JoxBuild *b) {
 static void store_default(JoxBuild *b, int p, JoxValue value, const JoxDist *dist) {
     b->machine->defaults[p].line = value.line;
     b->machine->defaults[p].source = value.source;
+    if (p >= JOX_FIRST_RARE_PARAM) {
+        b->machine->defaults[p] = value;
+        if (dist) {
+            const int32_t slot = jox_build_own(b, jox_parameters[p].name);
+            b->machine->own[slot].dist = *dist;
+            b->machine->own[slot].declared = true;
+            b->machine->defaults[p] =
+                (JoxValue){JOX_VALUE_OWN, 0.0, slot, value.line, value.source};
+        }
+        return;
+    }
     if (dist)
         b->machine->own[p].dist = *dist;
     else if (value.kind == JOX_VALUE_CONST)
@@ -31,7 +47,7 @@ static void store_default(JoxBuild *b, int p, JoxValue value, const JoxDist *dis
 /* Stores a default of a machine that a state runs. What is drawn is an own value of that state. */
 static void store_nested_default(JoxBuild *b, JoxNested *nested, int p, JoxValue value,
                                  const JoxDist *dist) {
-    if (dist || value.kind == JOX_VALUE_CONST) {
+    if (dist || (value.kind == JOX_VALUE_CONST && p < JOX_FIRST_RARE_PARAM)) {
         value.index = nested->defaults[p].index;
         b->machine->own[value.index].dist = dist ? *dist : jox_dist_constant(value.number);
         value.kind = JOX_VALUE_OWN;
@@ -47,13 +63,14 @@ static void add_nested_values(JoxBuild *b, int table, JoxNested *nested) {
         const int type = jox_read_field(L, table, jox_parameters[p].name);
         const JoxNode *node = jox_node_get(L, -1);
         lua_pop(L, 1);
-        if (nested->is_set[p] || (type != LUA_TNUMBER && !(node && node->kind == JOX_NODE_DIST)))
+        const bool drawn = node && node->kind == JOX_NODE_DIST, rare = p >= JOX_FIRST_RARE_PARAM;
+        if (nested->is_set[p] || !(drawn || (type == LUA_TNUMBER && !rare)))
             continue;
         char name[256];
         snprintf(name, sizeof name, "%.120s.%.60s", b->machine->outer[nested->outer].name,
                  jox_parameters[p].name);
         const int32_t slot = jox_build_own(b, name);
-        b->machine->own[slot].general = (uint32_t)p + 1;
+        b->machine->own[slot].general = rare ? 0 : (uint32_t)p + 1;
         b->machine->own[slot].declared = true; /* no group need set it */
         nested->defaults[p] = (JoxValue){JOX_VALUE_OWN, 0.0, slot, 0, 0};
     }

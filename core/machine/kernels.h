@@ -52,6 +52,9 @@ void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const 
 /* steering/stay_in.c: changes preferred velocities so that agents stay in places (`stays_in`). */
 void jox_machines_stay_in(JoxMachineRun *run);
 
+/* steering/stairs.c: slows preferred velocities down on stairs, ramps and escalators. */
+void jox_machines_mind_stairs(JoxMachineRun *run, JoxPool *pool);
+
 /* Executes one instruction for `count` agents of a batch, if it is arithmetic or reads the agents'
    columns; returns false, without effect, for all other instructions. */
 typedef bool JoxEvalKernel(const JoxMachineRun *run, const JoxInstruction *in,

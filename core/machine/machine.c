@@ -37,6 +37,22 @@ int32_t jox_machine_own_slot(const JoxMachine *machine, const char *name) {
     return -1;
 }
 
+void jox_machine_own_parameter(JoxMachine *machine, JoxParameter parameter) {
+    const char *name = jox_parameters[parameter].name;
+    JoxValue *value = &machine->defaults[parameter];
+    int32_t slot = jox_machine_own_slot(machine, name);
+    if (value->kind != JOX_VALUE_CONST)
+        return;
+    if (slot < 0) {
+        slot = (int32_t)machine->own_count++;
+        machine->own = jox_realloc(machine->own, machine->own_count, sizeof *machine->own);
+        machine->own[slot] = (JoxOwnSlot){
+            .name = jox_strdup(name), .dist = jox_dist_constant(value->number), .declared = true};
+    }
+    value->kind = JOX_VALUE_OWN;
+    value->index = slot;
+}
+
 JoxState jox_state_blank(char *name) {
     return (JoxState){.name = name,
                       .lasts_expression = -1,

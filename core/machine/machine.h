@@ -450,6 +450,9 @@ void jox_state_path(const JoxState *state, char path[256]);
 bool jox_counter_counts(const JoxMachine *machine, const JoxCounter *counter, uint32_t state);
 /* Returns the memory slot of a name, or -1; slots without a name are never found. */
 int32_t jox_machine_memory(const JoxMachine *machine, const char *name);
+/* Gives a machine that no set has yet an own value for a rare parameter, so that groups can set it;
+   has no effect if it has one, or computes the parameter. */
+void jox_machine_own_parameter(JoxMachine *machine, JoxParameter parameter);
 /* Returns the slot of an own value by name, or -1; slots without a name are never found. */
 int32_t jox_machine_own_slot(const JoxMachine *machine, const char *name);
 /* Kinds of parts of a machine that have names. */

@@ -185,6 +185,9 @@ function Target:contains(item) end
 ---@field balance jostle.OwnValue longest step by which an agent that forces throw regains its balance; 0: it never falls, m; 0 to 2, default 0
 ---@field stance jostle.OwnValue how far to either side of an agent that stands its feet are; they hold it against forces from the side, m; 0 to 1, default 0
 ---@field rise jostle.OwnValue time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
+---@field stair_up jostle.OwnValue wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
+---@field stair_down jostle.OwnValue the same down stairs, m/s; 0 to 5, default 0
+---@field escalator_walk jostle.OwnValue chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
 
 ---@class jostle.Now
 ---@field speed jostle.Number present speed, m/s
@@ -255,6 +258,9 @@ function Target:contains(item) end
 ---@field balance? jostle.Value|jostle.Drawn longest step by which an agent that forces throw regains its balance; 0: it never falls, m; 0 to 2, default 0
 ---@field stance? jostle.Value|jostle.Drawn how far to either side of an agent that stands its feet are; they hold it against forces from the side, m; 0 to 1, default 0
 ---@field rise? jostle.Value|jostle.Drawn time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
+---@field stair_up? jostle.Value|jostle.Drawn wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
+---@field stair_down? jostle.Value|jostle.Drawn the same down stairs, m/s; 0 to 5, default 0
+---@field escalator_walk? jostle.Value|jostle.Drawn chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
 
 ---@class jostle.Machine
 ---@field name? string name of the behaviour in messages and for mods
@@ -396,6 +402,9 @@ function Target:contains(item) end
 ---@field balance number longest step by which an agent that forces throw regains its balance; 0: it never falls, m; 0 to 2, default 0
 ---@field stance number how far to either side of an agent that stands its feet are; they hold it against forces from the side, m; 0 to 1, default 0
 ---@field rise number time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
+---@field stair_up number wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
+---@field stair_down number the same down stairs, m/s; 0 to 5, default 0
+---@field escalator_walk number chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
 
 --- Another agent, or a body, as it was before the step. Memory alone can be set.
 ---@class jostle.View
@@ -442,6 +451,9 @@ function Target:contains(item) end
 ---@field balance number longest step by which an agent that forces throw regains its balance; 0: it never falls, m; 0 to 2, default 0
 ---@field stance number how far to either side of an agent that stands its feet are; they hold it against forces from the side, m; 0 to 1, default 0
 ---@field rise number time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
+---@field stair_up number wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
+---@field stair_down number the same down stairs, m/s; 0 to 5, default 0
+---@field escalator_walk number chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
 
 --- A message that waited.
 ---@class jostle.Told
@@ -1040,6 +1052,9 @@ settings = nil
 ---@field balance number longest step by which an agent that forces throw regains its balance; 0: it never falls, m; 0 to 2, default 0
 ---@field stance number how far to either side of an agent that stands its feet are; they hold it against forces from the side, m; 0 to 1, default 0
 ---@field rise number time that an agent lies after a fall, until it gets up, s; 0 to 1e+06, default 5
+---@field stair_up number wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
+---@field stair_down number the same down stairs, m/s; 0 to 5, default 0
+---@field escalator_walk number chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
 
 --- A body of a scene, as it is now: m and m/s.
 ---@class jostle.TestBody

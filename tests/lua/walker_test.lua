@@ -34,6 +34,48 @@ test("two runs are the same to the last bit, on one thread and on two", function
   equal(a:hash(), b:hash())
 end)
 
+-- One person on the way up or down steps that rise by half a metre per metre, with more of `set` and of the stair.
+local function climber(up, set, stair)
+  local steps = { from = "ground", to = "ground", path = { { 2, 1 }, { 12, 1 } }, width = 2, rise = 5 }
+  if not up then steps.path = { { 12, 1 }, { 2, 1 } } end
+  for key, value in pairs(stair or {}) do steps[key] = value end
+  local all = { goal = "goal", speed = 1.34 }
+  for key, value in pairs(set or {}) do all[key] = value end
+  local s = scene({
+    storeys = { ground = { height = 0 } }, stairs = { steps = steps },
+    places = { goal = { point = { 16, 1 }, radius = 1 } },
+    groups = { people = { behaviour = "walker.lua", at = { { 1, 1 } }, set = all } },
+  })
+  s:run(5)
+  return s
+end
+
+test("up and down stairs people walk as slowly as measured", function()
+  near(climber(true):agent(0).now, 0.456 * 1.34, 0.02)
+  near(climber(false):agent(0).now, 0.570 * 1.34, 0.02)
+end)
+
+test("an own speed on stairs is along the slope, and not for ramps", function()
+  local along = math.sqrt(1 + 0.5 * 0.5)
+  near(climber(true, { stair_up = 0.5 }):agent(0).now * along, 0.5, 0.02)
+  near(climber(false, { stair_down = 0.9 }):agent(0).now * along, 0.9, 0.02)
+  near(climber(false, { stair_up = 0.5 }):agent(0).now, 0.570 * 1.34, 0.02)
+  near(climber(true, { stair_up = 0.5 }, { kind = "ramp" }):agent(0).now, 0.456 * 1.34, 0.02)
+end)
+
+test("an escalator carries those who stand on it, and those who walk besides", function()
+  local function progress(set, stair)
+    stair.kind = "escalator"
+    local s = climber(stair.way == "up", set, stair)
+    local from = s:agent(0).x
+    s:run(2)
+    return (s:agent(0).x - from) / 2 * math.sqrt(1 + 0.5 * 0.5)
+  end
+  near(progress({ escalator_walk = 0 }, { way = "up" }), 0.5, 0.01)
+  near(progress({ escalator_walk = 0 }, { way = "down", speed = 0.65 }), 0.65, 0.01)
+  near(progress({ escalator_walk = 1, stair_up = 0.6 }, { way = "up" }), 1.1, 0.03)
+end)
+
 test("a goal that is no place is refused", function()
   local bad = lane(2)
   bad.groups.people.set = { gaol = "goal" }

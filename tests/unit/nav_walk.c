@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "agents/stair_law.h"
 #include "base/number/bits.h"
 #include "base/number/elementary.h"
 #include "base/number/random.h"
@@ -386,8 +387,50 @@ static void no_walker_is_steered_through_a_wall(void **state) {
     jo_world_free(c.world);
 }
 
+/* ---- stairs ---- */
+
+/* Mean horizontal speeds of all people on two stairs, and level, in feet per minute (Fruin 1971,
+   Table 3-B), and Weidmann's, m/s; a stair of 30 degrees lies between both surveys. */
+static void speeds_on_stairs_lie_between_the_sources(void **state) {
+    (void)state;
+    const float level = 265.0f, slope = JOX_STAIR_SLOPE;
+    const struct {
+        float sign, gentle, steep, weidmann;
+    } ways[] = {{1.0f, 113.0f, 100.0f, 0.610f}, {-1.0f, 152.0f, 132.0f, 0.694f}};
+    for (int k = 0; k < 2; k++) {
+        const float between = (slope - 0.5f) / (7.0f / 11.25f - 0.5f);
+        const float fruin = (ways[k].gentle + (ways[k].steep - ways[k].gentle) * between) / level;
+        const float both = 0.5f * (fruin + ways[k].weidmann / 1.34f);
+        assert_float_equal(jox_slope_speed(ways[k].sign * slope), both, 0.005f);
+        const float change =
+            jox_slope_speed(ways[k].sign * 7.0f / 11.25f) - jox_slope_speed(ways[k].sign * 0.5f);
+        assert_float_equal(change, (ways[k].steep - ways[k].gentle) / level, 0.005f);
+        assert_float_equal(
+            jox_stair_slowness(slope, k == 0) * jox_slope_speed(ways[k].sign * slope), 1.0f, 1e-5f);
+    }
+    assert_float_equal(jox_slope_speed(0.1f), 1.0f - 0.115f, 1e-6f); /* grades: Fruin, chapter 3 */
+    assert_float_equal(jox_slope_speed(0.2f), 0.75f, 1e-6f);
+}
+
+static void steeper_floors_are_slower(void **state) {
+    (void)state;
+    const JoxWalkLaw law = jox_walk_law();
+    for (int sign = -1; sign <= 1; sign += 2)
+        for (int k = 0; k < 150; k++) {
+            const float slope = (float)sign * 0.01f * (float)k, next = slope + 0.01f * (float)sign;
+            assert_true(jox_slope_speed(next) <= jox_slope_speed(slope));
+            assert_true(jox_slope_gap(&law, next) >= jox_slope_gap(&law, slope));
+            assert_true(jox_slope_speed(next) > 0.2f);
+        }
+    assert_float_equal(jox_slope_gap(&law, 0.0f), 1.0f, 0.0f);
+    assert_float_equal(jox_slope_gap(&law, JOX_STAIR_SLOPE), (float)law.stair_gap_up, 1e-5f);
+    assert_float_equal(jox_slope_gap(&law, -JOX_STAIR_SLOPE), (float)law.stair_gap_down, 1e-5f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(speeds_on_stairs_lie_between_the_sources),
+        cmocka_unit_test(steeper_floors_are_slower),
         cmocka_unit_test(nearer_to_shared_goal_goes_first),
         cmocka_unit_test(headings_decide_without_a_shared_goal),
         cmocka_unit_test(standing_agent_is_passed),

@@ -25,7 +25,8 @@ typedef enum {
     JOX_DRAW_ARRIVAL,  /* time between two agents of a source */
     JOX_DRAW_ASIDE,    /* how far an agent that blocks others steps aside */
     JOX_DRAW_SWAY,     /* movement of waiting agents around their spots */
-    JOX_DRAW_SHOULDER  /* how far an agent that gets nowhere turns a shoulder */
+    JOX_DRAW_SHOULDER, /* how far an agent that gets nowhere turns a shoulder */
+    JOX_DRAW_ESCALATOR /* whether an agent walks on an escalator */
 } JoxDraw;
 
 /* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */

@@ -215,6 +215,7 @@ void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
     jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, &prefer);
     call_steering_functions(run);
     jox_machines_stay_in(run);
+    jox_machines_mind_stairs(run, pool);
     JOX_CHECK(jox_preferred_check(run));
     if (run->bracket)
         run->bracket(run->call_context, false);

@@ -6,9 +6,11 @@
 
 #include "agents/fold_lanes.h"
 #include "agents/param_lanes.h"
+#include "agents/stair_law.h"
 #include "base/number/exponential.h"
 #include "base/number/pi.h"
 #include "base/number/random.h"
+#include "geom/storeys.h"
 #include "nav/walk/walk.h"
 #include "simd/vectors.h"
 
@@ -200,8 +202,21 @@ static inline void jox_draw_gaps(const JoxWalk *w, uint32_t first, uint32_t lane
     }
 }
 
-/* Returns the time gaps of `lanes` (bits), s: they differ between agents, wander in time, and fall
-   with eagerness. */
+/* Lengthens the time gaps of `lanes` (bits) on stairs, by the slope in the direction of the aim. */
+static inline void jox_lengthen_gaps(const JoxWalk *w, uint32_t first, uint32_t lanes, float *gap) {
+    const JoxAgents *a = w->step.agents;
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes), i = first + lane;
+        const JoxFlight *flight = jox_flight_at(a->flights, (JoxV2){a->x[i], a->y[i]});
+        if (!flight)
+            continue;
+        const float up = jox_dot(flight->along, (JoxV2){a->aim_x[i], a->aim_y[i]});
+        gap[lane] *= jox_slope_gap(w->law, flight->slope * up);
+    }
+}
+
+/* Returns the time gaps of `lanes` (bits), s: they differ between agents, wander in time, fall
+   with eagerness, and grow on stairs. */
 static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t lanes,
                                       JoxFloats eagerness) {
     const JoxWalkLaw *law = w->law;
@@ -221,6 +236,8 @@ static inline JoxFloats jox_time_gaps(const JoxWalk *w, uint32_t first, uint32_t
         gap[lane] =
             (float)(calm * (1.0 + law->gap_spread * own) * jox_exp_within(law->gap_noise * wander));
     }
+    if (w->step.agents->flights)
+        jox_lengthen_gaps(w, first, lanes, gap);
     return jf_load(gap);
 }
 
