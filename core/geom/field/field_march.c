@@ -373,7 +373,7 @@ void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
         w->time[i] = INFINITY;
         f->cells[i].length = INFINITY;
     }
-    m.twins = jox_field_list_twins(w);
+    m.twins = jox_field_list_twins(w, true);
     begin_twins(&m);
     seed_place(&m, places, place);
     march_all(&m);

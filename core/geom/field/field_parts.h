@@ -55,7 +55,7 @@ typedef struct JoxFieldSheet {
     int first_row, rows;
     int to_row; /* rows by which it is moved: shift / size */
 } JoxFieldSheet;
-#define JOX_FIELD_SEAM_REACH 2.0f /* m: walls this near to a seam are seen from its other side */
+#define JOX_FIELD_SEAM_REACH 3.0f /* m: walls this near to a seam are seen from its other side */
 
 struct JoxField {
     JoxV2 low;

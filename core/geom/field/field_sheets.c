@@ -10,7 +10,7 @@
 #include "geom/wall_images.h"
 
 static const float GAP = 2.0f;    /* m between sheets */
-static const float REPEAT = 0.8f; /* m beyond a seam that repeats the other side */
+static const float REPEAT = 2.0f; /* m beyond a seam that repeats the other side */
 static const float MARGIN = 1.0f; /* m round the plan of a storey */
 
 /* ---- the layout ---- */
@@ -97,7 +97,6 @@ JoxPlace *jox_field_pack_goal(const JoxField *f, const JoxPlace *places, uint32_
     return goal;
 }
 
-/* Adds the images of people near seams beyond them, where the same floor is repeated. */
 void jox_field_pack_crowd(const JoxField *f, const JoxFieldCrowd *crowd, JoxFieldCrowd *out) {
     *out = *crowd;
     out->at = jox_alloc((size_t)crowd->count + 1, sizeof *out->at);
@@ -228,12 +227,12 @@ static void list_twins_of(const JoxFieldWork *w, const JoxSeam *seam, JoxFieldTw
         }
 }
 
-JoxFieldTwins jox_field_list_twins(const JoxFieldWork *w) {
+JoxFieldTwins jox_field_list_twins(const JoxFieldWork *w, bool crossed) {
     JoxFieldTwins twins = {NULL, 0};
     size_t capacity = 0;
     const JoxStoreys *s = w->f->storeys;
     for (uint32_t k = 0; s && k < s->seam_count; k++)
-        if (may_be_crossed(s, &s->seams[k]))
+        if (!crossed || may_be_crossed(s, &s->seams[k]))
             list_twins_of(w, &s->seams[k], &twins, &capacity);
     if (twins.count)
         jox_sort(twins.items, twins.count, sizeof *twins.items, compare_twins, NULL, NULL);

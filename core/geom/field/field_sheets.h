@@ -31,7 +31,8 @@ void jox_field_keep_to_sheet(const JoxField *field, float y, int *first, int *la
 void jox_field_block_beyond_floor(JoxFieldWork *work);
 /* Slows the floor of stairs down. */
 void jox_field_slow_stairs(JoxFieldWork *work);
-/* Lists the cells that repeat others, over seams that may be crossed. */
-JoxFieldTwins jox_field_list_twins(const JoxFieldWork *work);
+/* Lists the cells that repeat others over seams; `crossed`: over seams that may be crossed. The
+   caller frees the items. */
+JoxFieldTwins jox_field_list_twins(const JoxFieldWork *work, bool crossed);
 
 #endif
