@@ -70,7 +70,7 @@ void jox_key_read_event_name(const JoxReader *r, const JoxKey *key, const JoxYam
     else if (event->kind == JOX_EVENT_PUSH)
         check_pushed_name(r, node, event);
     else if (event->kind != JOX_EVENT_SIGNAL)
-        jox_scene_check_wall(r, node);
+        jox_scene_check_wall(r, node, true);
     else if (!*node->text || strlen(node->text) > LONGEST_NAME)
         jox_scene_error(r, node, "bad-event", NULL, "a signal's name has from 1 to %d bytes",
                         LONGEST_NAME);

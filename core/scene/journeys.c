@@ -63,7 +63,7 @@ void jox_key_read_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *n
 void jox_key_read_gate(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     if (!jox_key_read_scalar(r, key, node, "name"))
         return;
-    jox_scene_check_wall(r, node);
+    jox_scene_check_wall(r, node, false);
     *JOX_MEMBER(char *, item, key->offset) = jox_arena_text(r->arena, node->text);
 }
 

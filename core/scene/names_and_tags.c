@@ -36,7 +36,7 @@ int32_t jox_scene_find_group(const JoxReader *r, const JoxYaml *name) {
     return -1;
 }
 
-void jox_scene_check_wall(const JoxReader *r, const JoxYaml *name) {
+void jox_scene_check_wall(const JoxReader *r, const JoxYaml *name, bool stairs) {
     const JoxWalls *walls = &r->draft->scene->walls;
     const char *names[MOST_NAMES];
     uint32_t count = 0;
@@ -48,12 +48,21 @@ void jox_scene_check_wall(const JoxReader *r, const JoxYaml *name) {
         if (count < MOST_NAMES)
             names[count++] = walls->rings[i].name;
     }
+    const JoxStoreysDraft *storeys = &r->draft->storeys;
+    for (uint32_t k = 0; k < storeys->stair_count; k++) {
+        if (stairs && strcmp(storeys->stairs[k].stair.name, name->text) == 0)
+            return;
+        if (stairs && count < MOST_NAMES)
+            names[count++] = storeys->stairs[k].stair.name;
+    }
     if (r->draft->walls_wrong)
         return;
     jox_scene_error(r, name, "unknown-wall",
                     count ? jox_scene_suggest(r, name->text, names, count)
                           : "Give walls names: {line: [[0, 0], [0, 2]], name: gate}",
-                    "there is no wall named '%.60s'", name->text);
+                    stairs && storeys->stair_count ? "there is no wall or stair named '%.60s'"
+                                                   : "there is no wall named '%.60s'",
+                    name->text);
 }
 
 void jox_key_read_place(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {

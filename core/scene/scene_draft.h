@@ -71,10 +71,10 @@ typedef struct JoxBodyDraft {
 } JoxBodyDraft;
 
 /* names_and_tags.c. The first two return an index, or -1 with an error that suggests a name; the
-   third reports a name that no wall has. */
+   third reports a name that no wall has and, with `stairs`, no stair. */
 int32_t jox_scene_find_place(const JoxReader *reader, const JoxYaml *name);
 int32_t jox_scene_find_group(const JoxReader *reader, const JoxYaml *name);
-void jox_scene_check_wall(const JoxReader *reader, const JoxYaml *name);
+void jox_scene_check_wall(const JoxReader *reader, const JoxYaml *name, bool stairs);
 /* Read a place or group into an int32_t, -1 if missing or wrong; a text that must be a valid name;
    a list of tags; a colour, unchanged if missing or wrong. */
 JoxKeyRead jox_key_read_place, jox_key_read_group, jox_key_read_name, jox_key_read_tags,

@@ -245,10 +245,13 @@ static void check_floors(const JoxReader *r, const JoxSceneSpec *s) {
     }
 }
 
-/* Warns of storeys that nothing joins to another. */
+/* Warns of storeys that nothing joins to another, though others are joined. */
 static void check_joined(const JoxReader *r, const JoxStoreys *s) {
     const JoxYaml *map = jox_yaml_get(r->draft->root, "storeys");
-    for (uint32_t k = 0; s->storey_count > 1 && k < s->storey_count; k++) {
+    bool any = false; /* where nothing is joined, that is meant */
+    for (uint32_t n = 0; n < s->stair_count; n++)
+        any |= s->stairs[n].lower != s->stairs[n].upper;
+    for (uint32_t k = 0; any && k < s->storey_count; k++) {
         bool joined = false;
         for (uint32_t n = 0; n < s->stair_count && !joined; n++)
             joined = s->stairs[n].lower != s->stairs[n].upper &&

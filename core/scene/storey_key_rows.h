@@ -23,6 +23,7 @@
     {"stair", "way", TEXT, "", 0, 0, "both", TO(JoxStairDraft, way), .choices = "both|up|down", .meaning = "ways that people may go over it; an escalator runs up or down"}, \
     {"stair", "speed", NUMBER, "m/s", 0.1, 2, "", TO(JoxStairDraft, speed), .meaning = "of an escalator: its speed along the slope; default 0.5"}, \
     {"stair", "landings", LIST, "m", 0, 10000, "", READ(jox_key_read_landings), .content = "quantity[2][1]", .example = "landings: [[2.4, 3.6]]", .meaning = "flat parts: [from, to] along the path, in plan"}, \
+    {"stair", "closed", BOOL, "", 0, 0, "false", TO(JoxStairDraft, stair.closed), .meaning = "nobody sets out over it until an event opens it (`open: NAME`)"}, \
     {"stair", "rise", NUMBER, "m", 0.05, 100, "", TO(JoxStairDraft, rise), .meaning = "of steps on one storey: height of their head above their foot"}, \
     JOX_STOREY_OF("place", "storey or stair that it is on; default: the lowest storey. A place that is on two of them is two places and a set") \
     {"wall", "storey", NAMES, "", 0, 0, "", READ(jox_key_read_storey), .first = true, .meaning = "storey or stair that it is on, or several: it stands on each of them; default: the lowest storey"}, \

@@ -13,11 +13,14 @@ static const double FAR = 10000.0;   /* m */
 
 /* ---- actions ---- */
 
-static uint32_t list_wall_names(const JoWorld *world, const char *names[MOST_NAMES]) {
+/* Lists the names of what can be opened and closed: walls and stairs. */
+static uint32_t list_gate_names(const JoWorld *world, const char *names[MOST_NAMES]) {
     uint32_t count = 0;
     for (uint32_t r = 0; r < world->model.all_walls.ring_count && count < MOST_NAMES; r++)
         if (world->model.all_walls.rings[r].name)
             names[count++] = world->model.all_walls.rings[r].name;
+    for (uint32_t k = 0; k < world->model.storeys.stair_count && count < MOST_NAMES; k++)
+        names[count++] = world->model.storeys.stairs[k].name;
     return count;
 }
 
@@ -90,10 +93,14 @@ bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],
 }
 
 bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why) {
-    if (jox_world_open_walls(world, wall, open) == 0) {
+    const bool walls = jox_world_open_walls(world, wall, open) > 0;
+    const bool stair = jox_world_close_stair(world, wall, !open);
+    if (!walls && !stair) {
         const char *names[MOST_NAMES];
-        uint32_t count = list_wall_names(world, names);
-        return jox_event_refuse_name("wall named", wall, names, count, why);
+        uint32_t count = list_gate_names(world, names);
+        return jox_event_refuse_name(world->model.storeys.stair_count ? "wall or stair named"
+                                                                      : "wall named",
+                                     wall, names, count, why);
     }
     *(open ? &world->state.statistics.opened : &world->state.statistics.closed) += 1;
     return true;

@@ -47,6 +47,8 @@ static void list_walls(JoWorld *w, JoxSections *s) {
         JOX_SECTION(s, "open", ring->open);
         JOX_SECTION(s, "set", ring->set);
     }
+    for (uint32_t k = 0; k < w->model.storeys.stair_count; k++)
+        JOX_SECTION(s, "closed", w->model.storeys.stairs[k].closed);
     JOX_SECTION(s, "walls_version", w->state.walls_version);
     JOX_SECTION(s, "walls_set", w->state.walls_applied);
     JOX_SECTION(s, "walls_came", w->state.has_new_walls);

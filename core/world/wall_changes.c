@@ -150,6 +150,21 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
     return count;
 }
 
+bool jox_world_close_stair(JoWorld *world, const char *name, bool closed) {
+    JoxStoreys *storeys = &world->model.storeys;
+    bool found = false;
+    for (uint32_t k = 0; k < storeys->stair_count; k++) {
+        JoxStair *stair = &storeys->stairs[k];
+        if (strcmp(stair->name, name) != 0)
+            continue;
+        found = true;
+        if (stair->closed != closed)
+            note_change(world);
+        stair->closed = closed;
+    }
+    return found;
+}
+
 static bool has_images(const JoWorld *world) {
     const JoxV2 period = world->state.agents.period;
     return period.x > 0.0f || period.y > 0.0f || world->state.agents.storeys;

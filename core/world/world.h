@@ -188,6 +188,9 @@ void jox_world_mark_added_walls(JoWorld *world);
 void jox_world_append_added_walls(JoWorld *world);
 /* Opens or closes the walls of a name; returns how many there are. */
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
+/* Closes or opens the stair of a name: ways lead over it no more, or again; who is on it goes on.
+   Returns whether there is one. */
+bool jox_world_close_stair(JoWorld *world, const char *name, bool closed);
 /* Throws a body from a point (origin of its shape's frame, m; NULL: from where it is) with a
    velocity (m/s) and spin (rad/s). Its carrier loses it. Returns false for a static body or none.
  */

@@ -30,9 +30,52 @@ static void stairs_one_above_the_other_empty_a_tower(void **state) {
     jo_scene_free(scene);
 }
 
+#define TWO_STAIRS                                                                                 \
+    "jostle: 1\n"                                                                                  \
+    "storeys: {ground: {height: 0}, first: {height: 3}}\n"                                         \
+    "stairs:\n"                                                                                    \
+    "  near: {from: ground, to: first, path: [[18, 3], [13, 3]], width: 1.4}\n"                    \
+    "  far: {from: ground, to: first, path: [[18, 9], [13, 9]], width: 1.4}\n"                     \
+    "walls: [{line: [[0, 0], [20, 0], [20, 12], [0, 12]], closed: true, storey: first}]\n"         \
+    "places: {hall: {polygon: [[1, 1], [5, 1], [5, 5], [1, 5]], storey: first}, "                  \
+    "street: {line: [[26, 5], [26, 1]]}}\n"                                                        \
+    "groups: {people: {count: 12, in: hall, journey: [{exit: street}]}}\n"                         \
+    "events: [{at: 1, close: near}, {at: 100, open: near}]\n"
+
+static void nobody_sets_out_over_a_closed_stair(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_file(write_test_file("scene.yaml", TWO_STAIRS), NULL, 0);
+    JoWorld *w = scene->world;
+    JoxText why = {0}, saved = {0};
+    JoError error;
+    uint32_t on_far = 0;
+    for (int s = 0; s < 40; s++) {
+        step_scene_seconds(scene, 1);
+        for (uint32_t i = 0; i < w->state.agents.count; i++) {
+            const int32_t stair =
+                jox_stair_at(&w->model.storeys, jox_v2(w->state.agents.x[i], w->state.agents.y[i]));
+            assert_true(stair != 0);
+            on_far += stair == 1;
+        }
+    }
+    assert_true(on_far > 0);
+    assert_int_equal(w->state.agents.count, 0);
+    assert_true(jox_world_snapshot(w, &saved, &error));
+    assert_false(jox_event_open(w, "farr", true, &why));
+    assert_non_null(strstr(why.data, "no wall or stair named 'farr'. Did you mean 'far'?"));
+    assert_true(jox_event_open(w, "near", true, &why));
+    assert_false(w->model.storeys.stairs[0].closed);
+    assert_true(jox_world_restore(w, saved.data, saved.length, &error));
+    assert_true(w->model.storeys.stairs[0].closed); /* part of the state */
+    jox_text_free(&saved);
+    jox_text_free(&why);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stairs_one_above_the_other_empty_a_tower),
+        cmocka_unit_test(nobody_sets_out_over_a_closed_stair),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

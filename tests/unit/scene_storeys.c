@@ -51,6 +51,9 @@ static const JoxErrorCase CASES[] = {
      "no-floor", "Move it"},
     {STOREYS SQUARE "groups: {g: {behaviour: stander, count: 1, in: box, storey: @first}}\n",
      "bad-group", "places of `in`"},
+    {STOREYS "stairs: {north: {from: ground, to: first, " PLAIN "}}\nevents: [{at: 5, close: "
+             "@norht}]\n" GROUP,
+     "unknown-wall", "Did you mean 'north'?"},
     {STOREYS CRATE "events: [{at: 5, throw: crate, velocity: [1, 0, 0], storey: @first}]\n",
      "bad-event", "from: ["},
     {STOREYS CRATE "scenery: [{kind: bench, at: [0, 0], body: crate, storey: @first}]\n",

@@ -59,7 +59,7 @@ const JoxExample jox_scene_examples[] = {
      "  dog-leg: # two flights with a half landing between\n"
      "    {from: first, to: second, path: [[4, 6], [8, 6], [8, 7.6], [4, 7.6]]}\n"
      "  ramp up: {kind: ramp, from: ground, to: first, path: [[0, 20], [45, 20]], width: 2}\n"
-     "  escalator up: {kind: escalator, way: up, speed: 0.65, from: ground, to: first, path: [[4, 12], [10, 12]], width: 1}\n"
+     "  escalator up: {kind: escalator, way: up, speed: 0.65, from: ground, to: first, path: [[4, 12], [10, 12]], width: 1, closed: true}\n"
      "  aisle: {from: second, to: second, rise: 2, path: [[20, 0], [24, 0]]} # steps of a stand\n"
      STANDER},
     {"report", OPENING
