@@ -11,6 +11,8 @@
 #include "run/starting_people.h"
 #include "run/wall_checks.h"
 
+static const float SHEET_MARGIN = 5.0f; /* m along y that sheets may begin earlier or later */
+
 typedef struct SceneReload {
     JoScene *scene;
     JoxSceneSpec *old, *new;
@@ -219,9 +221,38 @@ static void note_other_keys(SceneReload *r, bool taken) {
         jox_scene_list_live_keys(r->old, r->new, &COMPARED[7], &r->done);
 }
 
+/* Returns whether storeys and stairs of both versions lie on the same sheets, so that positions of
+   one are positions of the other. */
+static bool keeps_sheets(const SceneReload *r) {
+    const JoxStoreys *old = &r->old->storeys, *new = &r->new->storeys;
+    return !jox_scene_differs(r->old, r->new, "storeys") &&
+           !jox_scene_differs(r->old, r->new, "stairs") &&
+           old->pitch == new->pitch &&fabsf(old->origin - new->origin) <= SHEET_MARGIN;
+}
+
+/* Says that nothing of an edit is taken over, as storeys or stairs changed or the plan has become
+   deeper than their sheets are. */
+static void refuse_other_sheets(const SceneReload *r) {
+    static const char *const NO_KEYS[] = {NULL};
+    JoxText later = {0};
+    jox_scene_list_live_keys(r->old, r->new, NO_KEYS, &later);
+    jox_scene_list_restart_keys(r->old, r->new, &later);
+    jox_run_tell_reloaded(r->scene, &(JoxReloadNews){.path = r->scene->spec->path,
+                                                     .done = "",
+                                                     .later = later.data ? later.data : ""});
+    jox_run_say(r->scene, "%s: %s: takes effect at the next start, as storeys are laid out anew\n",
+                r->scene->spec->path, later.data ? later.data : "nothing");
+    jox_run_tell_reloaded(r->scene, NULL);
+    jox_text_free(&later);
+}
+
 void jox_run_reload_scene(JoScene *scene, JoxSceneSpec **spec, double written) {
     SceneReload r = {.scene = scene, .old = scene->spec, .new = *spec};
     double begun = jox_clock_wall();
+    if (!keeps_sheets(&r)) {
+        refuse_other_sheets(&r);
+        return;
+    }
     replace_places(&r);
     bool sources = false;
     bool groups = r.later.length == 0; /* places of other names: their numbers would mean others */

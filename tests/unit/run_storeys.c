@@ -72,10 +72,36 @@ static void nobody_sets_out_over_a_closed_stair(void **state) {
     jo_scene_free(scene);
 }
 
+/* Edits that change storeys, stairs or how deep the plan is wait for the next start, whole; others
+   are taken over on their sheets. */
+static void edits_that_move_sheets_wait(void **state) {
+    (void)state;
+    char text[2000];
+    JoScene *scene = load_scene_file(write_test_file("scene.yaml", TWO_STAIRS), NULL, 0);
+    const JoxPlace *street = &scene->world->model.places[1];
+    step_scene_seconds(scene, 1);
+    snprintf(text, sizeof text, "%s%s", TWO_STAIRS, "floor: wood\n");
+    memcpy(strstr(text, "[26, 5]"), "[27, 5]", 7);
+    edit_scene(scene, text);
+    assert_non_null(strstr(scene_messages.data, "places, floor changed, live"));
+    assert_true(street->points[0].x == 27.0f);
+    memcpy(strstr(text, "[27, 5]"), "[27, 6]", 7);
+    memcpy(strstr(text, "width: 1.4"), "width: 1.6", 10);
+    edit_scene(scene, text);
+    assert_non_null(strstr(scene_messages.data, "places, stairs (the world is made with them): "
+                                                "takes effect at the next start"));
+    assert_true(street->points[0].y == 5.0f);
+    snprintf(text, sizeof text, "%s%s", TWO_STAIRS, "regions: {a: [[0, 90], [1, 90], [1, 91]]}\n");
+    edit_scene(scene, text);
+    assert_non_null(strstr(scene_messages.data, "as storeys are laid out anew"));
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stairs_one_above_the_other_empty_a_tower),
         cmocka_unit_test(nobody_sets_out_over_a_closed_stair),
+        cmocka_unit_test(edits_that_move_sheets_wait),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }
