@@ -13,8 +13,6 @@ static const float LEAST_FLIGHT = 0.05f; /* m: shorter flights are flat */
 static const float BETWEEN = 20.0f;      /* m: between the plans of two sheets at least */
 static const float PITCH_UNIT = 9.0f;    /* m: whole cells of fields for most sizes of cells */
 static const float LEAST_PITCH = 45.0f;  /* m: so that people see 20 m */
-static const float SAME_END = 0.02f; /* m: ends of stairs this near to each other are the same */
-static const float RAIL = 1.1f;      /* m: height of the walls round a stair on the upper floor */
 
 static JoxV2 point_at(const JoxStair *stair, uint32_t at, float aside) {
     const JoxV2 *path = stair->path;
@@ -33,10 +31,6 @@ float jox_stair_length(const JoxStair *stair) {
     for (uint32_t k = 1; k < stair->path_count; k++)
         length += jox_length(jox_sub(stair->path[k], stair->path[k - 1]));
     return length;
-}
-
-static bool joins_storeys(const JoxStair *stair) {
-    return stair->lower != stair->upper;
 }
 
 /* ---- outlines and flights ---- */
@@ -134,13 +128,13 @@ static bool claims_meet(const JoxStair *a, const JoxStair *b) {
 static void choose_sheet(JoxStoreys *s, uint32_t stair) {
     JoxStair *st = &s->stairs[stair];
     st->sheet = st->lower;
-    if (!joins_storeys(st))
+    if (!jox_stair_joins(st))
         return;
     bool taken = true;
     for (st->sheet = s->storey_count; taken; st->sheet += taken) {
         taken = false;
         for (uint32_t k = 0; k < stair && !taken; k++)
-            taken = joins_storeys(&s->stairs[k]) && s->stairs[k].sheet == st->sheet &&
+            taken = jox_stair_joins(&s->stairs[k]) && s->stairs[k].sheet == st->sheet &&
                     claims_meet(&s->stairs[k], st);
     }
     if (st->sheet >= s->sheet_count)
@@ -188,7 +182,7 @@ static void list_seams(JoxStoreys *s) {
     for (uint32_t sheet = 0; sheet < s->sheet_count; sheet++) {
         s->sheets[sheet].first_seam = s->seam_count;
         for (uint32_t k = 0; k < 4 * s->stair_count; k++) {
-            if (!joins_storeys(&s->stairs[k / 4]))
+            if (!jox_stair_joins(&s->stairs[k / 4]))
                 continue;
             const JoxSeam seam = make_seam(s, k / 4, k & 1, k & 2);
             if (seam.here == sheet)
@@ -204,7 +198,7 @@ void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
     for (uint32_t k = 0; k < s->stair_count; k++) {
         JoxStair *st = &s->stairs[k];
         JOX_ASSERT(st->path_count >= 2 && st->lower <= st->upper && st->upper < s->storey_count);
-        if (joins_storeys(st))
+        if (jox_stair_joins(st))
             st->rise = s->storeys[st->upper].height - s->storeys[st->lower].height;
         lay_outline(st);
         lay_flights(s, k);
@@ -220,65 +214,6 @@ void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
     s->sheets = jox_realloc(s->sheets, s->sheet_count, sizeof *s->sheets);
     list_stairs(s);
     list_seams(s);
-}
-
-/* ---- walls ---- */
-
-/* Adds the walls of a stair on one sheet; open at its foot, its head, both or neither. */
-static void add_stair_walls(const JoxStoreys *s, const JoxStair *st, uint32_t sheet, bool foot_open,
-                            bool head_open, float height, JoxWalls *walls) {
-    const uint32_t n = st->path_count;
-    JoxV2 *ring = jox_alloc(2 * (size_t)n, sizeof *ring);
-    /* Begins after the open end: at the foot on the right, or at the head on the left. */
-    const uint32_t first = foot_open ? 0 : n;
-    for (uint32_t k = 0; k < 2 * n; k++)
-        ring[k] = jox_on_sheet(s, sheet, st->outline[(first + k) % (2 * n)]);
-    if (foot_open && head_open) {
-        jox_walls_add_polyline(walls, ring, n, false, height);
-        jox_walls_add_polyline(walls, ring + n, n, false, height);
-    } else {
-        jox_walls_add_polyline(walls, ring, 2 * n, !foot_open && !head_open, height);
-    }
-    jox_free(ring);
-}
-
-/* Returns the corners of a stair's foot or head. */
-static void find_end(const JoxStair *st, bool at_head, JoxV2 *right, JoxV2 *left) {
-    const uint32_t n = st->path_count;
-    *right = st->outline[at_head ? n - 1 : 0];
-    *left = st->outline[at_head ? n : 2 * n - 1];
-}
-
-/* Returns whether a storey is open to a stair at its foot or head, or to another stair whose foot
-   or head is there, as where stairs lie one above the other. */
-static bool is_open_at(const JoxStoreys *s, const JoxStair *st, uint32_t storey, bool at_head) {
-    JoxV2 a, b, c, d;
-    find_end(st, at_head, &a, &b);
-    for (uint32_t k = 0; k < 2 * s->stair_count; k++) {
-        const JoxStair *other = &s->stairs[k / 2];
-        const bool head = k & 1;
-        if (!joins_storeys(other) || (head ? other->upper : other->lower) != storey)
-            continue;
-        find_end(other, head, &c, &d);
-        if ((other == st && head == at_head) ||
-            jox_minf(jox_maxf(jox_length(jox_sub(a, c)), jox_length(jox_sub(b, d))),
-                     jox_maxf(jox_length(jox_sub(a, d)), jox_length(jox_sub(b, c)))) < SAME_END)
-            return true;
-    }
-    return false;
-}
-
-void jox_storeys_add_walls(const JoxStoreys *s, JoxWalls *walls) {
-    for (uint32_t k = 0; k < s->stair_count; k++) {
-        const JoxStair *st = &s->stairs[k];
-        if (!joins_storeys(st))
-            continue;
-        add_stair_walls(s, st, st->sheet, true, true, INFINITY, walls);
-        for (uint32_t storey = st->lower; storey <= st->upper; storey++)
-            add_stair_walls(s, st, storey, is_open_at(s, st, storey, false),
-                            is_open_at(s, st, storey, true), storey == st->lower ? INFINITY : RAIL,
-                            walls);
-    }
 }
 
 /* ---- memory ---- */
@@ -420,8 +355,9 @@ bool jox_is_floor_of(const JoxStoreys *s, uint32_t sheet, JoxV2 plan) {
     const bool on_storey = sheet < s->storey_count;
     for (uint32_t k = 0; k < s->stair_count; k++) {
         const JoxStair *st = &s->stairs[k];
-        const bool here = on_storey ? joins_storeys(st) && st->lower <= sheet && sheet <= st->upper
-                                    : st->sheet == sheet;
+        const bool here = on_storey
+                              ? jox_stair_joins(st) && st->lower <= sheet && sheet <= st->upper
+                              : st->sheet == sheet;
         if (here && jox_is_within(plan, st->low, st->high) &&
             jox_polygon_contains(st->outline, 2 * st->path_count, plan))
             return !on_storey;

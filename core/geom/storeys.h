@@ -109,13 +109,17 @@ float jox_stair_length(const JoxStair *stair);
    get different sheets. Call it once all members above "Laid out" are set, or again when they
    change. */
 void jox_storeys_lay_out(JoxStoreys *storeys, JoxV2 low, JoxV2 high);
-/* Appends the walls of all stairs: their sides, and, on each storey, what encloses their footprint
-   except at their seams. */
+/* Appends the walls of all stairs: their sides, and, on each storey that they pass, what encloses
+   their footprints except at seams (storey_walls.c). */
 void jox_storeys_add_walls(const JoxStoreys *storeys, JoxWalls *walls);
 /* Copies `from` into memory of its own; frees it. */
 void jox_storeys_copy(JoxStoreys *to, const JoxStoreys *from);
 void jox_storeys_free(JoxStoreys *storeys);
 
+/* Returns whether a stair leads from storey to storey; else it is a slope on one. */
+static inline bool jox_stair_joins(const JoxStair *stair) {
+    return stair->lower != stair->upper;
+}
 /* Returns whether a world has several sheets. */
 static inline bool jox_has_storeys(const JoxStoreys *storeys) {
     return storeys && storeys->sheet_count > 1;

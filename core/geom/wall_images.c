@@ -11,6 +11,7 @@
 
 static const float LEAST_REACH = 5.0f; /* m */
 static const float HAIR = 1e-3f;       /* m: edges within this distance coincide */
+static const float BEYOND = 5e-4f;     /* m: more than the rounding of positions on sheets */
 static const float STRAIGHT = 0.9999f; /* cosine between edges that go on in one line */
 static const float STRIDE = 0.5f;      /* m: between the points at which edges are looked up */
 
@@ -169,7 +170,7 @@ static bool find_laid_part(const Laying *l, uint32_t of, Span *part) {
     const float by_along = jox_dot(seam->along, v->direction);
     const float by_beyond = jox_det(seam->along, v->direction);
     *part = (Span){0.0f, jox_length(jox_sub(walls->vertices[v->next].point, v->point))};
-    clip_span(part, beyond, by_beyond);
+    clip_span(part, beyond - BEYOND, by_beyond); /* not what lies in line with the seam */
     clip_span(part, l->reach - beyond, -by_beyond);
     clip_span(part, along + l->before, by_along);
     clip_span(part, seam->length + l->after - along, -by_along);
