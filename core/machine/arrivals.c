@@ -32,7 +32,7 @@ static bool is_in_place(const JoxMachineRun *run, uint32_t i, uint32_t place) {
 static bool keeps_off(const JoxMachineRun *run, uint32_t keeper, uint32_t i, uint32_t place,
                       JoxV2 way) {
     const JoxAgents *a = run->agents;
-    const JoxV2 at = {a->x[i], a->y[i]}, offset = jox_offset(a, i, keeper);
+    const JoxV2 at = {a->x[i], a->y[i]}, offset = jox_way_between(a, i, keeper);
     const float away = jox_length(offset);
     const float gap =
         away - jox_param(a, JOX_PARAM_radius, i) - jox_param(a, JOX_PARAM_radius, keeper);

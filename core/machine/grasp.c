@@ -14,7 +14,7 @@ static const float STIFF_MOST = 0.12f, DAMPED_MOST = 0.7f;
 
 static float measure_arm_gap(const JoxAgents *a, uint32_t i, uint32_t j) {
     const JoxParameterColumn radius = a->param[JOX_PARAM_radius];
-    return jox_length(jox_offset(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
+    return jox_length(jox_way_between(a, i, j)) - jox_at(radius, i) - jox_at(radius, j);
 }
 
 JoxObstacle jox_find_grasp_obstacle(const JoxMachineRun *run, const JoxState *state, uint32_t i,
@@ -44,7 +44,7 @@ static void pull_together(const JoxMachineRun *run, uint32_t i, uint32_t j, floa
     const JoxParameterColumn mass = a->param[JOX_PARAM_mass];
     const float dt = (float)run->dt;
     const float both = jox_at(mass, i) * jox_at(mass, j) / (jox_at(mass, i) + jox_at(mass, j));
-    const JoxV2 way = jox_unit(jox_offset(a, i, j));
+    const JoxV2 way = jox_unit(jox_way_between(a, i, j));
     const float apart = jox_maxf(measure_arm_gap(a, i, j), 0.0f);
     const float parting = way.x * (a->vx[j] - a->vx[i]) + way.y * (a->vy[j] - a->vy[i]);
     const float stiffness = jox_minf(STIFFNESS, STIFF_MOST * both / (dt * dt));

@@ -123,7 +123,7 @@ static bool exchange_turns(JoxMachineRun *run, const JoxPlace *queue, uint32_t r
         jox_param(a, JOX_PARAM_radius, first) + jox_param(a, JOX_PARAM_radius, second);
     if (a->still[first] <= HELD_UP || a->still[second] <= HELD_UP ||
         others >= way - AHEAD * queue->spacing ||
-        jox_length(jox_offset(a, first, second)) > radii + BESIDE)
+        jox_length(jox_way_between(a, first, second)) > radii + BESIDE)
         return false;
     const uint32_t turn = a->queued[first];
     a->queued[first] = a->queued[second];

@@ -183,19 +183,20 @@ bool jox_passes_filter(const JoxMachineRun *run, const JoxAgentFilter *filter, u
                        uint32_t j) {
     const JoxAgents *a = run->agents;
     return (!filter->some || passes_names(run, filter, i, j)) &&
-           jox_passes_view(run, filter, i, jox_offset(a, i, j), jox_v2(a->vx[j], a->vy[j]));
+           jox_passes_view(run, filter, i, jox_way_between(a, i, j), jox_v2(a->vx[j], a->vy[j]));
 }
 
 /* Returns whether agent i sees agent j, however far away it is. */
 static bool has_in_sight(const JoxMachineRun *run, uint32_t i, uint32_t j) {
     const JoxV2 from = {run->agents->x[i], run->agents->y[i]},
-                to = jox_add(from, jox_offset(run->agents, i, j));
+                to = jox_add(from, jox_way_between(run->agents, i, j));
     return !jox_is_hidden(run, from, to, false) && !jox_is_behind_body(run, from, to, -1);
 }
 
 bool jox_sees_agent(const JoxMachineRun *run, uint32_t i, uint32_t j) {
     const float reach = jox_param(run->agents, JOX_PARAM_perception, i);
-    return jox_length2(jox_offset(run->agents, i, j)) <= reach * reach && has_in_sight(run, i, j);
+    return jox_length2(jox_way_between(run->agents, i, j)) <= reach * reach &&
+           has_in_sight(run, i, j);
 }
 
 bool jox_sees_body(const JoxMachineRun *run, uint32_t i, uint32_t row) {
@@ -235,7 +236,7 @@ static uint32_t add_others(const JoxMachineRun *run, const JoxTarget *target, ui
     const uint32_t first = count;
     float away[JOX_SMALL_CROWD];
     for (uint32_t j = 0; a->count <= JOX_SMALL_CROWD && j < a->count; j++) {
-        const float d2 = jox_length2(jox_offset(a, i, j));
+        const float d2 = jox_length2(jox_way_between(a, i, j));
         bool known = j == i;
         for (uint32_t k = 0; k < n->count[i] && !known; k++)
             known = n->index[jox_neighbour_at(n, i, k)] == j;

@@ -74,7 +74,9 @@ double jox_who_is_held(const JoxMachineRun *run, uint32_t i) {
 
 JoxSpot jox_spot_agent(const JoxMachineRun *run, uint32_t i, uint32_t other) {
     const JoxAgents *a = run->agents;
-    JoxV2 offset = jox_offset(a, i, other);
+    const JoxV2 offset = jox_way_between(a, i, other);
+    if (!(fabsf(offset.y) < JOX_OUT_OF_SIGHT))
+        return JOX_NO_SPOT;
     return (JoxSpot){.found = true,
                      .x = a->x[i] + offset.x,
                      .y = a->y[i] + offset.y,

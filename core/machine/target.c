@@ -91,7 +91,7 @@ static uint32_t find_nearest_agent(const JoxMachineRun *run, const JoxTarget *ta
     uint32_t best = JOX_NO_INDEX;
     float reach = jox_param(a, JOX_PARAM_perception, i), least = reach * reach;
     for (uint32_t j = 0; a->count <= JOX_SMALL_CROWD && j < a->count; j++) {
-        float d2 = jox_length2(jox_offset(a, i, j));
+        float d2 = jox_length2(jox_way_between(a, i, j));
         if (j == i || d2 > least || !jox_is_wanted(run, target, i, j))
             continue;
         if (d2 < least || best == JOX_NO_INDEX || a->id[j] < a->id[best]) {
@@ -195,7 +195,7 @@ static JoxSpot find_nearest_spot(const JoxMachineRun *run, const JoxTarget *targ
                                : -1;
     const uint32_t other = target->filter.flies ? JOX_NO_INDEX : find_nearest_agent(run, target, i);
     if (other != JOX_NO_INDEX &&
-        (object < 0 || jox_length2(jox_offset(run->agents, i, other)) < object_d2))
+        (object < 0 || jox_length2(jox_way_between(run->agents, i, other)) < object_d2))
         return jox_spot_agent(run, i, other);
     return object >= 0 ? jox_spot_body(&run->objects->rows[object], object) : JOX_NO_SPOT;
 }
@@ -365,7 +365,7 @@ float jox_headway(const JoxMachineRun *run, uint32_t i) {
     float best = jox_param(a, JOX_PARAM_perception, i);
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
-        JoxV2 d = jox_offset(a, i, j);
+        JoxV2 d = jox_way_between(a, i, j);
         float along = jox_dot(d, ahead), aside = fabsf(jox_det(d, ahead));
         float sum = jox_at(radius, i) + jox_at(radius, j);
         if (along > 0.0f && aside < sum / 2.0f && jox_dot(jox_heading_of(run, j), ahead) >= 0.0f)

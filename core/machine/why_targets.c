@@ -242,9 +242,9 @@ static Tally count_candidates(const JoxMachineRun *run, uint32_t i, const JoxTar
     const JoxAgents *a = run->agents;
     for (uint32_t j = 0; j < a->count; j++)
         if (j != i && jox_is_of_kind(a, target, i, j))
-            count_candidate(run, i, target,
-                            (Candidate){.agent = j, .object = -1, .offset = jox_offset(a, i, j)},
-                            &tally);
+            count_candidate(
+                run, i, target,
+                (Candidate){.agent = j, .object = -1, .offset = jox_way_between(a, i, j)}, &tally);
     const bool bodies = all && target->kind == JOX_TARGET_NEAREST;
     for (uint32_t o = 0; bodies && run->objects && o < run->objects->count; o++) {
         const JoxObject *object = &run->objects->rows[o];

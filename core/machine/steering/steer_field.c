@@ -42,11 +42,20 @@ static void store_bound_place(const Asking *q, uint32_t k, const JoxField *field
     a->way_left[i] = way;
 }
 
+/* Returns whether an agent is on another sheet than the place: there is no straight way. */
+static bool is_on_another_sheet(const Asking *q, uint32_t i) {
+    const JoxStoreys *s = q->run->agents->storeys;
+    const JoxPlace *place = &q->run->places[q->place];
+    return place->count == 0 ||
+           jox_sheet_of(s, place->centre.y) != jox_sheet_of(s, q->run->agents->y[i]);
+}
+
 /* Writes the direction of an agent; straight towards the target where no way is known. */
 static void write_way(const Asking *q, uint32_t k, JoxV2 direction) {
     JoxSteer *s = q->s;
     const uint32_t n = q->number[k];
-    if (!(jox_length2(direction) > 0.0f))
+    if (!(jox_length2(direction) > 0.0f) &&
+        !(q->run->agents->storeys && is_on_another_sheet(q, s->index[n])))
         direction = jox_steer_seek(q->run, s->index[n], q->term->target);
     s->way_x[n] = direction.x;
     s->way_y[n] = direction.y;

@@ -43,10 +43,40 @@ static void steer_along(const JoxMachineRun *run, const int32_t *places, JoxStee
     }
 }
 
+/* Returns whether no part of a place is on the storey, or the stair, where a point is. */
+static bool is_elsewhere(const JoxMachineRun *run, int32_t index, JoxV2 at) {
+    const JoxStoreys *s = run->agents->storeys;
+    const JoxPlace *place = &run->places[index];
+    bool elsewhere = place->count == 0 || jox_sheet_of(s, place->centre.y) != jox_sheet_of(s, at.y);
+    for (uint32_t k = 0; k < place->member_count && elsewhere; k++)
+        elsewhere = is_elsewhere(run, place->members[k], at);
+    return elsewhere;
+}
+
+/* Returns the way over stairs to a place on another storey; (0, 0) until it is known, and where
+   none leads. */
+static JoxV2 find_way_over_stairs(const JoxMachineRun *run, int32_t place, JoxV2 at) {
+    const uint32_t kind = JOX_ROUTE_NOW;
+    if (!run->fields)
+        return (JoxV2){0.0f, 0.0f};
+    __atomic_fetch_or(&run->wanted[place], (uint8_t)(1u << kind), __ATOMIC_RELAXED);
+    const JoxField *field = run->fields[(uint32_t)place * JOX_ROUTE_KINDS + kind];
+    return field ? jox_field_direction(field, at) : (JoxV2){0.0f, 0.0f};
+}
+
 static void steer_seek_batch(const JoxMachineRun *run, const int32_t *places, int32_t target,
                              JoxSteer *s) {
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
+        const JoxV2 at = {run->agents->x[s->index[n]], run->agents->y[s->index[n]]};
+        if (place && run->agents->storeys && is_elsewhere(run, places[n], at)) {
+            const JoxV2 over = find_way_over_stairs(run, places[n], at);
+            s->arrives[n] = 0;
+            s->to_x[n] = s->to_y[n] = 0.0f;
+            s->way_x[n] = over.x;
+            s->way_y[n] = over.y;
+            continue;
+        }
         const bool arrives = place && jox_place_is_spot(place);
         JoxV2 way = {0.0f, 0.0f}, to = {0.0f, 0.0f};
         if (arrives)

@@ -109,8 +109,26 @@ static bool is_spot_taken(const JoxSpots *t, JoxV2 p, float radius) {
     return false;
 }
 
+/* Returns whether a disc overlaps an agent beyond a seam by more than DEEP. */
+static bool is_taken_beyond_seam(const JoxSpots *t, JoxV2 p, float radius) {
+    const JoxStoreys *s = t->agents->storeys;
+    const JoxSheet *sheet = &s->sheets[jox_sheet_of(s, p.y)];
+    const JoxV2 plan = jox_in_plan(s, p);
+    for (uint32_t k = sheet->first_seam; k < sheet->first_seam + sheet->seam_count; k++) {
+        const JoxSeam *seam = &s->seams[k];
+        const JoxV2 nearest = jox_segment_nearest(seam->a, seam->b, plan);
+        if (jox_length2(jox_sub(nearest, plan)) < t->cell * t->cell &&
+            is_taken_at(t, jox_v2(p.x, p.y + seam->shift), radius))
+            return true;
+    }
+    return false;
+}
+
 bool jox_spots_is_free(const JoxSpots *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
     JOX_ASSERT(2.0f * jox_maxf(radius, t->widest) <= t->cell * 1.001f);
+    if (t->agents->storeys &&
+        (!jox_is_floor(t->agents->storeys, p) || is_taken_beyond_seam(t, p, radius)))
+        return false;
     return !is_spot_taken(t, p, radius) && !jox_wall_grid_is_near(grid, p, TOUCHING * radius);
 }
 
@@ -192,7 +210,10 @@ static float limit_distance(const JoxSpotWish *wish) {
     return jox_minf(JOX_SPOTS_FARTHEST, jox_length(corner));
 }
 
-static bool is_in_place(const JoxSpotWish *wish, JoxV2 spot) {
+static bool is_in_place(const JoxSpots *t, const JoxSpotWish *wish, JoxV2 spot) {
+    const JoxStoreys *s = t->agents->storeys;
+    if (s && jox_sheet_of(s, spot.y) != jox_sheet_of(s, wish->at.y))
+        return false;
     return !wish->contains ||
            (jox_is_within(spot, wish->low, wish->high) && wish->contains(wish->place, spot));
 }
@@ -221,7 +242,7 @@ bool jox_spots_find(JoxSpots *t, const JoxWallGrid *grid, const JoxSpotWish *wis
             break;
         *spot = (JoxV2){s.at.x + s.distance * (float)jox_cos(s.angle),
                         s.at.y + s.distance * (float)jox_sin(s.angle)};
-        found = is_in_place(wish, *spot) && jox_spots_is_free(t, grid, *spot, radius) &&
+        found = is_in_place(t, wish, *spot) && jox_spots_is_free(t, grid, *spot, radius) &&
                 is_reachable(t, walls, wish, *spot, &listed);
         if (found)
             break;

@@ -4,6 +4,7 @@
 #define JOX_NAV_SPOTS_H
 
 #include "agents/agents.h"
+#include "geom/storeys.h"
 #include "geom/wall_grid.h"
 
 #define JOX_SPOTS_FARTHEST 25.0f /* m: how far a search looks */
