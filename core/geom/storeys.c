@@ -45,7 +45,6 @@ static void lay_outline(JoxStair *stair) {
         stair->outline[2 * n - 1 - k] = point_at(stair, k, half);
     }
     jox_bounds(stair->outline, 2 * n, &stair->low, &stair->high);
-    JOX_ASSERT(jox_polygon_area(stair->outline, 2 * n) > 0.0);
 }
 
 /* Returns whether a path turns sharply at one of its points. */
