@@ -47,6 +47,13 @@ static inline float jox_stair_slowness(float slope, bool up) {
     return 1.0f / jox_slope_speed(up ? slope : -slope);
 }
 
+/* Returns the same for a belt that carries at `belt` m/s along the slope, and people who stand on
+   it. */
+static inline float jox_belt_slowness(float slope, float belt) {
+    const float level = 1.34f; /* m/s: mean of Weidmann 1993 */
+    return level * sqrtf(1.0f + slope * slope) / fabsf(belt);
+}
+
 #define JOX_STAIR_SLOPE 0.57735f /* m per m in plan: 30 degrees, at which `stair_gap_` hold */
 
 /* Returns the factor of the time gap on a floor that rises by `slope` m per m in plan in the

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "agents/stair_law.h"
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
@@ -51,9 +52,21 @@ void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law) {
     world->model.walking = *law;
 }
 
+/* Sets how slow people are on each flight, for the distance fields. */
+static void slow_flights(JoxStoreys *storeys) {
+    for (uint32_t f = 0; f < storeys->flight_count; f++) {
+        JoxFlight *flight = &storeys->flights[f];
+        const float belt = storeys->stairs[flight->stair].belt;
+        for (int way = 0; way < 2; way++)
+            flight->slowness[way] = belt != 0.0f ? jox_belt_slowness(flight->slope, belt)
+                                                 : jox_stair_slowness(flight->slope, way == 0);
+    }
+}
+
 void jox_world_set_storeys(JoWorld *world, const JoxStoreys *storeys) {
     JOX_ASSERT(world->state.tick == 0 && world->model.storeys.storey_count == 0);
     jox_storeys_copy(&world->model.storeys, storeys);
+    slow_flights(&world->model.storeys);
     world->state.agents.flights = storeys->flight_count ? &world->model.storeys : NULL;
     if (!jox_has_storeys(&world->model.storeys))
         return;

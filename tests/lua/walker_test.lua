@@ -180,3 +180,9 @@ test("people go round one who stands in their way", function()
   local s = scene(standing)
   s:reaches("Gone", { agents = "people", within = 90 })
 end)
+
+test("people take a corridor rather than stairs that are shorter, and slower", function()
+  local s = scene("../../scenes/rimea-14.yaml")
+  s:run(12)
+  for id = 0, 9 do truthy(s:agent(id).y > 1.9) end
+end)
