@@ -20,7 +20,7 @@ const JoxTestWord jox_test_words[] = {
     {":count", "s:count([state [, options]])", "string;jostle.AgentsOptions", "integer", "the number of agents, of those in a state"},
     {":entered", "s:entered(state [, options])", "string;jostle.AgentsOptions", "integer", "the number of agents that have been in a state"},
     {":agents", "s:agents([group])", "string", "jostle.TestAgent[]", "the agents, of a group, by ascending id"},
-    {":agent", "s:agent(id)", "integer", "jostle.TestAgent|nil", "the agent with this id; nil if it has left. Fields: `state`, `machine`, `group`, `team`, `x`, `y`, `own.NAME` for own values, memory and parameters by their names. Memory of somebody is the id of a person, the text \"place 'north'\" or \"body 3\", or nil for nobody; a list is a table, of ids if it holds people. Any other name is an error"},
+    {":agent", "s:agent(id)", "integer", "jostle.TestAgent|nil", "the agent with this id; nil if it has left. Fields: `state`, `machine`, `group`, `team`, `x`, `y`, in a building `storey` and, of those on one, `stair`, `own.NAME` for own values, memory and parameters by their names. Memory of somebody is the id of a person, the text \"place 'north'\" or \"body 3\", or nil for nobody; a list is a table, of ids if it holds people. Any other name is an error"},
     {":body", "s:body(name)", "string", "jostle.TestBody", "a body by its name"},
     {":reaches", "s:reaches(state [, options])", "string;jostle.ReachesOptions", "", "runs the scene until its agents have been in a state; they must get there in time"},
     {":never", "s:never(state [, options])", "string;jostle.DuringOptions", "", "runs the scene; nobody may come into the state, nor have been in it"},

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/format/name.h"
+#include "geom/storeys.h"
 #include "luatest/luatest_parts.h"
 #include "machine/lists.h"
 
@@ -147,9 +148,25 @@ static void push_team(lua_State *L, const JoxTestDriver *driver, void *scene, ui
         lua_pushnil(L);
 }
 
+/* Sets where an agent is, in plan, and in a building on which storey and stair. */
+static void push_position(lua_State *L, const JoxAgents *a, uint32_t i) {
+    const JoxStoreys *storeys = a->storeys;
+    const JoxV2 at = {a->x[i], a->y[i]}, plan = jox_in_plan(storeys, at);
+    const int32_t stair = jox_stair_at(storeys, at);
+    jox_test_set_number(L, "x", (double)plan.x);
+    jox_test_set_number(L, "y", (double)plan.y);
+    if (!storeys)
+        return;
+    lua_pushstring(L, storeys->storeys[jox_storey_at(storeys, at)].name);
+    lua_setfield(L, -2, "storey");
+    lua_pushstring(L, stair < 0 ? NULL : storeys->stairs[stair].name);
+    lua_setfield(L, -2, "stair");
+}
+
 void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene, uint32_t i) {
     const JoxMachineRun *machines = driver->machines(driver->context, scene);
-    static const char *const MAY_BE_NIL[] = {"team", "group", "machine", "state"};
+    static const char *const MAY_BE_NIL[] = {"team",  "group",  "machine",
+                                             "state", "storey", "stair"};
     const JoxAgents *a = machines->agents;
     lua_newtable(L);
     const int absent = lua_gettop(L);
@@ -193,8 +210,7 @@ void jox_test_push_agent(lua_State *L, const JoxTestDriver *driver, void *scene,
     push_own_values(L, machines, i);
     refuse_unknown_names(L, index_own, -2);
     lua_setfield(L, -2, "own");
-    jox_test_set_number(L, "x", a->x[i]);
-    jox_test_set_number(L, "y", a->y[i]);
+    push_position(L, a, i);
     jox_test_set_number(L, "vx", a->vx[i]);
     jox_test_set_number(L, "vy", a->vy[i]);
     jox_test_set_number(L, "now",

@@ -1129,7 +1129,7 @@ function Scene:entered(state, options) end
 ---@return jostle.TestAgent[]
 function Scene:agents(group) end
 
---- `s:agent(id)`: the agent with this id; nil if it has left. Fields: `state`, `machine`, `group`, `team`, `x`, `y`, `own.NAME` for own values, memory and parameters by their names. Memory of somebody is the id of a person, the text "place 'north'" or "body 3", or nil for nobody; a list is a table, of ids if it holds people. Any other name is an error
+--- `s:agent(id)`: the agent with this id; nil if it has left. Fields: `state`, `machine`, `group`, `team`, `x`, `y`, in a building `storey` and, of those on one, `stair`, `own.NAME` for own values, memory and parameters by their names. Memory of somebody is the id of a person, the text "place 'north'" or "body 3", or nil for nobody; a list is a table, of ids if it holds people. Any other name is an error
 ---@param id integer
 ---@return jostle.TestAgent|nil
 function Scene:agent(id) end

@@ -184,5 +184,8 @@ end)
 test("people take a corridor rather than stairs that are shorter, and slower", function()
   local s = scene("../../scenes/rimea-14.yaml")
   s:run(12)
-  for id = 0, 9 do truthy(s:agent(id).y > 1.9) end
+  for id = 0, 9 do
+    equal(s:agent(id).storey, "upper")
+    truthy(s:agent(id).y > 3.5)
+  end
 end)
