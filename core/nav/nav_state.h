@@ -3,6 +3,8 @@
 #ifndef JOX_NAV_NAV_STATE_H
 #define JOX_NAV_NAV_STATE_H
 
+#include <math.h>
+
 #include "base/assert.h"
 #include "base/number/random.h"
 #include "geom/storeys.h"
@@ -177,7 +179,11 @@ static inline uint32_t jox_cell_along(float from_low, float per_metre, uint32_t 
 static inline const JoxNavBand *jox_band_of(const JoxNav *nav, float y) {
     return &nav->bands[jox_sheet_of(nav->storeys, y)];
 }
+/* Returns the row at y, m, in a band; at an infinite y, the first or last row of all: agents may
+   have gone anywhere. */
 static inline uint32_t jox_row_in_band(const JoxNav *nav, const JoxNavBand *band, float y) {
+    if (isinf(y))
+        return y < 0.0f ? 0 : nav->rows - 1;
     return band->first + jox_cell_along(y - band->low, nav->per_metre.y, band->rows);
 }
 /* Returns the row at y, m, for a search about a point at `on`, m: in the band of its sheet. */

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "agents/torso.h"
+#include "base/mem.h"
 #include "base/number/random.h"
 #include "nav/near/perceive.h"
 
@@ -49,7 +50,65 @@ static float choose_period(uint32_t crowd) {
     return round % 3 != 1 ? 0.0f : round == 1 ? 15.0f : 5.0f;
 }
 
+/* A building of two storeys with two stairs beside each other, whose foot and head are 6 m apart.
+ */
+static JoxStorey storeys[] = {{"ground", 0.0f}, {"first", 3.5f}};
+static JoxV2 paths[2][2] = {{{12, 5}, {18, 5}}, {{18, 8}, {12, 8}}};
+static JoxStair stairs[] = {
+    {.name = "one", .upper = 1, .path = paths[0], .path_count = 2, .width = 2.0f},
+    {.name = "two", .upper = 1, .path = paths[1], .path_count = 2, .width = 1.2f}};
+static JoxStoreys building = {
+    .storeys = storeys, .storey_count = 2, .stairs = stairs, .stair_count = 2};
+
+static void free_building(void) {
+    jox_free(building.sheets);
+    jox_free(building.sheet_stairs);
+    jox_free(building.seams);
+    jox_free(building.flights);
+    for (int k = 0; k < 2; k++)
+        jox_free(stairs[k].outline);
+}
+
+/* Fills the floor around the stairs, and the stairs. */
+static void fill_building(JoxAgents *a, uint32_t crowd) {
+    uint32_t drawn = 0;
+    a->storeys = &building;
+    a->pitch = building.pitch;
+    for (uint32_t k = 0; k < MOST_PEOPLE; k++) {
+        const JoxV2 plan = {(float)draw_near(crowd, &drawn, 8.0, 22.0),
+                            (float)draw_near(crowd, &drawn, 2.0, 11.0)};
+        const uint32_t sheet = (uint32_t)draw_near(crowd, &drawn, 0.0, building.sheet_count);
+        if (!jox_is_floor_of(&building, sheet, plan))
+            continue;
+        const uint32_t i = jox_agents_add(a);
+        a->x[i] = plan.x;
+        a->y[i] = jox_on_sheet(&building, sheet, plan).y;
+        jox_param_set(a, JOX_PARAM_radius, i, (float)draw_near(crowd, &drawn, 0.1, 0.3));
+        if (crowd % 2)
+            jox_param_set(a, JOX_PARAM_neighbours, i,
+                          floorf((float)draw_near(crowd, &drawn, 0.0, 16.999)));
+        if (crowd % 2)
+            jox_param_set(a, JOX_PARAM_perception, i, (float)draw_near(crowd, &drawn, 0.0, 5.0));
+    }
+}
+
+/* Moves agents that are beyond a seam to its other side, as strays. */
+static void send_over_seams(JoxNav *nav, JoxAgents *a) {
+    for (uint32_t i = 0; i < a->count && nav->stray_count < JOX_MOST_STRAYS; i++) {
+        const JoxV2 at = {a->x[i], a->y[i]};
+        const JoxSeam *seam = jox_find_crossed_seam(&building, at);
+        if (!seam || jox_det(seam->along, jox_sub(jox_in_plan(&building, at), seam->a)) > 0.4f)
+            continue; /* not from the floor before it */
+        a->y[i] += seam->shift;
+        jox_nav_list_stray(nav, i);
+    }
+}
+
 static void fill_crowd(JoxAgents *a, uint32_t crowd) {
+    if (crowd >= CROWDS) {
+        fill_building(a, crowd);
+        return;
+    }
     uint32_t drawn = 0;
     const Kind kind = (Kind)(crowd % KINDS);
     const uint32_t people = 1 + (uint32_t)draw_near(crowd, &drawn, 0.0, MOST_PEOPLE - 1);
@@ -141,6 +200,22 @@ static int by_distance(const void *one, const void *two) {
     return a->id < b->id ? -1 : 1;
 }
 
+/* Returns the squared distance of agent j through the seams through which agent i sees it, m2. */
+static float measure_through_seams(const JoxAgents *a, uint32_t i, uint32_t j) {
+    const JoxStoreys *s = a->storeys;
+    const uint32_t here = jox_sheet_of(s, a->y[i]), there = jox_sheet_of(s, a->y[j]);
+    const JoxV2 from = {a->x[i], a->y[i] - (float)here * s->pitch};
+    const JoxV2 to = {a->x[j], a->y[j] - (float)there * s->pitch};
+    float least = INFINITY;
+    for (uint32_t k = 0; k < s->seam_count; k++) {
+        const JoxSeam *seam = &s->seams[k];
+        const float dx = a->x[j] - a->x[i], dy = a->y[j] - (a->y[i] + seam->shift);
+        if (seam->here == here && seam->there == there && jox_seam_lets_see(seam, from, to))
+            least = jox_minf(least, dx * dx + dy * dy);
+    }
+    return least;
+}
+
 /* Lists all agents within a radius, nearest first, ties by id; an agent seen from two sides counts
    on the nearer one. The distance is computed from the image of the agent that looks. */
 static uint32_t list_reference(const JoxAgents *a, uint32_t i, float radius, Other *out) {
@@ -154,6 +229,8 @@ static uint32_t list_reference(const JoxAgents *a, uint32_t i, float radius, Oth
                 float dx = a->x[j] - x, dy = a->y[j] - y;
                 least = jox_minf(least, dx * dx + dy * dy);
             }
+        if (a->storeys && j != i)
+            least = jox_minf(least, measure_through_seams(a, i, j));
         if (least <= radius * radius)
             out[count++] = (Other){least, a->id[j], j};
     }
@@ -164,6 +241,8 @@ static uint32_t list_reference(const JoxAgents *a, uint32_t i, float radius, Oth
 static float find_sight(const JoxAgents *a, float reach) {
     if (a->period.x > 0.0f)
         reach = jox_minf(reach, 0.49f * a->period.x);
+    if (a->pitch > 0.0f)
+        reach = jox_minf(reach, 0.49f * a->pitch);
     return a->period.y > 0.0f ? jox_minf(reach, 0.49f * a->period.y) : reach;
 }
 
@@ -257,6 +336,8 @@ static void compare_near_crowd(JoIsa isa, uint32_t crowd) {
         stir(nav, &agents, crowd);
         if (pass == 0)
             send_over_edges(nav, &agents);
+        if (pass == 0 && agents.storeys)
+            send_over_seams(nav, &agents);
         if (pass == 2)
             scatter(nav, &agents);
         jox_nav_place_strays(nav, &agents);
@@ -271,6 +352,16 @@ static void test_neighbours(void **state) {
     for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++)
         for (uint32_t crowd = 0; jox_isa_runs(isa) && crowd < CROWDS; crowd++)
             compare_near_crowd(isa, crowd);
+}
+
+static void neighbours_are_seen_over_stairs(void **state) {
+    (void)state;
+    jox_storeys_lay_out(&building, (JoxV2){0, 0}, (JoxV2){30, 12});
+    assert_int_equal(building.seam_count, 8);
+    for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++)
+        for (uint32_t crowd = CROWDS; jox_isa_runs(isa) && crowd < CROWDS + 6; crowd++)
+            compare_near_crowd(isa, crowd);
+    free_building();
 }
 
 /* Names of instruction sets, and the error where a machine lacks one. */
@@ -296,6 +387,7 @@ static void test_instruction_sets(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_neighbours),
+        cmocka_unit_test(neighbours_are_seen_over_stairs),
         cmocka_unit_test(test_instruction_sets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
