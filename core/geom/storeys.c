@@ -13,6 +13,8 @@ static const float LEAST_FLIGHT = 0.05f; /* m: shorter flights are flat */
 static const float BETWEEN = 20.0f;      /* m: between the plans of two sheets at least */
 static const float PITCH_UNIT = 9.0f;    /* m: whole cells of fields for most sizes of cells */
 static const float LEAST_PITCH = 45.0f;  /* m: so that people see 20 m */
+static const float MOST_WIDTH = 100.0f;  /* m: of a stair */
+static const float FARTHEST = 1e5f;      /* m: of its points from the origin */
 
 static JoxV2 point_at(const JoxStair *stair, uint32_t at, float aside) {
     const JoxV2 *path = stair->path;
@@ -36,14 +38,34 @@ float jox_stair_length(const JoxStair *stair) {
 /* ---- outlines and flights ---- */
 
 /* Makes the outline: the right side from foot to head, then the left side back. */
-static void lay_outline(JoxStair *stair) {
+static void make_outline(const JoxStair *stair, JoxV2 *outline) {
     const uint32_t n = stair->path_count;
     const float half = 0.5f * stair->width;
-    stair->outline = jox_realloc(stair->outline, 2 * (size_t)n, sizeof *stair->outline);
     for (uint32_t k = 0; k < n; k++) {
-        stair->outline[k] = point_at(stair, k, -half);
-        stair->outline[2 * n - 1 - k] = point_at(stair, k, half);
+        outline[k] = point_at(stair, k, -half);
+        outline[2 * n - 1 - k] = point_at(stair, k, half);
     }
+}
+
+bool jox_stair_is_sound(const JoxStair *stair) {
+    bool sound = stair->path_count >= 2 && stair->width > 0.0f && stair->width <= MOST_WIDTH;
+    for (uint32_t k = 1; sound && k < stair->path_count; k++)
+        sound = jox_length(jox_sub(stair->path[k], stair->path[k - 1])) >= LEAST_FLIGHT;
+    for (uint32_t k = 0; sound && k < stair->path_count; k++) /* false of NAN, too */
+        sound = fabsf(stair->path[k].x) <= FARTHEST && fabsf(stair->path[k].y) <= FARTHEST;
+    if (!sound)
+        return false;
+    JoxV2 *outline = jox_alloc(2 * (size_t)stair->path_count, sizeof *outline);
+    make_outline(stair, outline);
+    sound = jox_polygon_area(outline, 2 * stair->path_count) > 0.0;
+    jox_free(outline);
+    return sound;
+}
+
+static void lay_outline(JoxStair *stair) {
+    const uint32_t n = stair->path_count;
+    stair->outline = jox_realloc(stair->outline, 2 * (size_t)n, sizeof *stair->outline);
+    make_outline(stair, stair->outline);
     jox_bounds(stair->outline, 2 * n, &stair->low, &stair->high);
 }
 
@@ -191,7 +213,8 @@ static void list_seams(JoxStoreys *s) {
     }
 }
 
-void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
+/* Lays all stairs out and gives them sheets. */
+static void lay_stairs(JoxStoreys *s) {
     s->flight_count = 0;
     s->sheet_count = s->storey_count;
     for (uint32_t k = 0; k < s->stair_count; k++) {
@@ -202,16 +225,31 @@ void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
         lay_outline(st);
         lay_flights(s, k);
         choose_sheet(s, k);
-        low = jox_v2(jox_minf(low.x, st->low.x), jox_minf(low.y, st->low.y));
-        high = jox_v2(jox_maxf(high.x, st->high.x), jox_maxf(high.y, st->high.y));
+    }
+    s->sheets = jox_realloc(s->sheets, s->sheet_count, sizeof *s->sheets);
+    list_stairs(s);
+}
+
+void jox_storeys_lay_out_again(JoxStoreys *s, float origin, float pitch) {
+    lay_stairs(s);
+    s->origin = origin;
+    s->pitch = pitch;
+    s->low = origin + 0.5f * BETWEEN;
+    s->high = jox_maxf(s->low, origin + pitch - 0.5f * BETWEEN);
+    list_seams(s);
+}
+
+void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
+    lay_stairs(s);
+    for (uint32_t k = 0; k < s->stair_count; k++) {
+        low = jox_v2(jox_minf(low.x, s->stairs[k].low.x), jox_minf(low.y, s->stairs[k].low.y));
+        high = jox_v2(jox_maxf(high.x, s->stairs[k].high.x), jox_maxf(high.y, s->stairs[k].high.y));
     }
     const float depth = jox_maxf(high.y - low.y, 0.0f) + BETWEEN;
     s->pitch = jox_maxf(ceilf(depth / PITCH_UNIT) * PITCH_UNIT, LEAST_PITCH);
     s->low = low.y;
     s->high = jox_maxf(high.y, low.y);
     s->origin = s->low - 0.5f * BETWEEN;
-    s->sheets = jox_realloc(s->sheets, s->sheet_count, sizeof *s->sheets);
-    list_stairs(s);
     list_seams(s);
 }
 

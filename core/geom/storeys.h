@@ -109,6 +109,12 @@ float jox_stair_length(const JoxStair *stair);
    get different sheets. Call it once all members above "Laid out" are set, or again when they
    change. */
 void jox_storeys_lay_out(JoxStoreys *storeys, JoxV2 low, JoxV2 high);
+/* Lays storeys and stairs out again as they were, with the same origin and pitch: of a recording.
+ */
+void jox_storeys_lay_out_again(JoxStoreys *storeys, float origin, float pitch);
+/* Returns whether a stair's members are as a layout needs them: points apart and finite, and a
+   width that fits, so that its outline encloses an area. */
+bool jox_stair_is_sound(const JoxStair *stair);
 /* Appends the walls of all stairs: their sides, and, on each storey that they pass, what encloses
    their footprints except at seams (storey_walls.c). */
 void jox_storeys_add_walls(const JoxStoreys *storeys, JoxWalls *walls);

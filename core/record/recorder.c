@@ -15,7 +15,7 @@
 #include "record/recorder_schema.h"
 #include "task/thread.h"
 
-enum { COLUMNS = 16, BATCH = 50 };   /* BATCH: rows that one statement writes */
+enum { COLUMNS = 16, STOREY_COLUMNS = 18, BATCH = 50 }; /* BATCH: rows of one statement */
 static const double COMMITTED = 1.0; /* s: frames are committed at least this often */
 
 static bool execute_sql(JoxRecorder *r, const char *sql) {
@@ -82,8 +82,16 @@ static void bind_parts(sqlite3_stmt *to, int at, float value, double parts) {
         sqlite3_bind_null(to, at);
 }
 
-static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecordRow *row) {
-    const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
+/* Binds the storey of a position on a sheet, and 1 + its stair or 0. */
+static void bind_storey(const JoxStoreys *storeys, sqlite3_stmt *to, int first, JoxV2 at) {
+    sqlite3_bind_int64(to, first, jox_storey_at(storeys, at));
+    sqlite3_bind_int64(to, first + 1, jox_stair_at(storeys, at) + 1);
+}
+
+static void bind_row(const JoxRecorder *r, sqlite3_stmt *to, int first, uint32_t frame,
+                     const JoxRecordRow *row) {
+    const JoxV2 at = {row->x, row->y}, plan = jox_in_plan(&r->storeys, at);
+    const float numbers[] = {plan.x,     plan.y,           row->ori_x, row->ori_y,
                              row->force, row->compression, row->load,  row->radius,
                              row->chest, row->breadth,     row->depth, row->fallen};
     const double parts[] = {PLACE_PARTS, PLACE_PARTS, 1e3, 1e3,         10.0,        10.0,
@@ -94,6 +102,8 @@ static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecor
         bind_parts(to, first + 2 + k + (k < 7 ? 0 : 2), numbers[k], parts[k]);
     sqlite3_bind_int64(to, first + 9, row->state);
     sqlite3_bind_int64(to, first + 10, row->group);
+    if (r->columns == STOREY_COLUMNS)
+        bind_storey(&r->storeys, to, first + COLUMNS, at);
 }
 
 static bool write_rows(JoxRecorder *r, const JoxRecorderFrame *f) {
@@ -102,8 +112,9 @@ static bool write_rows(JoxRecorder *r, const JoxRecorderFrame *f) {
         sqlite3_stmt *const to = count == BATCH ? r->batch : r->row;
         for (uint32_t k = 0; k < count; k++, i++) {
             const JoxRecordRow *row = &f->rows[i];
-            bind_row(to, 1 + (int)k * COLUMNS, f->number, row);
-            const double x = round_as_recorded(row->x), y = round_as_recorded(row->y);
+            const JoxV2 plan = jox_in_plan(&r->storeys, (JoxV2){row->x, row->y});
+            bind_row(r, to, 1 + (int)k * r->columns, f->number, row);
+            const double x = round_as_recorded(plan.x), y = round_as_recorded(plan.y);
             r->low_x = fmin(r->low_x, x), r->high_x = fmax(r->high_x, x);
             r->low_y = fmin(r->low_y, y), r->high_y = fmax(r->high_y, y);
         }
@@ -136,11 +147,14 @@ static bool write_frame(JoxRecorder *r, const JoxRecorderFrame *f) {
         return false;
     for (uint32_t i = 0; i < f->body_count; i++) {
         const JoxRecordBody *b = &f->bodies[i];
-        const float numbers[] = {b->x, b->y, b->z, b->qx, b->qy, b->qz, b->qw};
+        const JoxV2 at = {b->x, b->y}, plan = jox_in_plan(&r->storeys, at);
+        const float numbers[] = {plan.x, plan.y, b->z, b->qx, b->qy, b->qz, b->qw};
         sqlite3_bind_int64(r->body, 1, f->number);
         sqlite3_bind_int64(r->body, 2, b->id);
         for (int k = 0; k < 7; k++)
             sqlite3_bind_double(r->body, 3 + k, numbers[k]);
+        if (r->columns == STOREY_COLUMNS)
+            bind_storey(&r->storeys, r->body, 10, at);
         if (!jox_recorder_execute(r, r->body))
             return false;
     }
@@ -187,7 +201,8 @@ static void *write_until_end(void *argument) {
 
 static bool start_recording(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_stmt *geometry = NULL;
-    bool good = execute_sql(r, jox_recording_schema) &&
+    const bool storeys = r->storeys.storey_count > 0;
+    bool good = execute_sql(r, storeys ? jox_recording_storey_schema : jox_recording_schema) &&
                 jox_recorder_set_metadata(r, "version", "2") && set_number(r, "fps", fps) &&
                 write_bounds(r) &&
                 jox_recorder_prepare(r, &geometry, "INSERT INTO geometry(hash, wkt) VALUES(?, ?)");
@@ -227,15 +242,21 @@ static bool resume_recording(JoxRecorder *r, uint32_t last) {
 static bool prepare_inserts(JoxRecorder *r) {
     static const char INSERT[] = "INSERT INTO jostle_row VALUES";
     static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?),";
-    char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
+    static const char STOREY_ROW[] = "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?),";
+    const bool storeys = r->storeys.storey_count > 0;
+    const char *row = storeys ? STOREY_ROW : ROW;
+    char one[sizeof INSERT + sizeof STOREY_ROW], batch[sizeof INSERT + BATCH * sizeof STOREY_ROW];
     char *end = stpcpy(batch, INSERT);
+    r->columns = storeys ? STOREY_COLUMNS : COLUMNS;
     for (int k = 0; k < BATCH; k++)
-        end = stpcpy(end, ROW);
+        end = stpcpy(end, row);
     end[-1] = '\0'; /* drop the last comma */
-    snprintf(one, sizeof one, "%s%.*s", INSERT, (int)sizeof ROW - 2, ROW);
+    snprintf(one, sizeof one, "%s%.*s", INSERT, (int)strlen(row) - 1, row);
     return jox_recorder_prepare(r, &r->batch, batch) && jox_recorder_prepare(r, &r->row, one) &&
-           jox_recorder_prepare(r, &r->body,
-                                "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
+           jox_recorder_prepare(
+               r, &r->body,
+               storeys ? "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"
+                       : "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
            jox_recorder_prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
 }
 
@@ -248,6 +269,7 @@ static void free_recorder(JoxRecorder *r) {
         jox_free(r->frames[i].rows);
         jox_free(r->frames[i].bodies);
     }
+    jox_storeys_free(&r->storeys);
     pthread_mutex_destroy(&r->lock);
     pthread_cond_destroy(&r->filled);
     pthread_cond_destroy(&r->emptied);
@@ -271,8 +293,10 @@ static void abandon_recorder(void *recorder) {
 /* Creates a recorder on a claimed file. With `wkt` it starts a new recording; with NULL it
    continues the one in the file after frame `last`. */
 static JoxRecorder *create_recorder(const char *path, FILE *file, double fps, const char *wkt,
-                                    uint32_t last, JoxText *error) {
+                                    uint32_t last, const JoxStoreys *storeys, JoxText *error) {
     JoxRecorder *r = jox_alloc(1, sizeof *r);
+    if (storeys && storeys->storey_count)
+        jox_storeys_copy(&r->storeys, storeys);
     pthread_mutex_init(&r->lock, NULL);
     pthread_cond_init(&r->filled, NULL);
     pthread_cond_init(&r->emptied, NULL);
@@ -303,17 +327,19 @@ static JoxRecorder *create_recorder(const char *path, FILE *file, double fps, co
     return NULL;
 }
 
-JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
+JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt,
+                               const JoxStoreys *storeys, JoxText *error) {
     FILE *file = jox_recording_claim(path, error);
-    return file ? create_recorder(path, file, fps, wkt, 0, error) : NULL;
+    return file ? create_recorder(path, file, fps, wkt, 0, storeys, error) : NULL;
 }
 
-JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, JoxText *error) {
+JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, const JoxStoreys *storeys,
+                                   JoxText *error) {
     struct stat info;
     const bool ours = lstat(path, &info) == 0 && S_ISREG(info.st_mode) && jox_is_recording(path);
     FILE *file = ours ? jox_file_open(path, "a") : NULL;
     if (file)
-        return create_recorder(path, file, 0.0, NULL, last, error);
+        return create_recorder(path, file, 0.0, NULL, last, storeys, error);
     jox_text_printf(error, "cannot continue the recording '%s': %s", path,
                     ours ? jox_file_error_text(errno) : "there is no recording of Jostle's");
     return NULL;

@@ -13,6 +13,7 @@
 #include "base/format/colour.h"
 #include "base/text.h"
 #include "body/body.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 
 typedef struct JoxRecorder JoxRecorder;
@@ -20,7 +21,7 @@ typedef struct JoxRecorder JoxRecorder;
 /* A person in a frame. */
 typedef struct JoxRecordRow {
     uint32_t id;
-    float x, y;         /* m */
+    float x, y;         /* m; with storeys a position on a sheet, which is written in plan */
     float ori_x, ori_y; /* unit vector along which the person looks */
     uint32_t state;     /* number in jostle_state */
     float force;        /* N */
@@ -41,11 +42,18 @@ typedef struct JoxRecordBody {
 } JoxRecordBody;
 
 /* Creates a recording; an earlier recording at that path is replaced, any other file is refused.
-   `wkt` is the walkable area. Returns NULL with a sentence in `error` on failure. */
-JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error);
+   `wkt` is the walkable area, `storeys` NULL for one plane. Returns NULL with a sentence in `error`
+   on failure. */
+JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt,
+                               const JoxStoreys *storeys, JoxText *error);
+/* Describes the storeys of a new recording, before its first frame: with the walkable area of each
+   within `low` to `high`, m in plan. */
+void jox_recorder_describe_storeys(JoxRecorder *recorder, const JoxWalls *walls, JoxV2 low,
+                                   JoxV2 high);
 /* Continues one of our recordings after frame `last`; later frames are deleted. Returns NULL with a
    sentence in `error` on failure. */
-JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, JoxText *error);
+JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, const JoxStoreys *storeys,
+                                   JoxText *error);
 /* Commits all frames given so far. Returns false with a sentence in `error` on failure. */
 bool jox_recorder_commit(JoxRecorder *recorder, JoxText *error);
 /* Names a state number before the first frame that uses it, or again with another colour or pose.

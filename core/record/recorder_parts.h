@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/database.h"
+#include "geom/storeys.h"
 #include "record/recorder.h"
 #include "record/recorder_schema.h"
 
@@ -36,6 +37,8 @@ struct JoxRecorder {
     double low_x, high_x, low_y, high_y; /* m: bounds of all positions */
     double committed;                    /* s: time of the last commit */
     uint64_t geometry;
+    JoxStoreys storeys; /* a copy; empty: one plane */
+    int columns;        /* of the rows of people */
 };
 
 /* Waits until the writer has written all frames, then reserves the database for the calling thread.

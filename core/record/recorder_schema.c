@@ -100,33 +100,47 @@ bool jox_recording_merge_log(JoxDatabase *database, JoxText *message) {
 }
 
 const char *const jox_recording_tables[] = {
-    "trajectory_data", "metadata",     "geometry",    "frame_data",  "jostle_row",  "jostle_agent",
-    "jostle_group",    "jostle_state", "jostle_body", "jostle_part", "jostle_wall", NULL};
+    "trajectory_data", "metadata",      "geometry",     "frame_data",  "jostle_row",
+    "jostle_agent",    "jostle_group",  "jostle_state", "jostle_body", "jostle_part",
+    "jostle_wall",     "jostle_storey", "jostle_stair", NULL};
 
 /* SQLite stores small integers in one to four bytes and other numbers in eight. So jostle_row has
    positions, radii, breadths and depths in 0.1 mm, directions and angles in thousandths, and
    forces, compressions, loads and times since falls in tenths; the table of the format is a view of
    it, which its readers cannot tell from a table. Our columns stand beside those of the format. The
    primary key replaces the index of the format: rows are found by it and lie in its order. */
-const char jox_recording_schema[] =
-    "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
-    "CREATE TABLE jostle_row(frame INTEGER NOT NULL, id INTEGER NOT NULL, x INTEGER NOT NULL,"
-    " y INTEGER NOT NULL, facing_x INTEGER NOT NULL, facing_y INTEGER NOT NULL, force INTEGER,"
-    " compression INTEGER, load INTEGER, state INTEGER, member INTEGER, radius INTEGER,"
-    " chest INTEGER, breadth INTEGER, depth INTEGER, fallen INTEGER, PRIMARY KEY(frame, id))"
-    " WITHOUT ROWID;"
-    "CREATE VIEW trajectory_data AS " JOX_RECORDED_ROWS ";"
-    "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
-    "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
-    "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
-    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT, colour TEXT, clothes TEXT);"
-    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT, colour TEXT,"
-    " pose TEXT);"
-    "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
-    " qz REAL, qw REAL);"
-    "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL,"
-    " size_y REAL, size_z REAL, x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,"
-    " corners TEXT, name TEXT, PRIMARY KEY(id, frame, part));"
-    "CREATE TABLE jostle_wall(frame INTEGER, number INTEGER, name TEXT, solid INTEGER, closed "
-    "INTEGER,"
-    " open INTEGER, height REAL, points TEXT, drawn REAL, PRIMARY KEY(frame, number));";
+#define ON_STOREYS ", storey INTEGER NOT NULL, stair INTEGER NOT NULL"
+#define SCHEMA(rows, more)                                                                         \
+    "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"                                   \
+    "CREATE TABLE jostle_row(frame INTEGER NOT NULL, id INTEGER NOT NULL, x INTEGER NOT NULL,"     \
+    " y INTEGER NOT NULL, facing_x INTEGER NOT NULL, facing_y INTEGER NOT NULL, force INTEGER,"    \
+    " compression INTEGER, load INTEGER, state INTEGER, member INTEGER, radius INTEGER,"           \
+    " chest INTEGER, breadth INTEGER, depth INTEGER, fallen INTEGER" more                          \
+    ", PRIMARY KEY(frame, id))"                                                                    \
+    " WITHOUT ROWID;"                                                                              \
+    "CREATE VIEW trajectory_data AS " rows ";"                                                     \
+    "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"            \
+    "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"                      \
+    "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"             \
+    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT, colour TEXT, clothes TEXT);" \
+    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT, colour TEXT," \
+    " pose TEXT);"                                                                                 \
+    "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy "     \
+    "REAL,"                                                                                        \
+    " qz REAL, qw REAL" more ");"                                                                  \
+    "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL," \
+    " size_y REAL, size_z REAL, x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,"       \
+    " corners TEXT, name TEXT, PRIMARY KEY(id, frame, part));"                                     \
+    "CREATE TABLE jostle_wall(frame INTEGER, number INTEGER, name TEXT, solid INTEGER, closed "    \
+    "INTEGER,"                                                                                     \
+    " open INTEGER, height REAL, points TEXT, drawn REAL" more ", PRIMARY KEY(frame, number));"
+
+const char jox_recording_schema[] = SCHEMA(JOX_RECORDED_ROWS, "");
+const char jox_recording_storey_schema[] =
+    SCHEMA(JOX_RECORDED_STOREY_ROWS, ON_STOREYS) "CREATE TABLE jostle_storey(number INTEGER "
+                                                 "PRIMARY KEY, name TEXT, height REAL, area TEXT);"
+                                                 "CREATE TABLE jostle_stair(number INTEGER PRIMARY "
+                                                 "KEY, name TEXT, kind INTEGER, way INTEGER,"
+                                                 " lower INTEGER, upper INTEGER, path TEXT, width "
+                                                 "REAL, landings TEXT, rise REAL, belt REAL,"
+                                                 " area TEXT);";

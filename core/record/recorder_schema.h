@@ -43,6 +43,9 @@ extern const char *const jox_recording_tables[];
     "depth, "
 #define JOX_RECORDED_BEFORE_FALLS JOX_RECORDED_WITH(JOX_RECORDED_TORSOS)
 #define JOX_RECORDED_ROWS JOX_RECORDED_WITH(JOX_RECORDED_TORSOS "fallen / 10.0 AS fallen, ")
+/* Recordings of storeys have two more columns. */
+#define JOX_RECORDED_STOREY_ROWS                                                                   \
+    JOX_RECORDED_WITH(JOX_RECORDED_TORSOS "fallen / 10.0 AS fallen, storey, stair, ")
 #define JOX_RECORDED_WITH(more)                                                                    \
     "SELECT frame, id, x / 1e4 AS pos_x, y / 1e4 AS pos_y, facing_x / 1e3 AS ori_x, facing_y / "   \
     "1e3 AS ori_y, force / 10.0 AS force, compression / 10.0 AS compression, load / 10.0 AS "      \
@@ -51,5 +54,12 @@ extern const char *const jox_recording_tables[];
 /* Statements that create the tables in an empty file. The transaction that they begin is left open
    for the first rows. */
 extern const char jox_recording_schema[];
+/* The same for a recording of storeys: people, bodies and walls have the number of their storey and
+   1 + that of their stair, 0 on a storey. */
+extern const char jox_recording_storey_schema[];
+/* Keys of the table metadata: position along y at which sheets of storeys begin, and the distance
+   from one to the next, m. Only jostle_look has positions. */
+#define JOX_RECORDED_ORIGIN "jostle_origin"
+#define JOX_RECORDED_PITCH "jostle_pitch"
 
 #endif

@@ -50,14 +50,17 @@ void jox_recorder_wall(JoxRecorder *r, uint32_t frame, uint32_t number, const Jo
     sqlite3_stmt *statement;
     JoxText text = {0};
     jox_text_add(&text, "");
+    const bool storeys = r->storeys.storey_count > 0;
     jox_recorder_borrow(r);
-    if (jox_recorder_prepare(r, &statement,
-                             "INSERT OR REPLACE INTO jostle_wall VALUES(?,?,?,?,?,?,?,?,?)")) {
+    if (jox_recorder_prepare(
+            r, &statement,
+            storeys ? "INSERT OR REPLACE INTO jostle_wall VALUES(?,?,?,?,?,?,?,?,?,?,?)"
+                    : "INSERT OR REPLACE INTO jostle_wall VALUES(?,?,?,?,?,?,?,?,?)")) {
         const struct JoxWallRing *ring = walls ? &walls->rings[at] : &(struct JoxWallRing){0};
         bool closed = false, twin;
         const uint32_t count = walls ? jox_walls_given(walls, at, &closed, &twin) : 0;
         for (uint32_t i = 0; i < count; i++) {
-            const JoxV2 point = walls->vertices[ring->first + i].point;
+            const JoxV2 point = jox_in_plan(&r->storeys, walls->vertices[ring->first + i].point);
             jox_text_printf(&text, "%s%.9g %.9g", i ? ", " : "", (double)point.x, (double)point.y);
         }
         sqlite3_bind_int64(statement, 1, frame);
@@ -68,6 +71,12 @@ void jox_recorder_wall(JoxRecorder *r, uint32_t frame, uint32_t number, const Jo
         sqlite3_bind_int(statement, 6, ring->open);
         sqlite3_bind_double(statement, 7, isfinite(ring->height) ? (double)ring->height : 0.0);
         sqlite3_bind_double(statement, 9, (double)ring->drawn);
+        if (storeys) {
+            const JoxV2 first =
+                count ? walls->vertices[ring->first].point : (JoxV2){0.0f, r->storeys.origin};
+            sqlite3_bind_int64(statement, 10, jox_storey_at(&r->storeys, first));
+            sqlite3_bind_int64(statement, 11, jox_stair_at(&r->storeys, first) + 1);
+        }
         if (points)
             sqlite3_bind_text(statement, 8, text.data, -1, SQLITE_STATIC);
         jox_recorder_execute(r, statement);

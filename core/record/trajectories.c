@@ -132,6 +132,13 @@ static double wrap_difference(double d, double period) {
     return period > 0.0 ? remainder(d, period) : d;
 }
 
+/* Returns a difference along y, m: over the shorter way, and without whole pitches between sheets.
+ */
+static double wrap_along_y(const JoxTrajectories *t, double d) {
+    return wrap_difference(d,
+                           jox_has_storeys(&t->storeys) ? (double)t->storeys.pitch : t->period.y);
+}
+
 /* Sets velocities to the displacement between the person's first and last rows within REACH, or
    between the adjacent rows if there are none within it. */
 static void measure_velocities(JoxTrajectories *t, const Place *places) {
@@ -154,8 +161,7 @@ static void measure_velocities(JoxTrajectories *t, const Place *places) {
         size_t row = places[i].row, a = places[from].row, b = places[to].row;
         t->vx[row] =
             spent > 0.0 ? (float)(wrap_difference(t->x[b] - t->x[a], t->period.x) / spent) : 0.0f;
-        t->vy[row] =
-            spent > 0.0 ? (float)(wrap_difference(t->y[b] - t->y[a], t->period.y) / spent) : 0.0f;
+        t->vy[row] = spent > 0.0 ? (float)(wrap_along_y(t, t->y[b] - t->y[a]) / spent) : 0.0f;
     }
 }
 

@@ -54,6 +54,9 @@ typedef struct JoxTrajectories {
        lines. */
     JoxWalls walls;
     JoxWallHistory *history; /* the walls over time; NULL: the file has none */
+    /* x and y, walls and the bounding box are positions on the sheets of storeys. Empty: one plane.
+     */
+    JoxStoreys storeys;
 } JoxTrajectories;
 
 /* Reads a recording. Returns NULL with errors in `diagnostics`. Where the file has no velocities,
@@ -78,7 +81,7 @@ bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostic
 bool jox_trajectories_add_text(JoxTrajectories *t, const char *path, const char *text,
                                size_t length, const JoxTrajectoryOptions *options,
                                JoxDiagnostics *diagnostics);
-/* Reads only walls and groups from an open file (trajectory_plan.c). */
+/* Reads only walls and groups from an open file (trajectory_plan.c), whose storeys are set. */
 struct JoxDatabase;
 void jox_trajectories_read_walls(JoxTrajectories *t, struct JoxDatabase *db);
 /* Returns the colour in a column of a row; 0 for none. */

@@ -123,6 +123,7 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     t->fps = r->fps;
     t->last = r->last;
     build_recorded_state_names(t, r);
+    jox_storeys_copy(&t->storeys, &r->outlines.storeys);
     bool good = read_all_frames(t, r, path, diagnostics);
     if (good) {
         jox_trajectories_read_walls(t, r->db);

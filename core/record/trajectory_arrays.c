@@ -51,7 +51,8 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .state = t->state ? t->state + first : NULL,
                       .states = (const char *const *)t->states,
                       .state_count = t->state_count,
-                      .state_colours = t->state_colours};
+                      .state_colours = t->state_colours,
+                      .storeys = jox_has_storeys(&t->storeys) ? &t->storeys : NULL};
     return true;
 }
 
@@ -97,5 +98,6 @@ void jox_trajectories_free(JoxTrajectories *t) {
     jox_free(t->states);
     jox_walls_free(&t->walls);
     jox_wall_history_free(t->history);
+    jox_storeys_free(&t->storeys);
     jox_free(t);
 }

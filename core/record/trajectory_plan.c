@@ -83,7 +83,7 @@ static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
 }
 
 void jox_trajectories_read_walls(JoxTrajectories *t, JoxDatabase *db) {
-    t->history = jox_wall_history_read(db);
+    t->history = jox_wall_history_read(db, &t->storeys);
     if (t->history)
         jox_wall_history_first(t->history, &t->walls);
     else

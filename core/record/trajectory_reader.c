@@ -7,6 +7,7 @@
 #include "agents/torso.h"
 #include "base/mem.h"
 #include "base/number/pi.h"
+#include "record/storey_tables.h"
 #include "record/trajectory_reader_parts.h"
 
 static const float RADIUS = 0.2f;        /* m: where none is recorded */
@@ -20,6 +21,7 @@ JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r)
                                      .low = r->low,
                                      .high = r->high,
                                      .walls = &t->walls,
+                                     .storeys = t->storeys.storey_count > 0 ? &t->storeys : NULL,
                                      .groups = (const char *const *)t->groups,
                                      .group_count = t->group_count,
                                      .group_colours = t->group_colours,
@@ -143,6 +145,10 @@ static void store_person_row(JoxTrajectoryReader *r, uint32_t n) {
         r->radius[n] = read_radius(r->rows, 10);
     if (r->torsos)
         read_torso(r, n);
+    if (r->placed &&
+        !jox_storey_tables_place(&r->outlines.storeys, sqlite3_column_int64(r->rows, 15),
+                                 sqlite3_column_int64(r->rows, 16), &r->y[n]))
+        r->y[n] = NAN; /* no such storey */
     r->fallen[n] = r->falls ? (float)sqlite3_column_double(r->rows, 14) : 0.0f;
 }
 
@@ -163,6 +169,8 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
             return false;
         }
         store_person_row(r, n);
+        if (isnan(r->y[n]))
+            return set_damage(why, "%s is on a storey that the recording lacks", "a person");
         if (!(fabsf(r->x[n]) < 1e6f && fabsf(r->y[n]) < 1e6f))
             return set_damage(why, "%s is more than 1000 km from the origin", "a person");
         if (n > 0 && r->id[n] <= r->id[n - 1]) { /* smaller ids come from a damaged index */
@@ -234,6 +242,10 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
                                 values[4],
                                 values[5],
                                 values[6]};
+        if (r->placed &&
+            !jox_storey_tables_place(&r->outlines.storeys, sqlite3_column_int64(r->bodies, 9),
+                                     sqlite3_column_int64(r->bodies, 10), &body->y))
+            return set_damage(why, "%s is on a storey that the recording lacks", "a body");
         for (int k = 0; k < 7; k++)
             if (!isfinite(values[k]))
                 return set_damage(why, "the %s of a body is not finite", "position or turn");
@@ -371,6 +383,7 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     jox_free(r->look);
     jox_walls_free(&r->outlines.walls);
     jox_wall_history_free(r->outlines.history);
+    jox_storeys_free(&r->outlines.storeys);
     for (uint32_t s = 0; s < r->state_count; s++) {
         jox_free(r->states[s].machine);
         jox_free(r->states[s].name);

@@ -15,7 +15,7 @@ typedef struct JoxTrajectoryReaderFrame {
     double time; /* s */
     uint32_t count;
     const int64_t *id;            /* in ascending order; a person has the same id in every frame */
-    const float *x, *y;           /* m */
+    const float *x, *y;           /* m: positions on sheets, if there are storeys */
     const float *face_x, *face_y; /* unit vectors along which people look */
     /* index in `states` of JoxTrajectoryReaderInfo, or JOX_NO_RECORDED_STATE */
     const uint32_t *state;
@@ -36,8 +36,9 @@ typedef struct JoxTrajectoryReaderInfo {
     double fps;
     uint32_t frames;
     bool bounded;
-    JoxV2 low, high;       /* m; valid if `bounded` */
-    const JoxWalls *walls; /* walls in the first frame */
+    JoxV2 low, high;           /* m; valid if `bounded` */
+    const JoxWalls *walls;     /* walls in the first frame */
+    const JoxStoreys *storeys; /* NULL: none are recorded */
     const char *const *groups;
     uint32_t group_count;
     const JoxColour *group_colours;

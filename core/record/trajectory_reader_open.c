@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "machine/machine.h"
 #include "record/recorder_schema.h"
+#include "record/storey_tables.h"
 #include "record/trajectory_reader_parts.h"
 
 enum {
@@ -134,8 +135,9 @@ static void read_state_names(JoxTrajectoryReader *r) {
 }
 
 /* Prepares the query for the rows of a frame, by the columns that the file has. In order: our
-   recordings; those before falls; before torsos; before radii; before that, those with table
-   jostle_agent; those before loads; files of JuPedSim; files with nothing but positions. */
+   recordings of storeys; our others; those before falls; before torsos; before radii; before that,
+   those with table jostle_agent; those before loads; files of JuPedSim; files with nothing but
+   positions. */
 static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     static const char *const WAYS[] = {"WHERE d.frame = ?1 ORDER BY d.id",
                                        "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
@@ -145,6 +147,8 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
     " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.%s AND a.id = d.id"           \
     " AND a.frame = d.frame"
     static const char *const COLUMNS[] = {
+        PLACED ", d.state, d.force, d.compression, d.member, d.load, d.radius, d.chest, d.breadth, "
+               "d.depth, d.fallen, d.storey, d.stair FROM trajectory_data d",
         PLACED ", d.state, d.force, d.compression, d.member, d.load, d.radius, d.chest, d.breadth, "
                "d.depth, d.fallen FROM trajectory_data d",
         PLACED ", d.state, d.force, d.compression, d.member, d.load, d.radius, d.chest, d.breadth, "
@@ -156,26 +160,31 @@ static bool prepare_frame_queries(JoxTrajectoryReader *r) {
         OURS OF_AGENTS,
         PLACED " FROM trajectory_data d",
         "SELECT d.id, d.pos_x, d.pos_y FROM trajectory_data d"};
-    for (int c = 0; c < (int)(sizeof COLUMNS / sizeof *COLUMNS) && !r->rows; c++) {
+    const int first = r->outlines.storeys.storey_count > 0 ? 0 : 1;
+    for (int c = first; c < (int)(sizeof COLUMNS / sizeof *COLUMNS) && !r->rows; c++) {
         JoxText sql = {0};
         jox_text_printf(&sql, COLUMNS[c], r->sorted ? "source" : "rowid");
         jox_text_printf(&sql, " %s", WAYS[r->way]);
         r->rows = jox_database_prepare(r->db, sql.data);
-        r->falls = c < 1;
-        r->torsos = c < 2;
-        r->radii = c < 3;
-        r->loads = c < 5;
-        r->ours = c < 6;
-        r->facing = c < 7;
+        r->placed = c < 1;
+        r->falls = c < 2;
+        r->torsos = c < 3;
+        r->radii = c < 4;
+        r->loads = c < 6;
+        r->ours = c < 7;
+        r->facing = c < 8;
         jox_text_free(&sql);
     }
     double last;
     if (query_number(r->db, "SELECT MAX(rowid) FROM jostle_body", &last)) {
         r->last_body = (int64_t)last;
         r->body_at = jox_database_prepare(r->db, "SELECT frame FROM jostle_body WHERE rowid = ?");
-        r->bodies = jox_database_prepare(
-            r->db, "SELECT frame, id, x, y, z, qx, qy, qz, qw FROM jostle_body "
-                   "WHERE rowid >= ? ORDER BY rowid");
+#define BODIES_WITH(more)                                                                          \
+    "SELECT frame, id, x, y, z, qx, qy, qz, qw" more                                               \
+    " FROM jostle_body WHERE rowid >= ? ORDER BY "                                                 \
+    "rowid"
+        r->bodies = jox_database_prepare(r->db, r->placed ? BODIES_WITH(", storey, stair")
+                                                          : BODIES_WITH(""));
     }
 #define PART_WITH(name)                                                                            \
     "SELECT kind, size_x, size_y, size_z, x, y, z, qx, qy, qz, qw, corners, " name                 \
@@ -209,6 +218,9 @@ static void read_bounds(JoxTrajectoryReader *r) {
     if (r->bounded) {
         r->low = (JoxV2){(float)bounds[0], (float)bounds[1]};
         r->high = (JoxV2){(float)bounds[2], (float)bounds[3]};
+        const JoxStoreys *storeys = &r->outlines.storeys;
+        if (jox_has_storeys(storeys)) /* the bounds are in plan */
+            r->high = jox_on_sheet(storeys, storeys->sheet_count - 1, r->high);
     }
 }
 
@@ -279,14 +291,16 @@ static bool find_row_table(JoxTrajectoryReader *r, const char *path, const char 
                      &found)) {
         *table = "jostle_row";
         static const char *const VIEWS[] = {
+            "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_STOREY_ROWS,
             "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_ROWS,
             "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_FALLS,
             "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_TORSOS,
             "CREATE TEMP VIEW trajectory_data AS " JOX_RECORDED_BEFORE_RADII};
-        const int version = has_column(r->db, "fallen")   ? 0
-                            : has_column(r->db, "chest")  ? 1
-                            : has_column(r->db, "radius") ? 2
-                                                          : 3;
+        const int version = has_column(r->db, "storey")   ? 0
+                            : has_column(r->db, "fallen") ? 1
+                            : has_column(r->db, "chest")  ? 2
+                            : has_column(r->db, "radius") ? 3
+                                                          : 4;
         sqlite3_exec(r->db->sqlite, VIEWS[version], NULL, NULL, NULL);
     } else if (query_number(
                    r->db,
@@ -305,6 +319,12 @@ static bool read_properties(JoxTrajectoryReader *r, const char *path,
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
     const char *table;
     double found;
+    JoxText why = {0};
+    if (!jox_storey_tables_read(r->db, &r->outlines.storeys, &why)) {
+        add_open_error(diagnostics, path, NULL, why.data);
+        jox_text_free(&why);
+        return false;
+    }
     if (!has_known_version(r, path, diagnostics) || !find_row_table(r, path, &table, diagnostics))
         return false;
     sqlite3_stmt *probe =

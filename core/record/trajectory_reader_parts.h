@@ -21,6 +21,7 @@ struct JoxTrajectoryReader {
     bool torsos; /* has columns of torsos; older recordings of ours have none */
     bool torso;  /* somebody in the frame that was read last is no disc */
     bool facing; /* has the directions in which people look */
+    bool placed; /* has storeys and stairs of people */
     /* by frame: its number and, for JOX_READ_BY_ROW, its first row, with the end of the last
        frame */
     int64_t *number, *from;

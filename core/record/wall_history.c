@@ -8,6 +8,7 @@
 
 #include "base/database.h"
 #include "base/mem.h"
+#include "record/storey_tables.h"
 
 enum { MOST_POINTS = 100000, MOST_WALLS = 1000000 };
 
@@ -102,9 +103,21 @@ static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
     h->latest[number] = h->count;
 }
 
-JoxWallHistory *jox_wall_history_read(JoxDatabase *db) {
+/* Moves the points of a wall from plan to the sheet of its row; a wall elsewhere is left without
+   points. */
+static void place_wall(JoxWallHistory *h, sqlite3_stmt *list, const JoxStoreys *storeys) {
+    RecordedWall *row = &h->rows[h->count - 1];
+    for (uint32_t k = 0; k < row->count && !row->same_points; k++)
+        if (!jox_storey_tables_place(storeys, sqlite3_column_int64(list, 9),
+                                     sqlite3_column_int64(list, 10), &h->points[row->first + k].y))
+            row->count = 0;
+}
+
+JoxWallHistory *jox_wall_history_read(JoxDatabase *db, const JoxStoreys *storeys) {
     /* Older recordings have no drawn heights, still older ones no frames. */
     static const char *const QUERIES[] = {
+        "SELECT frame, number, name, solid, closed, open, height, points, drawn, storey, stair "
+        "FROM jostle_wall ORDER BY frame, number",
         "SELECT frame, number, name, solid, closed, open, height, points, drawn FROM jostle_wall "
         "ORDER BY frame, number",
         "SELECT frame, number, name, solid, closed, open, height, points, NULL FROM jostle_wall "
@@ -112,15 +125,20 @@ JoxWallHistory *jox_wall_history_read(JoxDatabase *db) {
         "SELECT 0, rowid - 1, name, solid, closed, open, height, points, NULL FROM jostle_wall "
         "ORDER BY rowid"};
     sqlite3_stmt *list = NULL;
-    for (int q = 0; q < 3 && !list; q++)
+    const bool placed = jox_has_storeys(storeys);
+    for (int q = placed ? 0 : 1; q < 4 && !list; q++)
         list = jox_database_prepare(db, QUERIES[q]);
     if (!list)
         return NULL;
     JoxWallHistory *h = jox_alloc(1, sizeof *h);
     JoxV2 *points = jox_alloc(MOST_POINTS, sizeof *points);
     size_t latest_capacity = 0;
-    while (sqlite3_step(list) == SQLITE_ROW)
+    while (sqlite3_step(list) == SQLITE_ROW) {
+        const uint32_t had = h->count;
         add_wall_row(h, list, points, &latest_capacity);
+        if (placed && h->count > had && sqlite3_column_count(list) > 10)
+            place_wall(h, list, storeys);
+    }
     jox_free(points);
     jox_database_finalize(db, list);
     return h;

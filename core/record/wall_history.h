@@ -9,13 +9,15 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "geom/storeys.h"
 #include "geom/walls.h"
 
 struct JoxDatabase;
 typedef struct JoxWallHistory JoxWallHistory;
 
-/* Reads the table. Returns NULL where the recording has none, as in files of other programs. */
-JoxWallHistory *jox_wall_history_read(struct JoxDatabase *db);
+/* Reads the table; `storeys` are those of the recording. Returns NULL where the recording has none,
+   as in files of other programs. */
+JoxWallHistory *jox_wall_history_read(struct JoxDatabase *db, const JoxStoreys *storeys);
 /* Sets `out` to the walls of the first frame; the caller frees them. */
 void jox_wall_history_first(JoxWallHistory *history, JoxWalls *out);
 /* Returns the walls in a frame, open gates included, valid until the next call. Ring numbers are

@@ -89,13 +89,20 @@ static void record_reload(void *self, JoScene *scene, const JoxReloadNews *news)
 }
 
 /* Writes the walkable area as WKT: that of the plan from which the walls were read if all people
-   are, come in and start within it; else the box round everything. */
+   are, come in and start within it; else the box round everything. With storeys it is the box round
+   all of them in plan: readers know one plane, on which the walls of one storey would stand in the
+   way of another. */
 static void write_walkable_area(const JoScene *scene, JoxText *wkt) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
     const uint32_t sources = scene->spec->source_count, starts = world->model.start_count;
     uint32_t count = 0;
-    JoxV2 low, high, *points = jox_alloc((size_t)a->count + sources + starts + 1, sizeof *points);
+    JoxV2 low, high;
+    if (jox_run_find_plan_area(scene, &low, &high)) {
+        jox_wkt(&(JoxWalls){0}, low, high, wkt);
+        return;
+    }
+    JoxV2 *points = jox_alloc((size_t)a->count + sources + starts + 1, sizeof *points);
     for (uint32_t i = 0; i < a->count; i++)
         points[count++] = (JoxV2){a->x[i], a->y[i]};
     for (uint32_t s = 0; s < sources; s++)
@@ -162,16 +169,21 @@ static bool begin_recording(void *self, JoScene *scene, const void *options, JoE
     if (target->goes_on) {
         if (!jox_run_restore_listener(scene, &RECORDING, self, error))
             return false;
-        r->recorder =
-            jox_recorder_continue(path, (uint32_t)(scene->world->state.tick / r->every), &why);
+        r->recorder = jox_recorder_continue(path, (uint32_t)(scene->world->state.tick / r->every),
+                                            &scene->world->model.storeys, &why);
         return r->recorder || jox_run_fill_error(error, &why);
     }
     r->every = dt >= target->every ? 1 : (uint32_t)(target->every / dt + 0.5);
     write_walkable_area(scene, &wkt);
-    r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);
+    r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data,
+                                    &scene->world->model.storeys, &why);
     jox_text_free(&wkt);
     if (!r->recorder)
         return jox_run_fill_error(error, &why);
+    JoxV2 low, high;
+    jox_run_find_plan_area(scene, &low, &high);
+    if (scene->world->model.storeys.storey_count)
+        jox_recorder_describe_storeys(r->recorder, &scene->world->model.all_walls, low, high);
     record_walls(r, &scene->world->model.all_walls,
                  (uint32_t)((scene->world->state.tick + r->every - 1) / r->every));
     const JoxMachineRun *machines = &scene->world->machines;

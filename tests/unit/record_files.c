@@ -69,7 +69,7 @@ static void recording_reads_back(void **state) {
     (void)state;
     JoxText error = {0};
     for (int again = 0; again < 2; again++) { /* the second replaces the first */
-        JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
+        JoxRecorder *r = jox_recorder_open(path, 20, WKT, NULL, &error);
         assert_non_null(r);
         for (uint32_t k = 0; k < 3; k++)
             jox_recorder_state(r, k, "machine", k ? "Go" : "Wait", 0, NULL);
@@ -114,7 +114,7 @@ static void killed_writer_leaves_complete_frames(void **state) {
     assert_true(child >= 0);
     if (child == 0) {
         JoxText error = {0};
-        JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
+        JoxRecorder *r = jox_recorder_open(path, 20, WKT, NULL, &error);
         for (uint32_t f = 0; r && f < 10000; f++) {
             submit_test_frame(r, f, &error);
             usleep(5000);
@@ -140,7 +140,7 @@ static void killed_writer_leaves_complete_frames(void **state) {
                 frames - 0.5);
     sqlite3_close(db);
     JoxText error = {0};
-    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error); /* it can be replaced */
+    JoxRecorder *r = jox_recorder_open(path, 20, WKT, NULL, &error); /* it can be replaced */
     assert_non_null(r);
     assert_true(submit_test_frame(r, 0, &error) && jox_recorder_close(r, &error));
     unlink(path);
@@ -150,7 +150,7 @@ static void killed_writer_leaves_complete_frames(void **state) {
 static void last_frame_is_committed_without_a_next(void **state) {
     (void)state;
     JoxText error = {0};
-    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
+    JoxRecorder *r = jox_recorder_open(path, 20, WKT, NULL, &error);
     assert_non_null(r);
     assert_true(submit_test_frame(r, 0, &error));
     sqlite3 *db;
@@ -162,14 +162,14 @@ static void last_frame_is_committed_without_a_next(void **state) {
     }
     assert_true(frames == 1);
     sqlite3_close(db);
-    assert_null(jox_recorder_open(path, 20, WKT, &error)); /* another run writes it */
+    assert_null(jox_recorder_open(path, 20, WKT, NULL, &error)); /* another run writes it */
     assert_non_null(strstr(error.data, "another run writes it"));
     jox_text_free(&error);
     assert_true(jox_recorder_close(r, &error));
-    r = jox_recorder_continue(path, 0, &error);
+    r = jox_recorder_continue(path, 0, NULL, &error);
     assert_non_null(r);
     assert_true(submit_test_frame(r, 1, &error) && jox_recorder_close(r, &error));
-    r = jox_recorder_continue(path, 0, &error); /* removes the second frame again */
+    r = jox_recorder_continue(path, 0, NULL, &error); /* removes the second frame again */
     assert_non_null(r);
     assert_true(jox_recorder_close(r, &error));
     assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
@@ -177,14 +177,14 @@ static void last_frame_is_committed_without_a_next(void **state) {
     assert_true(query_test_number(db, "SELECT count(*) FROM trajectory_data") == 3);
     sqlite3_close(db);
     unlink(path);
-    assert_null(jox_recorder_continue(path, 0, &error));
+    assert_null(jox_recorder_continue(path, 0, NULL, &error));
     assert_non_null(strstr(error.data, "there is no recording"));
     jox_text_free(&error);
 }
 
 static void assert_refused(const char *where, const char *why) {
     JoxText error = {0};
-    assert_null(jox_recorder_open(where, 20, WKT, &error));
+    assert_null(jox_recorder_open(where, 20, WKT, NULL, &error));
     assert_non_null(error.data);
     assert_non_null(strstr(error.data, where));
     assert_non_null(strstr(error.data, why));
@@ -217,7 +217,7 @@ static void other_files_are_not_replaced(void **state) {
 static void nan_position_is_an_error(void **state) {
     (void)state;
     JoxText error = {0};
-    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
+    JoxRecorder *r = jox_recorder_open(path, 20, WKT, NULL, &error);
     assert_non_null(r);
     assert_true(submit_test_frame(r, 0, &error));
     JoxRecordBody *bodies;
@@ -237,7 +237,7 @@ static void nan_position_is_an_error(void **state) {
 static void recording_ends_while_another_reads(void **state) {
     (void)state;
     JoxText message = {0};
-    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &message);
+    JoxRecorder *r = jox_recorder_open(path, 20, WKT, NULL, &message);
     assert_non_null(r);
     for (uint32_t f = 0; f < 5; f++)
         assert_true(submit_test_frame(r, f, &message));
@@ -253,7 +253,7 @@ static void recording_ends_while_another_reads(void **state) {
     jox_text_free(&message);
     /* Refused: a program that still reads the recording would delete the next run's log at its end.
      */
-    JoxRecorder *next = jox_recorder_open(path, 20, WKT, &message);
+    JoxRecorder *next = jox_recorder_open(path, 20, WKT, NULL, &message);
     assert_null(next);
     assert_non_null(strstr(message.data, "another program reads the recording"));
     jox_text_free(&message);

@@ -51,7 +51,8 @@ static void change_recording(const char *sql) {
 static void torsos_and_falls_are_recorded(void **state) {
     (void)state;
     JoxText error = {0};
-    JoxRecorder *r = jox_recorder_open(path, 10, "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))", &error);
+    JoxRecorder *r =
+        jox_recorder_open(path, 10, "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))", NULL, &error);
     assert_non_null(r);
     JoxRecordBody *bodies;
     JoxRecordRow *rows = jox_recorder_begin_frame(r, 2, 0, &bodies);

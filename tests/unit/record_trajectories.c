@@ -322,7 +322,7 @@ static void own_recordings_keep_forces_and_walls(void **state) {
     (void)state;
     JoxText error = {0};
     unlink(path);
-    JoxRecorder *r = jox_recorder_open(path, 10, "POLYGON ((0 0, 1 0, 1 1, 0 0))", &error);
+    JoxRecorder *r = jox_recorder_open(path, 10, "POLYGON ((0 0, 1 0, 1 1, 0 0))", NULL, &error);
     assert_non_null(r);
     jox_recorder_group(r, 0, "red", 0, NULL);
     jox_recorder_group(r, 1, "blue", JOX_COLOUR_GIVEN | 0x123456, NULL);
