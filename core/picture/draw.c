@@ -12,7 +12,9 @@
 static const float HEAD = 46, LEGEND = 206, EDGE = 16;
 static const float WIDE = 1280, LOW = 480; /* px: usual width, least height */
 
-void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
+void jox_draw_size(const JoxPicture *picture, uint32_t *width, uint32_t *height) {
+    const JoxPanels area = jox_draw_lay_panels(picture);
+    const JoxV2 low = area.low, high = area.high;
     float wide = WIDE - LEGEND - 2 * EDGE;
     float tall = wide * (high.y - low.y) / (high.x - low.x);
     if (tall > 960.0f) { /* a tall area makes a narrow picture */
@@ -29,10 +31,11 @@ static float panel_unit(float wide) {
     return wide > 1500 ? 2.6f : 2.0f;
 }
 
-bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
+bool jox_draw_panel_size(const JoxPicture *picture, uint32_t *width, uint32_t *height) {
     /* width of half a line, px; least and greatest height over width */
     static const float HALF = 1140, FLAT = 0.4f, HIGH = 1.25f;
-    const float aspect = (high.y - low.y) / (high.x - low.x);
+    const JoxPanels area = jox_draw_lay_panels(picture);
+    const float aspect = (area.high.y - area.low.y) / (area.high.x - area.low.x);
     const bool whole = aspect < FLAT;
     const float u = panel_unit(whole ? 2 * HALF : HALF);
     const float wide = whole ? 2 * HALF : HALF;
@@ -57,7 +60,7 @@ static void lay_out_map(JoxDrawing *d) {
     d->legend_left = wide - (p->panel ? 0 : LEGEND * u);
     JoxV2 low = {EDGE * u, HEAD * u};
     JoxV2 high = {d->legend_left - EDGE * u, tall - (p->panel ? JOX_DRAW_STRIP : EDGE) * u};
-    JoxV2 size = jox_sub(p->high, p->low);
+    JoxV2 size = jox_sub(d->panels.high, d->panels.low);
     d->scale = jox_minf((high.x - low.x) / size.x, (high.y - low.y) / size.y);
     JoxV2 spare = jox_scale(jox_sub(jox_sub(high, low), jox_scale(size, d->scale)), 0.5f);
     d->low = jox_v2(low.x + spare.x, low.y + spare.y);
@@ -185,7 +188,14 @@ static void draw_body_layer(JoxDrawing *d, bool high) {
     jox_canvas_close(d->canvas);
 }
 
-/* Draws the trails of people and bodies, interrupted at points that are not finite. */
+/* Returns whether a trail goes on from a point to the next one, in the same panel. */
+static bool goes_on(const JoxDrawing *d, const JoxTrail *trail, uint32_t to) {
+    return !d->panels.storeys || jox_draw_panel_of(&d->panels, trail->points[to]) ==
+                                     jox_draw_panel_of(&d->panels, trail->points[to - 1]);
+}
+
+/* Draws the trails of people and bodies, interrupted at points that are not finite, and where they
+   change the storey. */
 static void draw_trails(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     float u = d->unit;
@@ -201,11 +211,13 @@ static void draw_trails(JoxDrawing *d) {
         if (trail->body)
             style = (JoxStyle){.line = jox_ink_body_line, .width = 1.2f * u, .dash = 4 * u};
         jox_canvas_open(d->canvas, NULL, trail->body ? "body" : "person", style);
-        for (uint32_t from = 0, to; from < trail->count; from = to + 1) {
-            for (to = from; to < trail->count && isfinite(trail->points[to].x);)
+        for (uint32_t from = 0, to; from < trail->count; from = to) {
+            for (to = from; to < trail->count && isfinite(trail->points[to].x) &&
+                            (to == from || goes_on(d, trail, to));)
                 to++;
             if (to - from > 1)
                 jox_draw_plan_line(d, trail->points + from, to - from, false, NULL);
+            to += to == from;
         }
         jox_canvas_close(d->canvas);
     }
@@ -242,14 +254,20 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     JoxDrawing *d = jox_alloc(1, sizeof *d);
     d->canvas = canvas;
     d->picture = picture;
+    d->panels = jox_draw_lay_panels(picture);
     jox_canvas_begin(canvas, picture->title);
     lay_out_map(d);
     jox_draw_choose_classes(d);
     draw_title_line(d);
-    draw_map_box(d, "floor", (JoxStyle){.fill = jox_draw_ground_ink(picture)});
+    if (d->panels.storeys)
+        jox_draw_panel_floors(d, jox_draw_ground_ink(picture));
+    else
+        draw_map_box(d, "floor", (JoxStyle){.fill = jox_draw_ground_ink(picture)});
     jox_canvas_clip(canvas, d->low, d->high);
     jox_draw_scenery(d);
     jox_draw_field(d);
+    if (d->panels.storeys)
+        jox_draw_stairs(d);
     draw_places(d);
     draw_trails(d);
     draw_walls(d);
@@ -260,8 +278,9 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     draw_body_layer(d, true);
     jox_draw_names(d);
     jox_canvas_close(canvas);
-    draw_map_box(d, "frame",
-                 (JoxStyle){.line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit});
+    if (!d->panels.storeys)
+        draw_map_box(d, "frame",
+                     (JoxStyle){.line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit});
     jox_draw_legend(d);
     jox_free(d->people);
     jox_free(d->inks);

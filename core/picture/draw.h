@@ -6,6 +6,7 @@
 
 #include "body/body.h"
 #include "geom/place.h"
+#include "geom/storeys.h"
 #include "picture/canvas.h"
 #include "record/fields/density.h"
 #include "record/frame.h"
@@ -121,13 +122,14 @@ typedef struct JoxPicture {
     /* drawn as one of several panels of a page: the legend is a strip below the map */
     bool panel;
     float radius;    /* m: of every person, used if the frame has no radii */
-    JoxV2 low, high; /* m: lower and upper corner of the area shown */
+    JoxV2 low, high; /* m: lower and upper corner of the area shown; with storeys, in plan */
+    const JoxStoreys *storeys; /* each is drawn in a panel of its own; NULL: one plane */
 } JoxPicture;
 
-/* Choose a picture's size in pixels, both even, for an area in metres. The second is for a panel
+/* Choose a picture's size in pixels, both even, for its area and storeys. The second is for a panel
    and returns true if the panel takes a whole line of a page, false if half of one. */
-void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height);
-bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height);
+void jox_draw_size(const JoxPicture *picture, uint32_t *width, uint32_t *height);
+bool jox_draw_panel_size(const JoxPicture *picture, uint32_t *width, uint32_t *height);
 /* Draws a picture on a canvas, whose former content is dropped. */
 void jox_draw(JoxCanvas *canvas, const JoxPicture *picture);
 

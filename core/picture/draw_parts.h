@@ -10,11 +10,22 @@ enum { JOX_DRAW_BINS = 32, JOX_DRAW_LABELS = 256 };
 /* height of the legend below a panel's map, in units (JoxDrawing.unit) */
 #define JOX_DRAW_STRIP 92.0f
 
+/* Where the plans of storeys lie in a picture, m in the picture's own plane; without storeys the
+   area alone. */
+typedef struct JoxPanels {
+    const JoxStoreys *storeys;
+    uint32_t columns, rows;
+    JoxV2 step;                /* m: from panel to panel */
+    JoxV2 plan_low, plan_high; /* m in plan: corners of a panel */
+    JoxV2 low, high;           /* m: corners of all */
+} JoxPanels;
+
 /* A picture while it is drawn. People are drawn by class, which is a state, a group or a bin of
    a value. */
 typedef struct JoxDrawing {
     JoxCanvas *canvas;
     const JoxPicture *picture;
+    JoxPanels panels;
     float unit;        /* scale of type and line widths: px per px of a picture of the usual size */
     float scale;       /* px/m */
     JoxV2 low, high;   /* px: the map's upper left and lower right corner */
@@ -39,10 +50,25 @@ static inline JoxInk jox_ink_with(JoxInk ink, float a) {
     return ink;
 }
 
-/* Converts a point of the plan, m, to pixels. */
+/* draw_storeys.c: lays the panels of a picture out; returns the panel of a position, where a point
+   of the plan lies in a panel, and where a position lies; draws the panels' floors, a field of
+   which `levels` has a level for each cell of the grid, and the stairs. */
+JoxPanels jox_draw_lay_panels(const JoxPicture *picture);
+uint32_t jox_draw_panel_of(const JoxPanels *panels, JoxV2 at);
+JoxV2 jox_draw_in_panel(const JoxPanels *panels, uint32_t panel, JoxV2 plan);
+JoxV2 jox_draw_in_panels(const JoxPanels *panels, JoxV2 at);
+void jox_draw_panel_floors(JoxDrawing *drawing, JoxInk ground);
+void jox_draw_panel_fields(JoxDrawing *drawing, const uint8_t *levels, const JoxInk *ink);
+void jox_draw_stairs(JoxDrawing *drawing);
+
+/* Converts a point of the picture's own plane, m, to pixels. */
+static inline JoxV2 jox_draw_panel_pixels(const JoxDrawing *d, JoxV2 p) {
+    return (JoxV2){d->low.x + (p.x - d->panels.low.x) * d->scale,
+                   d->high.y - (p.y - d->panels.low.y) * d->scale};
+}
+/* Converts a position, m, to pixels. */
 static inline JoxV2 jox_draw_to_pixels(const JoxDrawing *d, JoxV2 p) {
-    return (JoxV2){d->low.x + (p.x - d->picture->low.x) * d->scale,
-                   d->high.y - (p.y - d->picture->low.y) * d->scale};
+    return jox_draw_panel_pixels(d, d->panels.storeys ? jox_draw_in_panels(&d->panels, p) : p);
 }
 /* Estimates the width of text, px, on the wide side for common sans-serif fonts. `size` is the
    font size, px. */

@@ -296,9 +296,10 @@ void jox_draw_field(JoxDrawing *d) {
     JoxInk ink[JOX_DRAW_BINS + 1] = {{0, 0, 0, 0}};
     for (int k = 0; k < JOX_DRAW_BINS; k++)
         ink[k + 1] = jox_draw_floor_ink(p, (uint32_t)k);
-    for (uint32_t r = 0; r < grid->rows; r++)
+    for (uint32_t r = 0; r < grid->rows; r++) /* from the top; in panels, from the lowest row */
         for (uint32_t c = 0; c < grid->columns; c++) {
-            float value = p->field[(size_t)(grid->rows - 1 - r) * grid->columns + c];
+            const uint32_t row = d->panels.storeys ? r : grid->rows - 1 - r;
+            float value = p->field[(size_t)row * grid->columns + c];
             value = value > 0.0f ? value / p->floor_most : 0.0f; /* NAN (not measured) becomes 0 */
             float part = jox_minf(value, 1.0f) * JOX_DRAW_BINS;
             uint32_t bin = (uint32_t)jox_minf(part, JOX_DRAW_BINS - 1);
@@ -306,10 +307,18 @@ void jox_draw_field(JoxDrawing *d) {
         }
     JoxV2 top = {grid->low.x, grid->low.y + (float)grid->rows * grid->cell};
     jox_canvas_open(d->canvas, "field", jox_shown[p->floor].name, (JoxStyle){0});
-    JoxCells cells = {
-        jox_draw_to_pixels(d, top), grid->cell * d->scale, grid->columns, grid->rows, levels, ink,
-        JOX_DRAW_BINS + 1};
-    jox_canvas_cells(d->canvas, &cells);
+    if (d->panels.storeys) {
+        jox_draw_panel_fields(d, levels, ink);
+    } else {
+        JoxCells cells = {jox_draw_to_pixels(d, top),
+                          grid->cell * d->scale,
+                          grid->columns,
+                          grid->rows,
+                          levels,
+                          ink,
+                          JOX_DRAW_BINS + 1};
+        jox_canvas_cells(d->canvas, &cells);
+    }
     jox_canvas_close(d->canvas);
     jox_free(levels);
 }

@@ -229,7 +229,7 @@ static bool open_output(Job *job, double fps, JoError *error) {
     uint32_t width = def->width, height = def->height;
     JoxText why = {0};
     if (!width || !height)
-        jox_draw_size(job->render.picture.low, job->render.picture.high, &width, &height);
+        jox_draw_size(&job->render.picture, &width, &height);
     job->canvas =
         job->kind == SVG ? jox_canvas_svg(width, height) : jox_canvas_image(width, height);
     if (job->kind == VIDEO && !*job->folder)

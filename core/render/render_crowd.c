@@ -18,6 +18,12 @@ typedef struct Box {
     JoxV2 low, high;
 } Box;
 
+/* Returns the storeys of the scene or recording; NULL without any. */
+static const JoxStoreys *get_storeys(const JoxRender *r) {
+    const JoxStoreys *s = r->scene ? &r->scene->world->model.storeys : r->frame.storeys;
+    return jox_has_storeys(s) ? s : NULL;
+}
+
 static void widen_box(Box *box, JoxV2 p) {
     box->low = jox_v2(jox_minf(box->low.x, p.x), jox_minf(box->low.y, p.y));
     box->high = jox_v2(jox_maxf(box->high.x, p.x), jox_maxf(box->high.y, p.y));
@@ -31,11 +37,12 @@ static Box expand_box(const Box *box, float times) {
 
 /* Widens the box by the places near it; distant places may serve only as directions. Without
    walls, places are all there is, and more distant ones count. */
-static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count, bool walls) {
+static void widen_by_places(Box *box, const JoxStoreys *storeys, const JoxPlace *places,
+                            uint32_t count, bool walls) {
     Box near = expand_box(box, walls ? 1.0f : 10.0f);
     for (uint32_t p = 0; p < count; p++)
         for (uint32_t i = 0; i < places[p].count; i++) {
-            JoxV2 at = places[p].points[i];
+            JoxV2 at = jox_in_plan(storeys, places[p].points[i]);
             float around = jox_place_radius(&places[p]);
             if (at.x < near.low.x || at.y < near.low.y || at.x > near.high.x || at.y > near.high.y)
                 continue;
@@ -50,6 +57,7 @@ static void choose_map_area(JoxRender *r) {
     JoxPicture *p = &r->picture;
     const JoxSceneSpec *spec = r->scene ? r->scene->spec : r->spec;
     const double *area = r->def->area;
+    const JoxStoreys *storeys = p->storeys = get_storeys(r);
     if (area) {
         p->low = jox_v2((float)area[0], (float)area[1]);
         p->high = jox_v2((float)area[2], (float)area[3]);
@@ -62,21 +70,21 @@ static void choose_map_area(JoxRender *r) {
     }
     Box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     for (uint32_t i = 0; p->walls && i < p->walls->count; i++)
-        widen_box(&box, p->walls->vertices[i].point);
-    if (r->crowd) {
+        widen_box(&box, jox_in_plan(storeys, p->walls->vertices[i].point));
+    if (r->crowd && !storeys) {
         widen_box(&box, r->crowd->low);
         widen_box(&box, r->crowd->high);
     }
     const JoxFrame *frame = r->scene ? jox_run_present_frame(r->scene, 0) : NULL;
     for (uint32_t i = 0; frame && i < frame->count; i++)
-        widen_box(&box, jox_v2(frame->x[i], frame->y[i]));
+        widen_box(&box, jox_in_plan(storeys, jox_v2(frame->x[i], frame->y[i])));
     if (!(box.low.x <= box.high.x)) /* no people and no walls: places alone */
         for (uint32_t k = 0; k < p->place_count; k++)
             if (p->places[k].count)
-                widen_box(&box, p->places[k].points[0]);
+                widen_box(&box, jox_in_plan(storeys, p->places[k].points[0]));
     if (!(box.low.x <= box.high.x))
         box = (Box){{-1, -1}, {1, 1}};
-    widen_by_places(&box, p->places, p->place_count, p->walls && p->walls->count > 0);
+    widen_by_places(&box, storeys, p->places, p->place_count, p->walls && p->walls->count > 0);
     float edge = 0.5f + 0.01f * jox_maxf(box.high.x - box.low.x, box.high.y - box.low.y);
     p->low = jox_sub(box.low, jox_v2(edge, edge));
     p->high = jox_add(box.high, jox_v2(edge, edge));
@@ -89,7 +97,8 @@ void jox_render_widen_area(JoxRender *r) {
     if (r->def->area)
         return;
     for (uint32_t i = 0; i < r->frame.count; i++) {
-        JoxV2 at = {r->frame.x[i], r->frame.y[i]}, edge = {0.5f, 0.5f};
+        const JoxV2 edge = {0.5f, 0.5f};
+        const JoxV2 at = jox_in_plan(p->storeys, jox_v2(r->frame.x[i], r->frame.y[i]));
         bool far = !(at.x >= near.low.x && at.y >= near.low.y && at.x <= near.high.x &&
                      at.y <= near.high.y);
         if (far)
@@ -102,7 +111,7 @@ void jox_render_widen_area(JoxRender *r) {
     if (!r->grid)
         return;
     jox_density_free(r->grid);
-    r->grid = jox_local_grid(p->low, p->high, NULL);
+    r->grid = jox_local_grid(p->low, p->high, p->storeys);
 }
 
 /* ---- colours ---- */
@@ -199,7 +208,7 @@ static bool choose_colours(JoxRender *r, JoError *error) {
 static void create_fields(JoxRender *r) {
     JoxPicture *p = &r->picture;
     if (p->colour == JOX_SHOW_DENSITY || p->floor == JOX_SHOW_DENSITY)
-        r->grid = jox_local_grid(p->low, p->high, NULL);
+        r->grid = jox_local_grid(p->low, p->high, p->storeys);
     if (p->floor != JOX_SHOW_PRESSURE)
         return;
     if (r->scene)

@@ -94,15 +94,21 @@ static bool write_danger_map(const JoxDanger *d, const char *folder, JoxText *er
     FILE *out = jox_plot_open(folder, "danger-map.csv", error);
     if (!out)
         return false;
-    fputs("x [m],y [m]", out);
+    const JoxStoreys *storeys = jox_density_storeys_of(g);
+    fputs(storeys ? "x [m],y [m],storey" : "x [m],y [m]", out);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
         fprintf(out, ",%s_mean [%s],%s_max [%s]", jox_danger_names[m], jox_danger_units[m],
                 jox_danger_names[m], jox_danger_units[m]);
     fputc('\n', out);
     for (uint32_t row = 0; row < g->rows; row += skip) {
         for (uint32_t column = 0; column < g->columns; column += skip) {
-            fprintf(out, "%.3f,%.3f", g->low.x + ((float)column + 0.5f) * g->cell,
-                    g->low.y + ((float)row + 0.5f) * g->cell);
+            const JoxV2 at = jox_density_middle(g, (size_t)row * g->columns + column);
+            const JoxV2 plan = storeys ? jox_in_plan(storeys, at) : at;
+            if (!isfinite(at.y))
+                continue;
+            fprintf(out, "%.3f,%.3f", (double)plan.x, (double)plan.y);
+            if (storeys)
+                fprintf(out, ",%s", storeys->storeys[jox_storey_at(storeys, at)].name);
             for (int m = 0; m < JOX_DANGER_MAPPED; m++)
                 put_map_cells(d, m, column, row, skip, out);
             fputc('\n', out);

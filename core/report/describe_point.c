@@ -1,5 +1,6 @@
 /* Describes a point of the plan in words, for pages and summaries. */
 #include "geom/polygon.h"
+#include "geom/storey_text.h"
 #include "report/subject.h"
 
 static const float NEAR_LINE = 4.0f; /* m: lines farther away are not mentioned */
@@ -25,7 +26,7 @@ static const JoxProbeDef *find_nearest_line(const JoxSubject *s, JoxV2 at, float
 void jox_describe_point(const JoxSubject *s, JoxV2 at, JoxText *out) {
     float away;
     const JoxProbeDef *line = find_nearest_line(s, at, &away);
-    jox_text_printf(out, "(%.1f, %.1f) m", (double)at.x, (double)at.y);
+    jox_text_position(out, s->storeys, at, 1);
     if (line)
         jox_text_printf(out, ", %.1f m from the line %.60s", (double)away, line->name);
     jox_place_where(s->places, s->place_count, at, !line, out);

@@ -29,18 +29,20 @@ float jox_maps_scale_end(double most) {
 JoxPicture jox_maps_new_picture(const JoxSubject *s, const JoxFrame *frame) {
     const JoxDensity *g = s->grid;
     const JoxDrawnBodies *bodies = s->bodies;
-    return (JoxPicture){
-        .title = s->title,
-        .frame = frame,
-        .when = "",
-        .walls = s->walls,
-        .places = s->places,
-        .place_count = s->place_count,
-        .bodies = bodies ? bodies->items : NULL,
-        .body_count = bodies ? (uint32_t)bodies->count : 0,
-        .radius = 0.2f,
-        .low = g->low,
-        .high = {g->low.x + (float)g->columns * g->cell, g->low.y + (float)g->rows * g->cell}};
+    const bool storeys = jox_has_storeys(s->storeys);
+    const float width = (float)g->columns * g->cell, height = (float)g->rows * g->cell;
+    return (JoxPicture){.title = s->title,
+                        .frame = frame,
+                        .when = "",
+                        .walls = s->walls,
+                        .places = s->places,
+                        .place_count = s->place_count,
+                        .bodies = bodies ? bodies->items : NULL,
+                        .body_count = bodies ? (uint32_t)bodies->count : 0,
+                        .radius = 0.2f,
+                        .storeys = s->storeys,
+                        .low = {g->low.x, storeys ? s->storeys->low : g->low.y},
+                        .high = {g->low.x + width, storeys ? s->storeys->high : g->low.y + height}};
 }
 
 /* Returns the names of the subject's exits in an array that the caller frees. */
@@ -57,9 +59,9 @@ bool jox_maps_write_picture(const JoxSubject *s, const JoxPicture *picture, cons
     uint32_t width, height;
     bool good = true;
     if (picture->panel)
-        jox_draw_panel_size(picture->low, picture->high, &width, &height);
+        jox_draw_panel_size(picture, &width, &height);
     else
-        jox_draw_size(picture->low, picture->high, &width, &height);
+        jox_draw_size(picture, &width, &height);
     for (int image = 0; good && image < 2; image++) {
         if (image ? !images : images && picture->frame->count > MOST_AS_SVG)
             continue;
@@ -75,6 +77,14 @@ bool jox_maps_write_picture(const JoxSubject *s, const JoxPicture *picture, cons
 }
 
 /* ---- the plan ---- */
+
+/* Finds the bounding box of positions, m in plan. */
+static void find_plan_bounds(const JoxSubject *s, const JoxV2 *points, uint32_t count, JoxV2 *low,
+                             JoxV2 *high) {
+    jox_bounds(points, count, low, high);
+    *low = jox_in_plan(s->storeys, *low);
+    *high = jox_in_plan(s->storeys, *high);
+}
 
 /* Widens the area of a plan by a box, m, and a margin. */
 static void widen_plan_area(JoxPicture *p, JoxV2 low, JoxV2 high) {
@@ -108,13 +118,13 @@ bool jox_maps_draw_plan(const JoxSubject *s, JoxText *error) {
         JoxV2 low, high;
         if (jox_place_is_set(&s->places[i]) || s->places[i].count == 0)
             continue;
-        jox_bounds(s->places[i].points, s->places[i].count, &low, &high);
+        find_plan_bounds(s, s->places[i].points, s->places[i].count, &low, &high);
         if (jox_is_within(low, least, most) && jox_is_within(high, least, most))
             widen_plan_area(&p, low, high);
     }
     for (uint32_t i = 0; i < probe_count; i++) {
         JoxV2 low, high;
-        jox_bounds(probes[i].points, probes[i].count, &low, &high);
+        find_plan_bounds(s, probes[i].points, probes[i].count, &low, &high);
         if (jox_is_within(low, least, most) && jox_is_within(high, least, most))
             widen_plan_area(&p, low, high);
     }
@@ -237,7 +247,7 @@ static bool is_map_drawn(const JoxSubject *s, const struct Map *map) {
 void jox_maps_panels(FILE *out, const JoxSubject *s) {
     uint32_t width, height;
     const JoxPicture p = jox_maps_new_picture(s, NULL);
-    jox_html_panels(out, jox_draw_panel_size(p.low, p.high, &width, &height));
+    jox_html_panels(out, jox_draw_panel_size(&p, &width, &height));
 }
 
 void jox_write_maps_html(FILE *out, const JoxSubject *s) {

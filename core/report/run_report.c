@@ -276,6 +276,9 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .story = report ? &report->story : &none,
                         .bodies = report ? &report->story.moments[JOX_MOMENT_START].bodies : NULL,
                         .walls = &scene->world->model.all_walls,
+                        .storeys = jox_has_storeys(&scene->world->model.storeys)
+                                       ? &scene->world->model.storeys
+                                       : NULL,
                         .places = spec->places,
                         .place_count = spec->place_count,
                         .probes = probes,

@@ -17,6 +17,7 @@ typedef struct JoxSubject {
     const JoxExits *exits;
     const JoxStory *story;
     const JoxWalls *walls;
+    const JoxStoreys *storeys; /* NULL: one plane */
     const JoxPlace *places;
     uint32_t place_count;
     const JoxProbe *const *probes;

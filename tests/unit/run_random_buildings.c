@@ -3,6 +3,7 @@
    several threads and instruction sets have one hash, and go on from a saved state to the same one.
    JOSTLE_BUILDINGS says how many buildings are tried (default 6). */
 #include "base/number/random.h"
+#include "geom/polygon.h"
 #include "geom/wall_way.h"
 #include "unit/scene_loader.h"
 
@@ -91,6 +92,18 @@ static JoScene *load_building(const JoxText *text, JoIsa isa, uint32_t threads) 
     return jo_scene_load(&def, &error);
 }
 
+/* Returns whether a position is floor, or lies on the line of a seam. */
+static bool is_on_floor(const JoxStoreys *s, JoxV2 at) {
+    const JoxSheet *on = &s->sheets[jox_sheet_of(s, at.y)];
+    const JoxV2 plan = jox_in_plan(s, at);
+    bool floor = jox_is_floor(s, at);
+    for (uint32_t k = on->first_seam; k < on->first_seam + on->seam_count && !floor; k++) {
+        const JoxV2 nearest = jox_segment_nearest(s->seams[k].a, s->seams[k].b, plan);
+        floor = jox_length(jox_sub(nearest, plan)) < 1e-3f;
+    }
+    return floor;
+}
+
 /* Fails if somebody is off the floor, or stepped over a wall of the building. */
 static void check_people(const JoScene *scene, uint32_t building, const JoxText *text) {
     const JoWorld *w = scene->world;
@@ -99,7 +112,7 @@ static void check_people(const JoScene *scene, uint32_t building, const JoxText 
         const JoxV2 at = {a->x[i], a->y[i]}, before = {a->prev_x[i], a->prev_y[i]};
         const JoxV2 plan = jox_in_plan(a->storeys, at);
         const bool inside = plan.x > 0.0f && plan.x < WIDTH && plan.y > 0.0f && plan.y < DEPTH;
-        if (!inside || !jox_is_floor(a->storeys, at) ||
+        if (!inside || !is_on_floor(a->storeys, at) ||
             jox_walls_lie_between(jox_world_walls(w), before, at, NULL))
             fail_msg("building %u at %g s: agent %u at (%g, %g)\n%s", building, jo_world_time(w),
                      a->id[i], (double)at.x, (double)at.y, text->data);

@@ -105,6 +105,8 @@ float jox_density_depth(const JoxStoreys *storeys, JoxV2 low, JoxV2 high);
 /* Tells a density of an area of positions about storeys, before each jox_density_walls, so that
    people beyond the seams near the area count. Cheap after the first time; NULL for none. */
 void jox_density_storeys(JoxDensity *density, const JoxStoreys *storeys);
+/* Returns the storeys of a density of all storeys, NULL for one plane or an area of positions. */
+const JoxStoreys *jox_density_storeys_of(const JoxDensity *density);
 /* Sets the walls that stand at present; NULL for none. Cheap if they have not
    changed. */
 void jox_density_walls(JoxDensity *density, const JoxWalls *walls);

@@ -86,7 +86,6 @@ void jox_density_free_floor(JoxDensityFloor *floor);
    number of rows that are read. */
 int jox_density_add_sheets(JoxDensity *density, const JoxStoreys *storeys, JoxV2 low, JoxV2 high);
 void jox_density_free_sheets(JoxDensitySheets *sheets);
-const JoxStoreys *jox_density_storeys_of(const JoxDensity *density);
 /* Convert a position along y into the working grid, and back; NAN where there is no row for it. */
 float jox_density_pack(const JoxDensity *density, float y);
 float jox_density_unpack(const JoxDensity *density, float packed);

@@ -136,7 +136,7 @@ void jox_density_free_sheets(JoxDensitySheets *s) {
 /* ---- positions ---- */
 
 const JoxStoreys *jox_density_storeys_of(const JoxDensity *d) {
-    return &d->sheets->storeys;
+    return d->sheets ? &d->sheets->storeys : NULL;
 }
 
 static float find_block_end(const JoxDensity *d, const Block *block) {

@@ -257,7 +257,7 @@ static void open_ways(JoxDensity *d, JoxDensitySolids *solids) {
                 add_side_ways(d, cell, cell + wide, jox_v2(x, y + d->cell), jox_v2(d->cell, 0),
                               solids);
         }
-    const JoxStoreys *storeys = d->sheets ? jox_density_storeys_of(d) : NULL;
+    const JoxStoreys *storeys = jox_density_storeys_of(d);
     for (uint32_t k = 0; storeys && k < storeys->seam_count; k++)
         if (storeys->seams[k].enters) /* each seam is listed from either side */
             open_seam(d, &storeys->seams[k], solids);
