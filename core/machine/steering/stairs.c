@@ -7,6 +7,9 @@
 #include "machine/kernels.h"
 
 static const uint32_t GRAIN = 256;
+/* Share of the wanted speed of those who stand on an escalator: they still head onwards, so that
+   others keep a time gap to them. */
+static const float STANDING = 0.01f;
 
 /* Returns whether an agent stands on an escalator: drawn once for each agent and escalator. */
 static bool stands_on(const JoxMachineRun *run, const JoxFlight *flight, uint32_t i) {
@@ -42,7 +45,7 @@ static void slow_on_flight(const JoxMachineRun *run, uint32_t i) {
     if (!flight)
         return;
     const float up = jox_dot(jox_unit(wanted), flight->along);
-    const float share = stands_on(run, flight, i) ? 0.0f : find_speed_share(run, flight, i, up);
+    const float share = stands_on(run, flight, i) ? STANDING : find_speed_share(run, flight, i, up);
     a->pref_x[i] = wanted.x * share;
     a->pref_y[i] = wanted.y * share;
 }
