@@ -71,8 +71,8 @@ test("an escalator carries those who stand on it, and those who walk besides", f
     s:run(2)
     return (s:agent(0).x - from) / 2 * math.sqrt(1 + 0.5 * 0.5)
   end
-  near(progress({ escalator_walk = 0 }, { way = "up" }), 0.5, 0.01)
-  near(progress({ escalator_walk = 0 }, { way = "down", speed = 0.65 }), 0.65, 0.01)
+  near(progress({ escalator_walk = 0 }, { way = "up" }), 0.5, 0.02)
+  near(progress({ escalator_walk = 0 }, { way = "down", speed = 0.65 }), 0.65, 0.02)
   near(progress({ escalator_walk = 1, stair_up = 0.6 }, { way = "up" }), 1.1, 0.03)
 end)
 
