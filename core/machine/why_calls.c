@@ -2,6 +2,8 @@
    why_words.c calls it. */
 #include "machine/why_words.h"
 
+#include "geom/storey_text.h"
+
 /* ---- signals ---- */
 
 /* A call of a signal, as one agent may hear it. */
@@ -82,9 +84,19 @@ void jox_why_add_call(const JoxMachineRun *run, uint32_t i, uint32_t name, doubl
         jox_text_printf(out, "it called it itself at %.2f s, which is not heard", call.time);
         return;
     } else {
-        const double distance = (double)jox_length(jox_sub(call.at, call.own));
-        jox_text_printf(out, "agent %u called it at %.2f s at (%.2f, %.2f), %.3g m %s%s",
-                        call.agent_id, call.time, (double)call.at.x, (double)call.at.y, distance,
+        const JoxStoreys *storeys = run->agents->storeys;
+        const JoxV2 at = jox_in_plan(storeys, call.at);
+        JoxV2 way;
+        const bool joined = jox_plan_offset(storeys, call.own, call.at, &way);
+        const double distance = joined ? (double)jox_length(way) : INFINITY;
+        jox_text_printf(out, "agent %u called it at %.2f s at (%.2f, %.2f)", call.agent_id,
+                        call.time, (double)at.x, (double)at.y);
+        jox_text_storey(out, storeys, call.at);
+        if (!joined) {
+            jox_text_add(out, ", out of sight on another storey");
+            return;
+        }
+        jox_text_printf(out, ", %.3g m %s%s", distance,
                         call.present ? "away"
                         : call.then  ? "away from where it was then"
                                      : "from where it is now",

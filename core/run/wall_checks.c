@@ -128,6 +128,14 @@ static uint32_t add_person_per_source(JoScene *scene, uint32_t **source_of) {
     return first;
 }
 
+/* Returns whether people may not take each stair both ways. */
+static bool has_limited_stairs(const JoxStoreys *storeys) {
+    bool any = false;
+    for (uint32_t k = 0; k < storeys->stair_count; k++)
+        any |= storeys->stairs[k].closed || storeys->stairs[k].way != JOX_STAIR_BOTH_WAYS;
+    return any;
+}
+
 void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, JoxText *out) {
     const JoxBodies *bodies = scene->world->state.bodies;
     const uint32_t row = jox_bodies_find(bodies, hindrance->by);
@@ -137,7 +145,9 @@ void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, 
         gate = scene->world->model.all_walls.rings[hindrance->by].name;
     switch (hindrance->kind) {
     case JOX_HINDRANCE_WALL:
-        jox_text_add(out, "walls lie between");
+        jox_text_add(out, has_limited_stairs(&scene->world->model.storeys)
+                              ? "walls, or stairs that are closed or lead one way, lie between"
+                              : "walls lie between");
         return;
     case JOX_HINDRANCE_NARROW:
         jox_text_add(out, "the way is narrower than they are");

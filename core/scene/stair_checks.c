@@ -13,6 +13,7 @@
 static const float SHARPEST = -0.2f; /* cosine of the sharpest turn of a path */
 static const float SHARP = 0.85f;    /* of turns that have a landing, as in geom/storeys.c */
 static const float SHORTEST = 0.05f; /* m, of a part of a path */
+static const float LONGEST = 300.0f; /* m */
 static const float STEEPEST = 1.0f;  /* of any stair: 45 degrees */
 static const float STEEP_RAMP = 1.0f / 6.0f; /* building codes allow 1:12 to 1:8 */
 static const float CLEAR_FRONT = 0.6f;       /* m before a foot or head that no wall may cross */
@@ -95,7 +96,13 @@ void jox_scene_check_stair(const JoxReader *r, const JoxYaml *map, const JoxStai
                               : (double)stair->rise;
     if (!check_path(r, path, stair))
         return;
-    const float length = jox_stair_length(stair), run = measure_flights(stair);
+    const float length = jox_stair_length(stair);
+    if (length > LONGEST) {
+        jox_scene_error(r, path, "too-large", "A length may be in millimetres",
+                        "a stair is at most %g m long, not %g m", (double)LONGEST, (double)length);
+        return;
+    }
+    const float run = measure_flights(stair);
     if (stair->landing_count && stair->landings[stair->landing_count - 1].to > length) {
         jox_scene_error(r, landings->items[stair->landing_count - 1], "bad-stair", NULL,
                         "this landing ends beyond the path, which is %.2f m long", (double)length);

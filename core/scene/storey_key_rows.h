@@ -17,7 +17,7 @@
     {"storey", "height", NUMBER, "m", -1000, 1000, "!", TO(JoxStorey, height), .meaning = "height of its floor above a level of your choice; it grows from storey to storey"}, \
     {"stair", "from", TEXT, "", 0, 0, "!", READ_TO(jox_key_read_stair_storey, JoxStairDraft, stair.lower, stair.lower), .meaning = "storey of its foot: the lower one"}, \
     {"stair", "to", TEXT, "", 0, 0, "!", READ_TO(jox_key_read_stair_storey, JoxStairDraft, stair.upper, stair.upper), .meaning = "storey of its head: the upper one. The same as `from`: steps on one storey, as the aisles of a stand, which join nothing"}, \
-    {"stair", "path", POINTS, "m", -FAR, FAR, "!", READ_TO(jox_key_read_points, JoxStairDraft, stair.path, stair.path_count), .content = "xy[2]", .meaning = "its middle line in plan, from the foot to the head; where it turns there is a landing"}, \
+    {"stair", "path", POINTS, "m", -FAR, FAR, "!", READ_TO(jox_key_read_points, JoxStairDraft, stair.path, stair.path_count), .content = "xy[2]", .meaning = "its middle line in plan, from the foot to the head; where it turns there is a landing; at most 300 m long"}, \
     {"stair", "width", NUMBER, "m", 0.5, 100, "1.2", TO(JoxStairDraft, stair.width), .meaning = "clear width"}, \
     {"stair", "kind", TEXT, "", 0, 0, "stairs", TO(JoxStairDraft, kind), .choices = "stairs|ramp|escalator", .meaning = "what it is: people walk more slowly on stairs than on a ramp, and an escalator carries them"}, \
     {"stair", "way", TEXT, "", 0, 0, "both", TO(JoxStairDraft, way), .choices = "both|up|down", .meaning = "ways that people may go over it; an escalator runs up or down"}, \

@@ -7,6 +7,7 @@
 #include "base/format/plurals.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "geom/storey_text.h"
 #include "world/world.h"
 
 static void note_change(JoWorld *world) {
@@ -211,10 +212,11 @@ static void clear_agents_from_new_walls(JoWorld *world) {
         jox_text_noun(&world->scratch.messages, cleared.stuck, "person|people");
         jox_text_printf(&world->scratch.messages,
                         " in the way of a wall that came could not be moved, as there is no free "
-                        "spot on the same side of all walls: the first is agent %u at (%.2f, "
-                        "%.2f)\n",
-                        a->id[cleared.first_stuck], (double)a->x[cleared.first_stuck],
-                        (double)a->y[cleared.first_stuck]);
+                        "spot on the same side of all walls: the first is agent %u at ",
+                        a->id[cleared.first_stuck]);
+        jox_text_position(&world->scratch.messages, &world->model.storeys,
+                          jox_v2(a->x[cleared.first_stuck], a->y[cleared.first_stuck]), 2);
+        jox_text_add(&world->scratch.messages, "\n");
     }
     jox_walls_clear_new_marks(&world->model.all_walls);
     jox_walls_clear_new_marks(&world->scratch.walls);

@@ -30,6 +30,7 @@ static const JoxErrorCase CASES[] = {
     {BOUND(PLAIN ", landings: [[1, 2], @[1.5, 3]]"), "bad-stair", "landings: ["},
     {BOUND(PLAIN ", landings: [@[4, 6]]"), "bad-stair", NULL},
     {BOUND("landings: [[0, 5]], path: @[[4, 0], [9, 0]]"), "bad-stair", "longer"},
+    {BOUND("path: @[[4, 0], [900, 0]]"), "too-large", "millimetres"},
     {BOUND(PLAIN ", width: @0.3"), "out-of-range", NULL},
     {BOUND(PLAIN ", speed: @0.5"), "bad-stair", "escalator"},
     {STOREYS "stairs: {n: @{from: ground, to: first, kind: escalator, " PLAIN "}}\n" GROUP,
