@@ -64,6 +64,9 @@ static int32_t find_old_own_slot(const JoxMachine *old, const JoxMachine *next, 
 /* Keeps own values that the scene gave although the new version does not read them: a line that is
    removed and put back changes nothing. */
 static void keep_given(const JoxMachine *old, JoxMachine *next) {
+    for (int p = JOX_FIRST_RARE_PARAM; p < JOX_PARAM_COUNT; p++)
+        if (old->defaults[p].kind == JOX_VALUE_OWN)
+            jox_machine_own_parameter(next, (JoxParameter)p);
     for (uint32_t o = 0; o < old->own_count; o++) {
         const JoxOwnSlot *slot = &old->own[o];
         if (!*slot->name || jox_parameter_find(slot->name) >= 0 ||

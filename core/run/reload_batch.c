@@ -134,8 +134,13 @@ static void load_change(JoxReload *r, JoxBatch *batch, uint32_t c) {
         jox_files_add(&batch->changes[c].files, tried[f]);
     batch->changes[c].loaded = loaded;
     jox_text_add(&batch->said, jox_loaded_output(loaded));
-    const JoxMachine *next = jox_loaded_machine(loaded);
+    JoxMachine *next = jox_loaded_machine(loaded);
     const JoxLuaFile *files = jox_loaded_files(loaded, &count);
+    if (next) {
+        jox_run_own_set_parameters(scene->spec, next);
+        if (batch->spec)
+            jox_run_own_set_parameters(batch->spec, next);
+    }
     if (next)
         jox_run_check_own_values(scene, next, files, count, &batch->diagnostics);
     if (next)

@@ -27,8 +27,7 @@ const char *jox_run_journey_text(const JoxSceneSpec *spec, const char *path) {
     return NULL;
 }
 
-/* Gives a machine own values for the rare parameters that groups who run it set. */
-static void own_set_parameters(const JoxSceneSpec *spec, JoxMachine *machine) {
+void jox_run_own_set_parameters(const JoxSceneSpec *spec, JoxMachine *machine) {
     for (uint32_t g = 0; g < spec->group_count; g++)
         for (uint32_t m = 0; m < spec->groups[g].mix_count; m++) {
             if (strcmp(spec->groups[g].mix[m].behaviour, machine->path) != 0)
@@ -57,7 +56,7 @@ static int32_t load_machine(JoScene *scene, const char *path, JoxDiagnostics *di
     if (!machine)
         return -1;
     jox_run_number_tags_and_teams(scene, machine);
-    own_set_parameters(scene->spec, machine);
+    jox_run_own_set_parameters(scene->spec, machine);
     jox_run_restore_kept_slots(machine);
     return (int32_t)jox_machines_add(machines, machine);
 }

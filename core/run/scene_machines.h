@@ -11,6 +11,9 @@
 
 /* Loads the machines of all groups, and those that they may become. False if one does not load. */
 bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics);
+/* Gives a machine that no set has yet own values for the rare parameters that groups who run it
+   set. */
+void jox_run_own_set_parameters(const JoxSceneSpec *spec, JoxMachine *machine);
 /* Returns the index of the machine that was loaded from a path, or -1. */
 int32_t jox_run_find_machine(const JoScene *scene, const char *path);
 /* Text of a behaviour that the scene made of a journey, by its path; NULL: the path is a file's. */
