@@ -331,7 +331,8 @@ double jox_target_measure(const JoxMachineRun *run, uint32_t i, int32_t index, J
     if (!spot.found)
         return 0.0;
     if (what == JOX_NOW_x || what == JOX_NOW_y) /* across a joined edge if that is nearer */
-        return what == JOX_NOW_x ? spot.x : spot.y;
+        return what == JOX_NOW_x ? spot.x
+                                 : jox_in_plan(run->agents->storeys, jox_v2(spot.x, spot.y)).y;
     if (spot.agent != JOX_NO_INDEX)
         return measure_agent(run, spot.agent, what);
     return what == JOX_NOW_speed ? jox_length((JoxV2){spot.vx, spot.vy}) : 0.0;

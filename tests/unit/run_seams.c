@@ -154,12 +154,33 @@ static void people_on_storeys_above_each_other_pass_unnoticed(void **state) {
     jo_scene_free(scene);
 }
 
+static void behaviours_know_their_storey(void **state) {
+    (void)state;
+    JoScene *scene = load_pair(false,
+                               "groups: {low: {at: [[3, 7]], behaviour: own.lua}, "
+                               "high: {at: [[27, 2]], behaviour: own.lua, storey: high}}\n",
+                               "return machine { name = 's', version = 1, start = 'Low',\n"
+                               "  states = { Low = { steer = hold,\n"
+                               "    { to = 'High', when = now.storey:is(1) & "
+                               "now.height:above(0.005) & now.y:below(3) } },\n"
+                               "  High = { steer = hold, on_enter = function(me) assert(me.storey "
+                               "== 1 and me.y < 3) end },\n"
+                               "  } }\n");
+    const JoxAgents *a = &scene->world->state.agents;
+    step_scene(scene, 3);
+    assert_int_equal(a->state[jox_agents_find(a, 0)], 0);
+    assert_int_equal(a->state[jox_agents_find(a, 1)], 1);
+    assert_null(scene_messages.data);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(who_goes_up_and_down_ten_times_loses_nothing),
         cmocka_unit_test(a_push_passes_over_a_seam),
         cmocka_unit_test(a_storey_empties_as_fast_as_the_same_plan_laid_flat),
         cmocka_unit_test(people_on_storeys_above_each_other_pass_unnoticed),
+        cmocka_unit_test(behaviours_know_their_storey),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

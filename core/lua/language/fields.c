@@ -9,6 +9,8 @@
 static const char *const FIELD_NAMES[FIELD_COUNT] = {
     [FIELD_X] = "x",
     [FIELD_Y] = "y",
+    [FIELD_STOREY] = "storey",
+    [FIELD_HEIGHT] = "height",
     [FIELD_VX] = "vx",
     [FIELD_VY] = "vy",
     [FIELD_ID] = "id",
@@ -95,7 +97,11 @@ bool jox_field_push(lua_State *L, const JoxMachineRun *machines, uint32_t i,
     case FIELD_X:
         return lua_pushnumber(L, a->x[i]), true;
     case FIELD_Y:
-        return lua_pushnumber(L, a->y[i]), true;
+        return lua_pushnumber(L, jox_in_plan(a->storeys, jox_v2(a->x[i], a->y[i])).y), true;
+    case FIELD_STOREY:
+        return lua_pushinteger(L, jox_storey_at(a->storeys, jox_v2(a->x[i], a->y[i]))), true;
+    case FIELD_HEIGHT:
+        return lua_pushnumber(L, jox_floor_height(a->storeys, jox_v2(a->x[i], a->y[i]))), true;
     case FIELD_VX:
         return lua_pushnumber(L, a->vx[i]), true;
     case FIELD_VY:

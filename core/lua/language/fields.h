@@ -9,6 +9,8 @@
 typedef enum {
     FIELD_X,
     FIELD_Y,
+    FIELD_STOREY,
+    FIELD_HEIGHT,
     FIELD_VX,
     FIELD_VY,
     FIELD_ID,

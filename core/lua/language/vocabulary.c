@@ -390,7 +390,9 @@ const size_t jox_table_key_count = sizeof jox_table_keys / sizeof *jox_table_key
 const JoxMeKey jox_me_keys[] = {
     {"id", "number", "", "number of the agent, never used for another one"},
     {"x", "number", "m", "position east"},
-    {"y", "number", "m", "position north"},
+    {"y", "number", "m", "position north; in a building with storeys, in plan"},
+    {"storey", "number", "", "number of the storey: 0 is the lowest one; on a stair, the nearer in height"},
+    {"height", "number", "m", "elevation of the floor on which the agent is; 0 without storeys"},
     {"vx", "number", "m/s", "velocity east"},
     {"vy", "number", "m/s", "velocity north"},
     {"time", "number", "s", "simulated time"},
