@@ -84,7 +84,9 @@ function Counted:contains(item) end
 ---@field speed jostle.Number present speed, m/s
 ---@field fallen jostle.Number time since the agent fell; 0 while it stands, s
 ---@field x jostle.Number position east, m
----@field y jostle.Number position north, m
+---@field y jostle.Number position north; in a building with storeys, in plan, m
+---@field storey jostle.Number number of the storey: 0 is the lowest one; on a stair, the nearer in height
+---@field height jostle.Number elevation of the floor on which the agent is; 0 without storeys, m
 ---@field neighbours jostle.Number neighbours seen
 ---@field driven jostle.Number speed that a person or an input log asks of the agent (`player`); 0: none, m/s
 ---@field played jostle.Number 1 once a person or an input log drives the agent (`player`), also while it is to stand; before 0
@@ -193,7 +195,9 @@ function Target:contains(item) end
 ---@field speed jostle.Number present speed, m/s
 ---@field fallen jostle.Number time since the agent fell; 0 while it stands, s
 ---@field x jostle.Number position east, m
----@field y jostle.Number position north, m
+---@field y jostle.Number position north; in a building with storeys, in plan, m
+---@field storey jostle.Number number of the storey: 0 is the lowest one; on a stair, the nearer in height
+---@field height jostle.Number elevation of the floor on which the agent is; 0 without storeys, m
 ---@field neighbours jostle.Number neighbours seen
 ---@field driven jostle.Number speed that a person or an input log asks of the agent (`player`); 0: none, m/s
 ---@field played jostle.Number 1 once a person or an input log drives the agent (`player`), also while it is to stand; before 0
@@ -358,7 +362,9 @@ function Target:contains(item) end
 ---@field [string] any what memory declares
 ---@field id number number of the agent, never used for another one
 ---@field x number position east, m
----@field y number position north, m
+---@field y number position north; in a building with storeys, in plan, m
+---@field storey number number of the storey: 0 is the lowest one; on a stair, the nearer in height
+---@field height number elevation of the floor on which the agent is; 0 without storeys, m
 ---@field vx number velocity east, m/s
 ---@field vy number velocity north, m/s
 ---@field time number simulated time, s
@@ -411,7 +417,9 @@ function Target:contains(item) end
 ---@field [string] any what its memory declares
 ---@field id number number of the agent, never used for another one
 ---@field x number position east, m
----@field y number position north, m
+---@field y number position north; in a building with storeys, in plan, m
+---@field storey number number of the storey: 0 is the lowest one; on a stair, the nearer in height
+---@field height number elevation of the floor on which the agent is; 0 without storeys, m
 ---@field vx number velocity east, m/s
 ---@field vy number velocity north, m/s
 ---@field time number simulated time, s
@@ -692,7 +700,7 @@ function either(condition, a, b) end
 ---@return jostle.Number
 function clamp(a, least, greatest) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed fallen x y neighbours driven played button time density headway eagerness pushed compression load contacts holders time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed fallen x y storey height neighbours driven played button time density headway eagerness pushed compression load contacts holders time_in_state
 ---@type jostle.Now
 now = nil
 

@@ -168,8 +168,9 @@ static void behaviours_know_their_storey(void **state) {
                                "  } }\n");
     const JoxAgents *a = &scene->world->state.agents;
     step_scene(scene, 3);
-    assert_int_equal(a->state[jox_agents_find(a, 0)], 0);
-    assert_int_equal(a->state[jox_agents_find(a, 1)], 1);
+    const JoxState *states = scene->world->model.machines.items[0]->states;
+    assert_string_equal(states[a->state[jox_agents_find(a, 0)]].name, "Low");
+    assert_string_equal(states[a->state[jox_agents_find(a, 1)]].name, "High");
     assert_null(scene_messages.data);
     jo_scene_free(scene);
 }
