@@ -192,6 +192,7 @@ typedef struct JoAgentState {
     double radius;      /* m */
     const char *state;  /* state of the agent's behaviour, "" without a behaviour; valid until the
                            next call on the world */
+    uint32_t storey; /* x and y are in plan, on this storey (jo_agent_where); 0 without storeys */
 } JoAgentState;
 /* Returns the state of an agent after the last step. All zero, with "" as its state, for a null or
    stale handle. */
@@ -249,6 +250,7 @@ typedef struct JoBodyState {
     double x, y, z;        /* centre of mass, m */
     double qx, qy, qz, qw; /* orientation as a unit quaternion */
     double vx, vy, vz;     /* m/s */
+    uint32_t storey;       /* x and y are in plan, and z is above this storey; 0 without storeys */
 } JoBodyState;
 /* Returns the state of a body after the last step. All zero for a null or stale handle. */
 JO_API JoBodyState jo_body_state(const JoWorld *world, JoBody body);

@@ -28,6 +28,12 @@ JO_API JoAgent jo_world_spawn(JoWorld *world, const char *group, double x, doubl
 /* Moves an agent to (x, y), m, or to the nearest free spot, at rest; refused if there is none,
    as by jo_world_add_agent. */
 JO_API bool jo_agent_teleport(JoWorld *world, JoAgent agent, double x, double y, JoError *error);
+/* The same at (x, y) in plan on a storey, counted from the lowest up (jo_world_storey_name);
+   without _on it is the lowest. JO_INPUT if there is no such storey. */
+JO_API JoAgent jo_world_spawn_on(JoWorld *world, const char *group, uint32_t storey, double x,
+                                 double y, JoError *error);
+JO_API bool jo_agent_teleport_on(JoWorld *world, JoAgent agent, uint32_t storey, double x, double y,
+                                 JoError *error);
 /* Makes a place of the scene the goal of an agent: `goal` of its behaviour, and `own.goal` if
    the behaviour has that value. */
 JO_API bool jo_agent_set_goal(JoWorld *world, JoAgent agent, const char *place, JoError *error);

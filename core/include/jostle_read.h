@@ -25,7 +25,8 @@ typedef struct JoColumn {
 } JoColumn;
 /* Finds a column by its name; its data is read in place, not copied.
    "id", "slot": as in JoAgentState and JoAgent
-   "x", "y": position, m; "vx", "vy": velocity, m/s; "face_x", "face_y": unit vector of its look
+   "x", "y": position, m, with storeys a point of the plane (jo_world_wheres has plan and storey);
+   "vx", "vy": velocity, m/s; "face_x", "face_y": unit vector of its look
    "chest_x", "chest_y": unit vector to which its chest points; "spin": how fast that turns
    anticlockwise, rad/s
    "axis_x", "axis_y", "contact_radius": its torso in the last step: all within contact_radius of
@@ -183,6 +184,61 @@ JO_API uint32_t jo_body_outline(const JoWorld *world, JoBody body, double *xy, u
    and applies the impulse read here to the body after the step. jostle_bullet.hpp does so for a
    btDynamicsWorld. */
 JO_API bool jo_body_pushed(const JoWorld *world, JoBody body, double impulse[3], double turn[3]);
+
+/* ---- storeys -----------------------------------------------------------------------------
+
+   People read and write points as x, y in plan, with a storey beside them. The engine keeps storeys
+   apart in one plane, in which each storey, and each stair between storeys, is moved along y. So in
+   a world with storeys, columns "x" and "y", events, walls, casts and ways of this header give
+   points of that plane, which jo_world_where turns into plan and storey; calls that take a point
+   mean the lowest storey, and those that end in _on the storey that they are given. The states of
+   agents and bodies are in plan. Without storeys all of these are the same, and the storey is 0.
+   Storeys are counted from the lowest up. */
+
+JO_API uint32_t jo_world_storey_count(const JoWorld *world); /* 0: the world has none */
+/* Name of a storey, "" if there is no such; height of its floor, m, NAN likewise. The name is valid
+   as long as the world. */
+JO_API const char *jo_world_storey_name(const JoWorld *world, uint32_t storey);
+JO_API double jo_world_storey_height(const JoWorld *world, uint32_t storey);
+/* A stair, ramp or escalator. */
+typedef struct JoStairState {
+    const char *name;      /* "" if there is no such stair; valid as long as the world */
+    uint32_t lower, upper; /* storeys; the same of steps on one storey */
+    double width, length;  /* m; length in plan, from foot to head */
+    double rise;           /* m */
+    double belt;           /* m/s along the slope, positive upwards: of an escalator, else 0 */
+    bool closed;           /* nobody sets out over it */
+} JoStairState;
+JO_API uint32_t jo_world_stair_count(const JoWorld *world);
+JO_API JoStairState jo_world_stair(const JoWorld *world, uint32_t stair);
+
+#define JO_NO_STAIR 4294967295u
+/* A point in plan. */
+typedef struct JoWhere {
+    double x, y;     /* m, in plan */
+    double height;   /* m: elevation of the floor there */
+    uint32_t storey; /* on a stair: the storey that is nearer in height */
+    uint32_t stair;  /* JO_NO_STAIR: on a storey */
+} JoWhere;
+/* Where a point of the plane is in plan; where an agent is (all 0 for a stale handle). */
+JO_API JoWhere jo_world_where(const JoWorld *world, double x, double y);
+JO_API JoWhere jo_agent_where(const JoWorld *world, JoAgent agent);
+/* Where all agents are, in the order of the columns: writes up to `capacity`; returns how many
+   agents there are. */
+JO_API uint32_t jo_world_wheres(const JoWorld *world, JoWhere *out, uint32_t capacity);
+/* The queries above, of a point in plan on a storey. Neighbours, and people who count for a
+   density, may be beyond the foot or head of a stair; a cast meets them there, too, but walls and
+   bodies on its own storey alone. Points of a way are in plan, on the storeys and stairs that it
+   leads over; a cast's x and y are in plan. */
+JO_API uint32_t jo_world_neighbours_on(const JoWorld *world, uint32_t storey, double x, double y,
+                                       double radius, uint32_t *ids, float *distances,
+                                       uint32_t capacity);
+JO_API double jo_world_density_on(const JoWorld *world, uint32_t storey, double x, double y);
+JO_API JoCast jo_world_cast_on(const JoWorld *world, uint32_t storey, const double from[2],
+                               const double to[2], double radius, uint32_t kinds);
+JO_API uint32_t jo_world_path_on(JoWorld *world, uint32_t storey, double x, double y,
+                                 const char *place, JoWhere *out, uint32_t capacity,
+                                 double *length);
 
 /* ---- snapshots --------------------------------------------------------------------------- */
 

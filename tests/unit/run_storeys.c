@@ -97,11 +97,68 @@ static void edits_that_move_sheets_wait(void **state) {
     jo_scene_free(scene);
 }
 
+/* Public calls take points on a storey and give them in plan. */
+static void programs_read_and_write_points_in_plan(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_file(write_test_file("scene.yaml", TWO_STAIRS), NULL, 0);
+    JoWorld *w = scene->world;
+    JoError error;
+    uint32_t ids[16];
+    double length;
+    JoWhere way[400], all[16];
+    assert_int_equal(jo_world_storey_count(w), 2);
+    assert_string_equal(jo_world_storey_name(w, 1), "first");
+    assert_string_equal(jo_world_storey_name(w, 2), "");
+    assert_true(jo_world_storey_height(w, 1) == 3.0 && isnan(jo_world_storey_height(w, 2)));
+    assert_int_equal(jo_world_stair_count(w), 2);
+    assert_string_equal(jo_world_stair(w, 1).name, "far");
+    assert_true(fabs(jo_world_stair(w, 1).length - 5.0) < 1e-4);
+    assert_int_equal(jo_world_stair(w, 1).upper, 1);
+    assert_string_equal(jo_world_stair(w, 2).name, "");
+    assert_int_equal(jo_world_wheres(w, all, 16), 12);
+    for (int k = 0; k < 12; k++)
+        assert_true(all[k].storey == 1 && all[k].stair == JO_NO_STAIR && all[k].y < 5.5 &&
+                    all[k].height == 3.0);
+    const JoAgent agent = jo_world_agent_of(w, 3);
+    const JoAgentState at = jo_agent_state(w, agent);
+    assert_true(at.storey == 1 && at.y < 5.5);
+    /* Those on one storey are no neighbours of a point of another. */
+    assert_int_equal(jo_world_neighbours_on(w, 1, at.x, at.y, 10, ids, NULL, 16), 12);
+    assert_int_equal(jo_world_neighbours_on(w, 0, at.x, at.y, 10, ids, NULL, 16), 0);
+    assert_int_equal(jo_world_neighbours(w, at.x, at.y, 10, ids, NULL, 16), 0);
+    assert_true(jo_world_density_on(w, 1, at.x, at.y) > 0.3);
+    assert_true(jo_world_density_on(w, 0, at.x, at.y) == 0.0);
+    const double west[2] = {-0.5, at.y}, east[2] = {at.x, at.y};
+    const JoCast wall = jo_world_cast_on(w, 1, west, east, 0.0, JO_CAST_WALLS);
+    assert_true(wall.hit && fabs(wall.x) < 1e-3 && fabs(wall.y - at.y) < 1e-3);
+    assert_false(jo_world_cast_on(w, 0, west, east, 0.0, JO_CAST_ALL).hit);
+    /* A way leads down a stair, without jumps. */
+    const uint32_t points = jo_world_path_on(w, 1, 3, 3, "street", way, 400, &length);
+    bool stairs = false;
+    assert_true(points > 20 && points < 400 && length > 20 && length < 60);
+    for (uint32_t k = 0; k < points; k++) {
+        stairs |= way[k].stair != JO_NO_STAIR;
+        assert_true(k == 0 || hypot(way[k].x - way[k - 1].x, way[k].y - way[k - 1].y) < 0.6);
+        assert_true(k == 0 || way[k].height <= way[k - 1].height + 0.2);
+    }
+    assert_true(stairs && way[0].storey == 1 && way[points - 1].storey == 0);
+    /* People are put on a storey. */
+    assert_true(jo_agent_teleport_on(w, agent, 0, 10, 6, &error));
+    assert_int_equal(jo_agent_where(w, agent).storey, 0);
+    assert_true(jo_agent_teleport_on(w, agent, 1, 10, 6, &error));
+    assert_true(jo_agent_where(w, agent).storey == 1 && jo_agent_state(w, agent).y == 6.0);
+    assert_int_equal(jo_agent_where(w, jo_world_spawn_on(w, "people", 1, 9, 9, &error)).storey, 1);
+    assert_false(jo_agent_teleport_on(w, agent, 2, 10, 6, &error));
+    assert_non_null(strstr(error.text, "there is no storey 2: the storeys are 0 to 1"));
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stairs_one_above_the_other_empty_a_tower),
         cmocka_unit_test(nobody_sets_out_over_a_closed_stair),
         cmocka_unit_test(edits_that_move_sheets_wait),
+        cmocka_unit_test(programs_read_and_write_points_in_plan),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -96,9 +96,11 @@ JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
     const char *state = a->machine[i] == JOX_NO_MACHINE
                             ? ""
                             : world->model.machines.items[a->machine[i]]->states[a->state[i]].name;
+    const JoxV2 at = {a->x[i], a->y[i]}, plan = jox_in_plan(&world->model.storeys, at);
     return (JoAgentState){.id = a->id[i],
-                          .x = a->x[i],
-                          .y = a->y[i],
+                          .x = plan.x,
+                          .y = plan.y,
+                          .storey = jox_storey_at(&world->model.storeys, at),
                           .vx = a->vx[i],
                           .vy = a->vy[i],
                           .fx = a->force_x[i],

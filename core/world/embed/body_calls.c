@@ -85,9 +85,19 @@ JoBodyState jo_body_state(const JoWorld *world, JoBody body) {
     if (jox_world_find_body(world, body) == JOX_NO_BODY ||
         !jox_bodies_pose(world->state.bodies, body.slot, &pose))
         return (JoBodyState){0};
-    return (JoBodyState){pose.centre.x,   pose.centre.y,  pose.centre.z, pose.turn[0],
-                         pose.turn[1],    pose.turn[2],   pose.turn[3],  pose.velocity.x,
-                         pose.velocity.y, pose.velocity.z};
+    const JoxV2 at = {pose.centre.x, pose.centre.y};
+    const JoxV2 plan = jox_in_plan(&world->model.storeys, at);
+    return (JoBodyState){plan.x,
+                         plan.y,
+                         pose.centre.z,
+                         pose.turn[0],
+                         pose.turn[1],
+                         pose.turn[2],
+                         pose.turn[3],
+                         pose.velocity.x,
+                         pose.velocity.y,
+                         pose.velocity.z,
+                         jox_storey_at(&world->model.storeys, at)};
 }
 
 uint32_t jo_world_body_count(const JoWorld *world) {

@@ -31,6 +31,17 @@ static void insert_nearest(uint32_t *ids, float *distances, uint32_t *kept, uint
     distances[at] = distance;
 }
 
+/* Finds the way from a point to an agent, m, over the shorter way where edges are joined and over
+   seams where there are storeys; false if the agent is on another storey, out of sight. */
+static bool find_way(const JoWorld *world, JoxV2 from, uint32_t i, JoxV2 *way) {
+    const JoxAgents *a = &world->state.agents;
+    const JoxV2 at = {a->x[i], a->y[i]};
+    if (a->storeys)
+        return jox_plan_offset(a->storeys, from, at, way);
+    *way = jox_wrap(a, jox_sub(at, from));
+    return true;
+}
+
 uint32_t jo_world_neighbours(const JoWorld *world, double x, double y, double radius, uint32_t *ids,
                              float *distances, uint32_t capacity) {
     enum { MOST = 1024 };
@@ -42,7 +53,9 @@ uint32_t jo_world_neighbours(const JoWorld *world, double x, double y, double ra
     if (jox_heap_has_failed(world->heap))
         return 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        const JoxV2 d = jox_wrap(a, (JoxV2){a->x[i] - (float)x, a->y[i] - (float)y});
+        JoxV2 d;
+        if (!find_way(world, (JoxV2){(float)x, (float)y}, i, &d))
+            continue;
         const float distance = jox_length(d);
         if (!((double)distance <= radius))
             continue;
@@ -116,11 +129,16 @@ double jo_world_density(const JoWorld *world, double x, double y) {
         return 0.0;
     for (uint32_t r = 0; r < a->count; r++) { /* in ascending id: the sum has one order */
         const uint32_t i = a->by_rank[r];
-        const JoxV2 d = jox_wrap(a, (JoxV2){a->x[i] - (float)x, a->y[i] - (float)y});
+        const JoxV2 from = {(float)x, (float)y}, at = {a->x[i], a->y[i]};
+        JoxV2 d;
+        if (!find_way(world, from, i, &d))
+            continue;
         const double d2 = (double)jox_length2(d);
         if (d2 > 16.0) /* m2: the kernel is below 1e-7 there */
             continue;
-        const JoxV2 from = {(float)x, (float)y}, to = jox_add(from, d);
+        const JoxV2 to = jox_add(from, d);
+        if (a->storeys && is_walled_off(world, jox_sub(at, d), at))
+            continue; /* a wall beyond the seam */
         sum += is_behind_wall(world, from, to) ? 0.0 : jox_exp(-d2) / JOX_PI;
     }
     return sum;
@@ -253,8 +271,10 @@ JoCast jo_world_cast(const JoWorld *world, const double from[2], const double to
     if (jox_heap_has_failed(world->heap))
         return (JoCast){0};
     for (uint32_t i = 0; kinds & JO_CAST_AGENTS && i < a->count; i++) {
-        const JoxV2 at =
-            jox_add(s.from, jox_wrap(a, (JoxV2){a->x[i] - s.from.x, a->y[i] - s.from.y}));
+        JoxV2 way;
+        if (!find_way(world, s.from, i, &way))
+            continue;
+        const JoxV2 at = jox_add(s.from, way);
         test_disc(&s, at, s.radius + jox_param(a, JOX_PARAM_radius, i), JO_TOUCHED_AGENT, a->id[i]);
     }
     if (kinds & JO_CAST_BODIES)

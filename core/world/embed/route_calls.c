@@ -6,6 +6,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "world/embed/storey_points.h"
 #include "world/routes/joined_edges.h"
 #include "world/world.h"
 
@@ -87,6 +88,9 @@ static uint32_t trace_way(JoWorld *w, uint32_t place, JoxV2 at, double *xy, uint
         const JoxV2 next = last ? goal : jox_add(at, jox_scale(way, STRIDE));
         walked += (double)jox_length(jox_sub(next, at));
         at = jox_agents_wrapped(&w->state.agents, next);
+        const JoxStoreys *storeys = w->state.agents.storeys;
+        const JoxSeam *seam = storeys ? jox_find_crossed_seam(storeys, at) : NULL;
+        at.y += seam ? seam->shift : 0.0f;
     }
     return 0; /* the way does not end */
 }
@@ -108,4 +112,20 @@ uint32_t jo_world_path(JoWorld *world, double x, double y, const char *place, do
     JOX_GUARD (world->heap, NULL)
         return 0;
     return trace_way_to(world, x, y, place, xy, capacity, length);
+}
+
+uint32_t jo_world_path_on(JoWorld *world, uint32_t storey, double x, double y, const char *place,
+                          JoWhere *out, uint32_t capacity, double *length) {
+    JOX_REQUIRE(world && !world->busy && place && fabs(x) <= 1e4 && fabs(y) <= 1e4, 0);
+    JOX_REQUIRE(jox_world_has_storey(world, storey) && (out || capacity == 0), 0);
+    JOX_GUARD (world->heap, NULL)
+        return 0;
+    double *xy = jox_alloc(2 * (size_t)capacity + 1, sizeof *xy);
+    const uint32_t count = trace_way_to(world, x, jox_world_move_to_storey(world, storey, y), place,
+                                        xy, capacity, length);
+    for (uint32_t k = 0; k < count && k < capacity; k++)
+        out[k] =
+            jox_world_where(world, (JoxV2){(float)xy[2 * (size_t)k], (float)xy[2 * (size_t)k + 1]});
+    jox_free(xy);
+    return count;
 }

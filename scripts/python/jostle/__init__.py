@@ -16,12 +16,12 @@ from .compare import Comparison, compare
 from .live import LivePage, RecordingPage
 from .picture import Picture
 from .recording import Recording
-from .scene import Agent, Body, Scene
+from .scene import Agent, Body, Scene, Stair, Storey, Where
 from .sweep import Sweep, sweep
 from .table import Table
 
-__all__ = ["Agent", "Body", "Comparison", "Error", "Events", "LivePage", "Picture", "Recording", "RecordingPage", "Scene", "Sweep", "Table", "Word",
-           "compare", "data_folder", "sweep", "version"]
+__all__ = ["Agent", "Body", "Comparison", "Error", "Events", "LivePage", "Picture", "Recording", "RecordingPage", "Scene", "Stair",
+           "Storey", "Sweep", "Table", "Where", "Word", "compare", "data_folder", "sweep", "version"]
 
 
 def version() -> str:

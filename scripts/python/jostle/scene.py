@@ -20,7 +20,7 @@ from .picture import Picture
 from .plan import picture_of_scene, plan_of
 from .table import Table, frame_of
 
-__all__ = ["Agent", "Body", "Scene"]
+__all__ = ["Agent", "Body", "Scene", "Stair", "Storey", "Where"]
 
 def _written(value: Any) -> str:
     """A value as `jostle run --set` takes it."""
@@ -53,6 +53,47 @@ def _vector(numbers: Optional[Sequence[float]], count: int) -> Any:
     if len(numbers) != count:
         raise ValueError(f"expected {count} numbers, not {len(numbers)}")
     return ffi.new("double[]", [float(n) for n in numbers])
+
+
+class Storey(NamedTuple):
+    """A storey: its name, and the height of its floor, m."""
+
+    name: str
+    height: float
+
+
+class Stair(NamedTuple):
+    """A stair, ramp or escalator: `lower` and `upper` are numbers of storeys, `width`, `length` (in plan) and `rise` m, `belt` m/s
+    along the slope of an escalator, upwards positive, else 0."""
+
+    name: str
+    lower: int
+    upper: int
+    width: float
+    length: float
+    rise: float
+    belt: float
+    closed: bool
+
+
+class Where(NamedTuple):
+    """A point in plan, m: the height of the floor there, the number of the storey (on a stair that which is nearer in height),
+    and the number of the stair or None."""
+
+    x: float
+    y: float
+    height: float
+    storey: int
+    stair: Optional[int]
+
+
+# As the library has it.
+WHERE = np.dtype([("x", "f8"), ("y", "f8"), ("height", "f8"), ("storey", "u4"), ("stair", "u4")])
+NO_STAIR = 2**32 - 1
+
+
+def _where(where: Any) -> Where:
+    return Where(where.x, where.y, where.height, where.storey, None if where.stair == NO_STAIR else where.stair)
 
 
 class Hit(NamedTuple):
@@ -244,8 +285,43 @@ class Scene:
             n += 1
 
     def positions(self) -> np.ndarray:
-        """Rows x, y of all agents, m, in the order of `scene["id"]`."""
+        """Rows x, y of all agents, m, in plan, in the order of `scene["id"]`; `where()` has their storeys."""
+        if self.storeys:
+            where = self.where()
+            return np.column_stack((where["x"], where["y"]))
         return np.column_stack((self["x"], self["y"]))
+
+    @property
+    def storeys(self) -> list:
+        """The storeys, from the lowest up; empty without any. In a scene with storeys the columns "x" and "y" are points of one
+        plane, in which storeys are moved along y: `where()` and `positions()` are in plan."""
+        world = self._live()
+        return [Storey(text_of(lib.jo_world_storey_name(world, n)), lib.jo_world_storey_height(world, n))
+                for n in range(lib.jo_world_storey_count(world))]
+
+    @property
+    def stairs(self) -> list:
+        """The stairs, ramps and escalators."""
+        world = self._live()
+        found = (lib.jo_world_stair(world, n) for n in range(lib.jo_world_stair_count(world)))
+        return [Stair(text_of(s.name), s.lower, s.upper, s.width, s.length, s.rise, s.belt, s.closed) for s in found]
+
+    def storey(self, storey: Union[int, str]) -> int:
+        """The number of a storey that is given by name or number. KeyError where there is none."""
+        names = [one.name for one in self.storeys]
+        if isinstance(storey, str):
+            if storey in names:
+                return names.index(storey)
+        elif 0 <= operator.index(storey) < max(len(names), 1):
+            return operator.index(storey)
+        raise KeyError(storey)
+
+    def where(self) -> np.ndarray:
+        """Where all agents are, in the order of `scene["id"]`: an array with the fields x, y (m, in plan), height (m, of the
+        floor there), storey (its number; on a stair that which is nearer in height) and stair (its number; 2**32 - 1: none)."""
+        out = np.zeros(len(self), WHERE)
+        lib.jo_world_wheres(self._live(), ffi.from_buffer("JoWhere *", out), len(out))
+        return out
 
     def states(self) -> np.ndarray:
         """The name of each agent's state."""
@@ -297,44 +373,47 @@ class Scene:
 
     # ---- questions ----
 
-    def neighbours(self, x: float, y: float, radius: float) -> tuple:
-        """Ids and distances (m) of agents whose centres are within `radius` m, the nearest first; at most 1,024."""
+    def neighbours(self, x: float, y: float, radius: float, storey: Union[int, str] = 0) -> tuple:
+        """Ids and distances (m) of agents whose centres are within `radius` m of a point on a storey, the nearest first; at most
+        1,024."""
         _within("a place, m,", -FARTHEST, FARTHEST, x, y)
         _within("a radius, m,", 0.0, float("inf"), radius)
         ids, distances = np.empty(1024, np.uint32), np.empty(1024, np.float32)
-        count = lib.jo_world_neighbours(self._live(), x, y, radius, ffi.from_buffer("uint32_t *", ids),
-                                        ffi.from_buffer("float *", distances), 1024)
+        count = lib.jo_world_neighbours_on(self._live(), self.storey(storey), x, y, radius, ffi.from_buffer("uint32_t *", ids),
+                                           ffi.from_buffer("float *", distances), 1024)
         return ids[:count].copy(), distances[:count].copy()
 
     def cast(self, start: Sequence[float], end: Sequence[float], radius: float = 0.0, agents: bool = True,
-             bodies: bool = True, walls: bool = True) -> Optional[Hit]:
-        """What a disc (a ray, without radius) meets first on its way; None where the way is free."""
+             bodies: bool = True, walls: bool = True, storey: Union[int, str] = 0) -> Optional[Hit]:
+        """What a disc (a ray, without radius) meets first on its way on a storey; None where the way is free."""
         _within("a place, m,", -FARTHEST, FARTHEST, *start, *end)
         _within("a radius, m,", 0.0, 100.0, radius)
         kinds = lib.JO_CAST_AGENTS * agents + lib.JO_CAST_BODIES * bodies + lib.JO_CAST_WALLS * walls
-        met = lib.jo_world_cast(self._live(), _vector(start, 2), _vector(end, 2), radius, kinds)
+        met = lib.jo_world_cast_on(self._live(), self.storey(storey), _vector(start, 2), _vector(end, 2), radius, kinds)
         kind = {lib.JO_TOUCHED_AGENT: "agent", lib.JO_TOUCHED_BODY: "body", lib.JO_TOUCHED_WALL: "wall"}[met.kind]
         return Hit(kind, met.what, met.share, met.x, met.y, (met.nx, met.ny)) if met.hit else None
 
-    def way(self, x: float, y: float, place: str) -> np.ndarray:
-        """The way round walls to a place: rows x, y about 0.25 m apart; no rows where none leads there."""
+    def way(self, x: float, y: float, place: str, storey: Union[int, str] = 0) -> np.ndarray:
+        """The way round walls, and over stairs, from a point on a storey to a place: rows x, y about 0.25 m apart, in plan; no rows
+        where none leads there. In a scene with storeys a third column has the number of the storey."""
         _within("a place, m,", -FARTHEST, FARTHEST, x, y)
-        count = lib.jo_world_path(self._live(), x, y, named(place), ffi.NULL, 0, ffi.NULL)
-        points = np.empty((count, 2))
-        lib.jo_world_path(self._world, x, y, named(place), ffi.from_buffer("double *", points), count, ffi.NULL)
-        return points
+        level = self.storey(storey)
+        count = lib.jo_world_path_on(self._live(), level, x, y, named(place), ffi.NULL, 0, ffi.NULL)
+        points = np.zeros(count, WHERE)
+        lib.jo_world_path_on(self._world, level, x, y, named(place), ffi.from_buffer("JoWhere *", points), count, ffi.NULL)
+        return np.column_stack([points[name] for name in (("x", "y", "storey") if self.storeys else ("x", "y"))])
 
-    def density(self, x: float, y: float) -> float:
-        """People per m2 at a point."""
+    def density(self, x: float, y: float, storey: Union[int, str] = 0) -> float:
+        """People per m2 at a point on a storey."""
         _within("a place, m,", -FARTHEST, FARTHEST, x, y)
-        return lib.jo_world_density(self._live(), x, y)
+        return lib.jo_world_density_on(self._live(), self.storey(storey), x, y)
 
     # ---- what is done to it ----
 
-    def spawn(self, group: str, x: float, y: float) -> "Agent":
-        """A new agent of a group, at a point, m."""
+    def spawn(self, group: str, x: float, y: float, storey: Union[int, str] = 0) -> "Agent":
+        """A new agent of a group, at a point, m, on a storey."""
         self._live()
-        agent = lib.jo_world_spawn(self._world, named(group), x, y, self._error)
+        agent = lib.jo_world_spawn_on(self._world, named(group), self.storey(storey), x, y, self._error)
         check(agent.generation, self._error)
         return Agent(self, lib.jo_agent_state(self._world, agent).id)
 
@@ -537,9 +616,20 @@ class Agent:
 
     @property
     def position(self) -> tuple:
-        """x, y, m."""
+        """x, y, m, in plan."""
         state = self._state()
         return state.x, state.y
+
+    @property
+    def where(self) -> Where:
+        """Its position in plan, with storey, stair and height."""
+        self._state()
+        return _where(lib.jo_agent_where(self.scene._world, self._handle()))
+
+    @property
+    def storey(self) -> int:
+        """The number of its storey, 0 without storeys; on a stair, that which is nearer in height."""
+        return self._state().storey
 
     @property
     def velocity(self) -> tuple:
@@ -566,9 +656,9 @@ class Agent:
         """Has it aim at a place."""
         self._do(lib.jo_agent_set_goal, named(place))
 
-    def teleport(self, x: float, y: float) -> None:
-        """Moves it to a point, m, or to the nearest free spot."""
-        self._do(lib.jo_agent_teleport, x, y)
+    def teleport(self, x: float, y: float, storey: Union[int, str, None] = None) -> None:
+        """Moves it to a point, m, or to the nearest free spot, on a storey; without one, on the storey where it is."""
+        self._do(lib.jo_agent_teleport_on, self.storey if storey is None else self.scene.storey(storey), x, y)
 
     def push(self, fx: float, fy: float) -> None:
         """A force during the next step, N, up to 10,000 along each axis."""

@@ -263,6 +263,62 @@ def test_questions(path):
     assert scene.density(1, 0) > scene.density(12, 0)
 
 
+STOREYS = """jostle: 1
+step: 0.05
+duration: 60
+storeys: {ground: {height: 0}, first: {height: 3.5}}
+stairs: {north: {from: ground, to: first, path: [[8, 2], [14, 2]], width: 1.5}}
+walls:
+  - {line: [[0, 9], [0, 0], [20, 0], [20, 12], [0, 12], [0, 11]]}
+  - {line: [[0, 0], [20, 0], [20, 12], [0, 12]], closed: true, storey: first}
+places:
+  hall: {polygon: [[16, 1], [18, 1], [18, 3], [16, 3]], storey: first}
+  street: {line: [[-2, 8], [-2, 12]]}
+groups: {people: {count: 3, in: hall, journey: [{exit: street}]}}
+"""
+
+
+def test_storeys(path):
+    path.write_text(STOREYS)
+    scene = jostle.Scene(path)
+    assert [one.name for one in scene.storeys] == ["ground", "first"] and scene.storeys[1].height == 3.5
+    (stair,) = scene.stairs
+    assert (stair.name, stair.lower, stair.upper, stair.width, stair.length, stair.closed) == ("north", 0, 1, 1.5, 6.0, False)
+    where = scene.where()
+    assert list(where["storey"]) == [1, 1, 1] and (where["height"] == 3.5).all() and (where["stair"] == 2**32 - 1).all()
+    assert (scene.positions() <= [18, 3]).all() and (scene["y"] > 18).all()
+    agent = scene.agents()[0]
+    assert agent.storey == 1 and agent.where.stair is None and agent.position[1] < 3
+    x, y = agent.position
+    assert len(scene.neighbours(x, y, 3, storey="first")[0]) == 3 and len(scene.neighbours(x, y, 3)[0]) == 0
+    assert scene.density(x, y, storey=1) > scene.density(x, y) == 0
+    way = scene.way(17, 2, "street", storey="first")
+    assert way.shape[1] == 3 and way[0, 2] == 1 and way[-1, 2] == 0 and np.ptp(way[:, 1]) < 12
+    assert np.hypot(*np.diff(way[:, :2], axis=0).T).max() < 1
+    agent.teleport(4, 5)
+    assert agent.storey == 1
+    agent.teleport(4, 5, storey="ground")
+    assert agent.storey == 0 and agent.position == pytest.approx((4, 5))
+    assert scene.spawn("people", 3, 3, storey=1).storey == 1
+    with pytest.raises(KeyError):
+        scene.neighbours(0, 0, 1, storey="cellar")
+    with pytest.raises(KeyError):
+        scene.spawn("people", 3, 3, storey=2)
+    stairs = set()
+    for _ in range(30):
+        scene.step(20)
+        stairs |= set(scene.where()["stair"].tolist())
+    assert 0 in stairs and len(scene) < 4
+
+
+def test_a_scene_without_storeys_has_the_storey_0(path):
+    scene = jostle.Scene(path)
+    assert scene.storeys == [] and scene.stairs == [] and scene.agent(0).storey == 0
+    assert (scene.where()["x"] == scene["x"]).all() and scene.way(0, 0, "west").shape[1] == 2
+    with pytest.raises(KeyError):
+        scene.density(0, 0, storey=1)
+
+
 def test_snapshots(path):
     scene = jostle.Scene(path)
     scene.step(5)
