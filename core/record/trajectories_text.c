@@ -7,10 +7,12 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/mem.h"
 #include "record/trajectories.h"
 
-enum { ID, FRAME, X, Y, VX, VY, TIME, COLUMNS, MOST_FIELDS = 64, LONGEST_NAME = 64 };
-static const char *const NAMES[COLUMNS] = {"id", "frame", "x", "y", "v_x", "v_y", "time"};
+enum { ID, FRAME, X, Y, VX, VY, TIME, STOREY, COLUMNS, MOST_FIELDS = 64, LONGEST_NAME = 64 };
+static const char *const NAMES[COLUMNS] = {"id", "frame", "x", "y", "v_x", "v_y", "time", "storey"};
+static const float APART = 3.0f; /* m: between storeys, whose heights texts do not have */
 
 typedef struct Text {
     JoxTrajectories *t;
@@ -21,6 +23,11 @@ typedef struct Text {
     double unit, fps;       /* m, frames per second; 0: unknown */
     char separator;         /* ' ' stands for blanks and tabs */
     bool named;             /* a header line was read */
+    /* Of a column of storeys: their names or numbers as they come, and the storey of each row. */
+    char *storeys[JOX_MOST_STOREYS];
+    uint32_t storey_count;
+    uint16_t *storey;
+    size_t storey_capacity;
     double first_time, last_time, first_frame, last_frame;
 } Text;
 
@@ -123,9 +130,11 @@ static int find_column(const char *name, double *unit) {
     static const struct {
         const char *text;
         int column;
-    } KNOWN[] = {{"id", ID},       {"persid", ID}, {"person", ID}, {"ped_id", ID}, {"frame", FRAME},
-                 {"fr", FRAME},    {"v_x", VX},    {"vx", VX},     {"v_y", VY},    {"vy", VY},
-                 {"time_s", TIME}, {"time", TIME}, {"t_s", TIME},  {"x", X},       {"y", Y}};
+    } KNOWN[] = {{"id", ID},        {"persid", ID},   {"person", ID},   {"ped_id", ID},
+                 {"frame", FRAME},  {"fr", FRAME},    {"v_x", VX},      {"vx", VX},
+                 {"v_y", VY},       {"vy", VY},       {"time_s", TIME}, {"time", TIME},
+                 {"t_s", TIME},     {"x", X},         {"y", Y},         {"storey", STOREY},
+                 {"level", STOREY}, {"floor", STOREY}};
     *unit = 0.0;
     for (size_t k = 0; k < sizeof KNOWN / sizeof *KNOWN; k++)
         if (!strcasecmp(name, KNOWN[k].text))
@@ -192,16 +201,44 @@ static bool parse_field(Text *r, const char *line, const Field *fields, uint32_t
     return false;
 }
 
+/* Sets the storey of a row, by its name or number. Returns false with an error. */
+static bool parse_storey(Text *r, const Field *fields, uint32_t count, size_t row) {
+    const uint32_t f = (uint32_t)r->column_of[STOREY];
+    char name[LONGEST_NAME];
+    uint32_t k = 0;
+    if (f >= count || fields[f].length == 0) {
+        add_field_error(r, 1, "Write it in every line, or leave the column out",
+                        "this line has no %s", NAMES[STOREY], strlen(NAMES[STOREY]));
+        return false;
+    }
+    snprintf(name, sizeof name, "%.*s", (int)fields[f].length, fields[f].at);
+    while (k < r->storey_count && strcmp(name, r->storeys[k]) != 0)
+        k++;
+    if (k == JOX_MOST_STOREYS) {
+        add_field_error(r, 1, "Is another column meant, such as the height of heads?",
+                        "there are more than 200 storeys, '%s' is one too many", name,
+                        strlen(name));
+        return false;
+    }
+    if (k == r->storey_count)
+        r->storeys[r->storey_count++] = jox_strdup(name);
+    JOX_RESERVE(r->storey, r->storey_capacity, row + 1);
+    r->storey[row] = (uint16_t)k;
+    return true;
+}
+
 /* Adds the row of a line. Returns false with an error. Times of the first and last frame give
    the frame rate. */
 static bool parse_row(Text *r, const char *line, size_t length) {
     Field fields[MOST_FIELDS];
     double v[COLUMNS] = {0};
     uint32_t count = split_fields(r, line, length, fields);
-    for (int c = 0; c < COLUMNS; c++)
+    for (int c = 0; c < STOREY; c++)
         if (r->column_of[c] >= 0 && !parse_field(r, line, fields, count, c, &v[c]))
             return false;
     JoxTrajectories *t = r->t;
+    if (r->column_of[STOREY] >= 0 && !parse_storey(r, fields, count, t->count))
+        return false;
     if (r->column_of[TIME] >= 0) {
         bool first = t->count == 0;
         if (first || v[FRAME] < r->first_frame)
@@ -249,6 +286,47 @@ static bool apply_units(Text *r, const JoxTrajectoryOptions *options) {
     return t->count > 0 && t->fps > 0.0 && unit > 0.0;
 }
 
+/* Returns the place of a storey among the others, from the lowest up: by number if all names are
+   numbers, else in the order in which they came. */
+static uint32_t rank_storey(const Text *r, uint32_t storey) {
+    uint32_t below = 0;
+    for (uint32_t k = 0; k < r->storey_count; k++) {
+        char *end;
+        const double number = strtod(r->storeys[k], &end);
+        if (*end || !isfinite(number))
+            return storey;
+        below += number < strtod(r->storeys[storey], NULL);
+    }
+    return below;
+}
+
+/* Lays the storeys of a column out, and moves each row to its own. */
+static void place_on_storeys(Text *r) {
+    JoxTrajectories *t = r->t;
+    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    uint32_t ranks[JOX_MOST_STOREYS];
+    t->storeys.storeys = jox_alloc(r->storey_count, sizeof *t->storeys.storeys);
+    t->storeys.storey_count = r->storey_count;
+    for (uint32_t k = 0; k < r->storey_count; k++) {
+        ranks[k] = rank_storey(r, k);
+        while (t->storeys.storeys[ranks[k]].name) /* "1" and "1.0" are two storeys */
+            ranks[k]++;
+        t->storeys.storeys[ranks[k]] =
+            (JoxStorey){jox_strdup(r->storeys[k]), (float)ranks[k] * APART};
+    }
+    for (size_t i = 0; i < t->count; i++) {
+        low = jox_v2(jox_minf(low.x, t->x[i]), jox_minf(low.y, t->y[i]));
+        high = jox_v2(jox_maxf(high.x, t->x[i]), jox_maxf(high.y, t->y[i]));
+    }
+    jox_storeys_lay_out(&t->storeys, low, high);
+    for (size_t i = 0; i < t->count; i++)
+        t->y[i] += (float)ranks[r->storey[i]] * t->storeys.pitch;
+    jox_diag_note(r->diagnostics, ((JoxPosition){r->path, 0, 0, 0}), "storeys-read",
+                  "people are on %u storeys, whose heights this file does not have: they are taken "
+                  "to be %g m apart",
+                  r->storey_count, (double)APART);
+}
+
 bool jox_trajectories_add_text(JoxTrajectories *t, const char *path, const char *text,
                                size_t length, const JoxTrajectoryOptions *options,
                                JoxDiagnostics *diagnostics) {
@@ -286,5 +364,11 @@ bool jox_trajectories_add_text(JoxTrajectories *t, const char *path, const char 
         begun = true;
         parse_row(&r, line, n);
     }
-    return diagnostics->errors == errors && apply_units(&r, options);
+    const bool good = diagnostics->errors == errors && apply_units(&r, options);
+    if (good && r.storey_count > 1)
+        place_on_storeys(&r);
+    for (uint32_t k = 0; k < r.storey_count; k++)
+        jox_free(r.storeys[k]);
+    jox_free(r.storey);
+    return good;
 }
