@@ -1,6 +1,13 @@
 /* Writes positions in plan, with their storey or stair. */
 #include "geom/storey_text.h"
 
+const char *jox_storey_name_at(const JoxStoreys *s, JoxV2 at) {
+    if (!jox_has_storeys(s))
+        return "";
+    const int32_t stair = jox_stair_at(s, at);
+    return stair >= 0 ? s->stairs[stair].name : s->storeys[jox_storey_at(s, at)].name;
+}
+
 void jox_text_storey(JoxText *out, const JoxStoreys *s, JoxV2 at) {
     if (!jox_has_storeys(s))
         return;

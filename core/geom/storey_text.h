@@ -10,6 +10,8 @@
    "(3.5, 2.0) m on the stair north". `decimals`: of the numbers; below 0: as few as they need.
    `storeys` may be NULL. */
 void jox_text_position(JoxText *out, const JoxStoreys *storeys, JoxV2 at, int decimals);
+/* Returns the name of the storey, or of the stair, at a position; "" in a world without storeys. */
+const char *jox_storey_name_at(const JoxStoreys *storeys, JoxV2 at);
 /* Appends " on first" or " on the stair north"; nothing in a world without storeys. */
 void jox_text_storey(JoxText *out, const JoxStoreys *storeys, JoxV2 at);
 

@@ -309,7 +309,8 @@ static void sample_pressure(JoxReplay *r) {
                       .y = r->y,
                       .vx = r->vx,
                       .vy = r->vy,
-                      .walls = find_standing_walls(r)};
+                      .walls = find_standing_walls(r),
+                      .storeys = jox_has_storeys(r->info.storeys) ? r->info.storeys : NULL};
     if (!r->local) {
         r->local = jox_local_create(r->area.low, r->area.high, NULL);
         jox_local_enable_pressure(r->local);

@@ -39,12 +39,15 @@ static uint32_t take_free_slot(JoxReplay *r) {
     return r->slot_count++;
 }
 
+/* Returns a displacement over the shorter way, without whole pitches between the sheets of storeys.
+ */
 static float wrap_displacement(float d, float period) {
     return period > 0.0f ? remainderf(d, period) : d;
 }
 
 void jox_replay_give_slots(JoxReplay *r, const JoxTrajectoryReaderFrame *f, double spent) {
-    const JoxV2 period = r->period;
+    const JoxStoreys *storeys = r->info.storeys;
+    const JoxV2 period = {r->period.x, jox_has_storeys(storeys) ? storeys->pitch : r->period.y};
     int64_t *ids = r->old_id;
     uint32_t *slots = r->old_slot, before = r->count, k = 0;
     r->old_id = r->id;
@@ -70,7 +73,7 @@ void jox_replay_give_slots(JoxReplay *r, const JoxTrajectoryReaderFrame *f, doub
         bool moved = !fresh && spent > 0.0;
         bool round = fabsf(f->x[i] - r->last_x[s]) > 0.5f * period.x && period.x > 0.0f;
         round |= fabsf(f->y[i] - r->last_y[s]) > 0.5f * period.y && period.y > 0.0f;
-        if (!fresh && round) /* crossed a periodic edge: no movement is drawn */
+        if (!fresh && round) /* crossed a periodic edge or a seam: no movement is drawn */
             r->parity[s] ^= JOX_LIVE_PARITY;
         r->vx[i] =
             moved ? wrap_displacement(f->x[i] - r->last_x[s], period.x) / (float)spent : 0.0f;

@@ -24,6 +24,7 @@ static const struct {
     {"danger.congestion.where.*", JOX_SUMMARY_GIVEN},
     {"danger.*_x", JOX_SUMMARY_GIVEN},
     {"danger.*_y", JOX_SUMMARY_GIVEN},
+    {"danger.*_storey", JOX_SUMMARY_GIVEN},
     {"probes.*.why.*", JOX_SUMMARY_GIVEN},
     {"probes.*.from", JOX_SUMMARY_GIVEN},
     {"probes.*.until", JOX_SUMMARY_GIVEN},

@@ -24,6 +24,23 @@ JoxLocal *jox_local_create(JoxV2 low, JoxV2 high, const JoxStoreys *storeys) {
     return l;
 }
 
+/* Tells crowd pressure which rows are those of one storey: others lie between two. */
+static void set_pressure_blocks(JoxLocal *l) {
+    const uint32_t rows = l->grid->rows;
+    uint32_t *first = jox_alloc(2 * (size_t)rows + 1, sizeof *first), *end = first + rows;
+    for (uint32_t r = 0, begun = 0; r < rows; r++) {
+        const bool between = isnan(jox_density_middle(l->grid, (size_t)r * l->grid->columns).y);
+        first[r] = begun;
+        end[r] = r + 1;
+        for (uint32_t k = begun; k < r && !between; k++)
+            end[k] = r + 1;
+        if (between)
+            begun = r + 1;
+    }
+    jox_pressure_set_blocks(l->pressure, first, end);
+    jox_free(first);
+}
+
 void jox_local_enable_pressure(JoxLocal *l) {
     size_t cells = (size_t)l->grid->columns * l->grid->rows;
     if (l->pressure)
@@ -31,6 +48,8 @@ void jox_local_enable_pressure(JoxLocal *l) {
     l->flow_x = jox_alloc(cells, sizeof *l->flow_x);
     l->flow_y = jox_alloc(cells, sizeof *l->flow_y);
     l->pressure = jox_pressure_create(l->grid->columns, l->grid->rows, l->grid->cell);
+    if (jox_density_storeys_of(l->grid))
+        set_pressure_blocks(l);
 }
 
 /* Returns the velocity of person i over the time since the last sample. The velocity of a single

@@ -1,6 +1,7 @@
 /* Adds rows to a recording in memory, returns its frames, and frees it. */
 #include "record/trajectories.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -59,6 +60,21 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
 const JoxWalls *jox_trajectories_walls(const JoxTrajectories *t, uint32_t f) {
     JOX_ASSERT(f < t->frame_count);
     return t->history ? jox_wall_history_at(t->history, t->number[t->first[f]]) : &t->walls;
+}
+
+const JoxStoreys *jox_trajectories_plan_area(const JoxTrajectories *t, JoxV2 *low, JoxV2 *high) {
+    *low = t->low;
+    *high = t->high;
+    if (!jox_has_storeys(&t->storeys))
+        return NULL;
+    low->y = INFINITY;
+    high->y = -INFINITY;
+    for (size_t i = 0; i < t->count; i++) {
+        const float y = jox_in_plan(&t->storeys, (JoxV2){t->x[i], t->y[i]}).y;
+        low->y = jox_minf(low->y, y);
+        high->y = jox_maxf(high->y, y);
+    }
+    return &t->storeys;
 }
 
 void jox_trajectories_free(JoxTrajectories *t) {

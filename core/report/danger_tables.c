@@ -5,6 +5,7 @@
 
 #include "base/format/quote.h"
 #include "picture/plot.h"
+#include "record/storey_figures.h"
 #include "report/danger_output_parts.h"
 
 enum { MOST_CELLS_DRAWN = 250000 };
@@ -95,22 +96,22 @@ static bool write_danger_map(const JoxDanger *d, const char *folder, JoxText *er
     if (!out)
         return false;
     const JoxStoreys *storeys = jox_density_storeys_of(g);
-    fputs(storeys ? "x [m],y [m],storey" : "x [m],y [m]", out);
+    fputs("x [m],y [m]", out);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
         fprintf(out, ",%s_mean [%s],%s_max [%s]", jox_danger_names[m], jox_danger_units[m],
                 jox_danger_names[m], jox_danger_units[m]);
+    jox_csv_put_storey_title(out, storeys);
     fputc('\n', out);
     for (uint32_t row = 0; row < g->rows; row += skip) {
+        if (isnan(jox_density_middle(g, (size_t)row * g->columns).y))
+            continue; /* between the rows of two storeys */
         for (uint32_t column = 0; column < g->columns; column += skip) {
             const JoxV2 at = jox_density_middle(g, (size_t)row * g->columns + column);
-            const JoxV2 plan = storeys ? jox_in_plan(storeys, at) : at;
-            if (!isfinite(at.y))
-                continue;
+            const JoxV2 plan = jox_in_plan(storeys, at);
             fprintf(out, "%.3f,%.3f", (double)plan.x, (double)plan.y);
-            if (storeys)
-                fprintf(out, ",%s", storeys->storeys[jox_storey_at(storeys, at)].name);
             for (int m = 0; m < JOX_DANGER_MAPPED; m++)
                 put_map_cells(d, m, column, row, skip, out);
+            jox_csv_put_storey(out, storeys, at, true);
             fputc('\n', out);
         }
         fputc('\n', out);
@@ -123,9 +124,12 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
     FILE *out = jox_plot_open(folder, "danger-limits.csv", error);
     if (!out)
         return false;
+    const JoxStoreys *storeys = jox_density_storeys_of(d->local->grid);
     fputs("limit,measure,value,unit,people,person_s [s],longest [s],first [s],x [m],y [m],since "
-          "[min],source\n",
+          "[min],source",
           out);
+    jox_csv_put_storey_title(out, storeys);
+    fputc('\n', out);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
         const JoxDangerCount count = jox_danger_count(d, l);
@@ -136,11 +140,13 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
         put_csv_value(out, read ? count.person_s : NAN);
         put_csv_value(out, read ? count.longest : NAN);
         put_csv_value(out, count.first);
-        put_csv_value(out, seen ? (double)count.first_at.x : NAN);
-        put_csv_value(out, seen ? (double)count.first_at.y : NAN);
+        const JoxV2 plan = jox_in_plan(storeys, count.first_at);
+        put_csv_value(out, seen ? (double)plan.x : NAN);
+        put_csv_value(out, seen ? (double)plan.y : NAN);
         put_csv_value(out, jox_danger_minutes_since(d, count.first));
         fputc(',', out);
         jox_quote_put(out, jox_quote_csv, limit->source);
+        jox_csv_put_storey(out, storeys, count.first_at, seen);
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-limits.csv", error);
@@ -156,16 +162,20 @@ static bool write_people(const JoxDanger *d, const char *folder, JoxText *error)
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
             fprintf(out, ",over_%s [s]", jox_danger_limits[l].key);
+    const JoxStoreys *storeys = jox_density_storeys_of(d->local->grid);
+    jox_csv_put_storey_title(out, storeys);
     fputc('\n', out);
     for (uint32_t k = 0; k < d->people_capacity; k++) {
         const JoxDangerPerson *p = &d->people[k];
         if ((double)p->most < jox_danger_lowest_limit(JOX_DANGER_LOAD) && p->dose < WORTH)
             continue;
+        const JoxV2 plan = jox_in_plan(storeys, p->most_at);
         fprintf(out, "%u,%.9g,%.9g,%.4f,%.4f,%.9g", k, (double)p->most, p->most_time,
-                (double)p->most_at.x, (double)p->most_at.y, p->dose);
+                (double)plan.x, (double)plan.y, p->dose);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
                 fprintf(out, ",%.9g", p->seconds[l]);
+        jox_csv_put_storey(out, storeys, p->most_at, true);
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-people.csv", error);

@@ -62,9 +62,12 @@ static bool add_recording_probe(JoxReport *r, const JoxProbeDef *of) {
         good = false;
     }
     def.groups = groups;
+    JoxV2 low, high;
+    def.storeys = jox_trajectories_plan_area(r->crowd, &low, &high);
     if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x) {
-        def.low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
-        def.high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
+        def.low = jox_sub(low, (JoxV2){EDGE, EDGE});
+        def.high = jox_add(high, (JoxV2){EDGE, EDGE});
+        def.all_storeys = def.storeys != NULL;
     }
     if (good)
         r->probes[r->count++] = jox_probe_create(&def);
@@ -75,14 +78,16 @@ static bool add_recording_probe(JoxReport *r, const JoxProbeDef *of) {
 /* Adds default probes, for a recording without a scene with probes: fields, and densities and
    speeds over time, over the whole area walked. */
 static void add_default_probes(JoxReport *r) {
-    JoxV2 low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
-    JoxV2 high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
+    JoxV2 low, high;
+    const JoxStoreys *storeys = jox_trajectories_plan_area(r->crowd, &low, &high);
+    low = jox_sub(low, (JoxV2){EDGE, EDGE});
+    high = jox_add(high, (JoxV2){EDGE, EDGE});
     JoxV2 corners[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
     JoxProbeDef map = {.name = "map",
                        .kind = JOX_PROBE_MAP,
                        .until = INFINITY,
-                       .low = low,
-                       .high = high,
+                       .low = storeys ? high : low, /* the area of all storeys */
+                       .high = storeys ? low : high,
                        .every = 1.0,
                        .cell = JOX_DENSITY_CELL,
                        .kernel = JOX_DENSITY_KERNEL};
@@ -94,7 +99,28 @@ static void add_default_probes(JoxReport *r) {
                        .every = 1.0,
                        .cutoff = 1.0};
     add_recording_probe(r, &map);
-    add_recording_probe(r, &all);
+    if (!storeys)
+        add_recording_probe(r, &all);
+    for (uint32_t k = 0; storeys && k < storeys->storey_count; k++) {
+        for (int c = 0; c < 4; c++)
+            corners[c].y += k > 0 ? storeys->pitch : 0.0f;
+        all.name = storeys->storeys[k].name;
+        add_recording_probe(r, &all);
+    }
+}
+
+/* Returns whether the scene lays storeys out as the recording does; false adds an error. */
+static bool check_storeys(JoxReport *r) {
+    const JoxStoreys *own = &r->crowd->storeys, *scene = r->spec ? &r->spec->storeys : own;
+    const JoxPosition at = {r->def->scene, 0, 0, 0};
+    if (own->sheet_count == scene->sheet_count && own->pitch == scene->pitch &&
+        own->origin == scene->origin)
+        return true;
+    jox_diag_error(&r->diagnostics, at, "other-storeys",
+                   "Give the scene as it was when it was recorded, or none",
+                   "the recording has other storeys and stairs than this scene, or a plan of "
+                   "another extent");
+    return false;
 }
 
 /* Loads the scene and the recording that the def names and creates the probes. Returns false
@@ -111,14 +137,15 @@ static bool load_report(JoxReport *r) {
     }
     if (!(r->crowd = jox_trajectories_read(def->recording, &options, &r->diagnostics)))
         return false;
-    r->probes = jox_alloc(r->spec ? r->spec->probe_count + 2 : 2, sizeof(JoxProbe *));
+    r->probes = jox_alloc((r->spec ? r->spec->probe_count : 0) + 2 + r->crowd->storeys.storey_count,
+                          sizeof(JoxProbe *));
     if (jox_is_sqlite(def->recording))
         r->body_reader = jox_trajectory_reader_open(def->recording, &options, &r->diagnostics);
     if (r->body_reader && !jox_trajectory_reader_info(r->body_reader).has_bodies) {
         jox_trajectory_reader_close(r->body_reader);
         r->body_reader = NULL;
     }
-    bool good = true;
+    bool good = check_storeys(r);
     if (!r->spec || r->spec->probe_count == 0)
         add_default_probes(r);
     for (uint32_t p = 0; r->spec && p < r->spec->probe_count; p++)
@@ -164,11 +191,15 @@ static bool write_report(JoxReport *r, JoError *error) {
    whole area walked. */
 static JoxDanger *create_report_danger(const JoxReport *r) {
     const JoxSceneSpec *spec = r->spec;
+    JoxV2 low, high;
+    const JoxStoreys *storeys = jox_trajectories_plan_area(r->crowd, &low, &high);
+    if (storeys)
+        return jox_danger_create(jox_sub(low, (JoxV2){EDGE, EDGE}),
+                                 jox_add(high, (JoxV2){EDGE, EDGE}), storeys);
     if (spec && spec->heatmap)
         return jox_danger_create(spec->heatmap_low, spec->heatmap_high, NULL);
     if (spec && spec->bounded)
         return jox_danger_create(spec->low, spec->high, NULL);
-    JoxV2 low = r->crowd->low, high = r->crowd->high;
     if (spec)
         jox_criteria_extend_area(spec->criteria, spec->criterion_count, spec->places, &low, &high);
     return jox_danger_create(jox_sub(low, (JoxV2){EDGE, EDGE}), jox_add(high, (JoxV2){EDGE, EDGE}),

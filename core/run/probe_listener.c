@@ -18,8 +18,13 @@ static bool create_probes(void *self, JoScene *scene, const void *options, JoErr
     p->count = spec->probe_count;
     for (uint32_t n = 0; n < p->count; n++) {
         JoxProbeDef def = spec->probes[n];
-        if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x)
-            jox_run_find_shown_area(scene, &def.low, &def.high);
+        JoxV2 low, high;
+        def.storeys = jox_run_find_plan_area(scene, &low, &high);
+        if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x) {
+            def.low = low;
+            def.high = high;
+            def.all_storeys = def.storeys != NULL;
+        }
         p->items[n] = jox_probe_create(&def);
     }
     return true;

@@ -75,6 +75,10 @@ typedef struct JoxProbeDef {
     double window;         /* m: width of the windows of an oscillation */
     double span;           /* s: stretches whose spectra are averaged */
     const char *states[2]; /* visit: names of states, of whatever machine */
+    /* Storeys, which outlive the probe; NULL: one plane. Tables have positions in plan then, with a
+       column for the storey. */
+    const struct JoxStoreys *storeys;
+    bool all_storeys; /* map: the area is in plan, and all storeys are measured */
 } JoxProbeDef;
 
 #endif

@@ -1,42 +1,13 @@
 /* Frames of worlds with storeys: positions on sheets in, figures as of one plane out. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "record_storeys.h"
+
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
-#include <cmocka.h>
-#include <sqlite3.h>
-
-#include "assert_near.h"
-#include "base/mem.h"
-#include "geom/storeys.h"
+#include "record/danger/danger.h"
 #include "record/fields/density.h"
 #include "record/fields/voronoi_people.h"
 #include "record/frame_track.h"
 #include "record/probes/probe.h"
-#include "record/recorder.h"
-#include "record/trajectory_reader.h"
-
-/* Lays out two storeys, 3 m apart, on a plan of 20 m x 10 m. A stair leads from x = 8 up to x = 14,
-   about y = 5, 2 m wide. */
-static JoxStoreys lay_out_two_storeys(void) {
-    JoxStoreys s = {.storey_count = 2, .stair_count = 1};
-    s.storeys = jox_alloc(2, sizeof *s.storeys);
-    s.storeys[0] = (JoxStorey){jox_strdup("ground"), 0.0f};
-    s.storeys[1] = (JoxStorey){jox_strdup("first"), 3.0f};
-    s.stairs = jox_alloc(1, sizeof *s.stairs);
-    s.stairs[0] = (JoxStair){.name = jox_strdup("north"), .upper = 1, .width = 2.0f};
-    s.stairs[0].path = jox_alloc(2, sizeof *s.stairs[0].path);
-    s.stairs[0].path[0] = jox_v2(8, 5);
-    s.stairs[0].path[1] = jox_v2(14, 5);
-    s.stairs[0].path_count = 2;
-    jox_storeys_lay_out(&s, jox_v2(0, 0), jox_v2(20, 10));
-    return s;
-}
 
 /* ---- tracks ---- */
 
@@ -73,82 +44,6 @@ static void agent_over_a_seam_walks_on_and_crosses_each_line_once(void **state) 
 }
 
 /* ---- densities ---- */
-
-enum { CROWD = 800 };
-static const float WEST = 8.0f, EAST = 14.0f; /* m: x of the foot and the head of the stair */
-
-/* A crowd in a room west of x = 8, on the stair and in a room east of x = 14: in one plane, and on
-   the sheets of storeys. */
-typedef struct Plan {
-    float turn; /* rad: all of the plan is turned by it */
-    uint32_t count;
-    float x[CROWD], flat[CROWD], sheets[CROWD];
-    JoxWalls flat_walls, sheet_walls;
-    JoxStoreys storeys;
-} Plan;
-
-static JoxV2 turn_point(const Plan *p, float x, float y) {
-    return jox_v2(x * cosf(p->turn) - y * sinf(p->turn), x * sinf(p->turn) + y * cosf(p->turn));
-}
-
-/* Returns the position on its sheet of a point that was not turned yet. */
-static JoxV2 put_on_sheet(const Plan *p, float x, float y) {
-    const uint32_t sheet = x < WEST ? 0 : x < EAST ? p->storeys.stairs[0].sheet : 1;
-    return jox_on_sheet(&p->storeys, sheet, turn_point(p, x, y));
-}
-
-static void add_walls(const Plan *p, const float (*points)[2], uint32_t count, bool closed,
-                      uint32_t sheet, JoxWalls *walls) {
-    JoxV2 at[4];
-    for (uint32_t k = 0; k < count; k++)
-        at[k] = jox_on_sheet(&p->storeys, sheet, turn_point(p, points[k][0], points[k][1]));
-    jox_walls_add_polyline(walls, at, count, closed, INFINITY);
-}
-
-/* Adds an outer wall and, at x, a wall with an opening for the stair. */
-static void add_room(const Plan *p, float x, uint32_t sheet, JoxWalls *walls) {
-    add_walls(p, (const float[][2]){{0, 0}, {20, 0}, {20, 10}, {0, 10}}, 4, true, sheet, walls);
-    add_walls(p, (const float[][2]){{x, 0}, {x, 4}}, 2, false, sheet, walls);
-    add_walls(p, (const float[][2]){{x, 6}, {x, 10}}, 2, false, sheet, walls);
-}
-
-/* Adds people 0.5 m apart, and twice as many beside each other in the middle of the stair. */
-static void add_crowd(Plan *p) {
-    for (float x = 0.25f; x < 20.0f; x += 0.5f)
-        for (float y = 0.2f; y<10.0f; y += x> 10.0f && x < 12.0f ? 0.25f : 0.5f) {
-            if (x > WEST && x < EAST && (y < 4.0f || y > 6.0f))
-                continue;
-            p->x[p->count] = turn_point(p, x, y).x;
-            p->flat[p->count] = turn_point(p, x, y).y;
-            p->sheets[p->count++] = put_on_sheet(p, x, y).y;
-        }
-}
-
-static Plan *make_plan(float turn) {
-    Plan *p = jox_alloc(1, sizeof *p);
-    p->turn = turn;
-    p->storeys = lay_out_two_storeys();
-    JoxStair *stair = &p->storeys.stairs[0];
-    for (uint32_t k = 0; k < 2; k++)
-        stair->path[k] = turn_point(p, stair->path[k].x, stair->path[k].y);
-    jox_storeys_lay_out(&p->storeys, jox_v2(-10, -10), jox_v2(20, 25));
-    add_crowd(p);
-    add_room(p, WEST, 0, &p->flat_walls);
-    add_room(p, EAST, 0, &p->flat_walls);
-    add_walls(p, (const float[][2]){{WEST, 4}, {EAST, 4}}, 2, false, 0, &p->flat_walls);
-    add_walls(p, (const float[][2]){{WEST, 6}, {EAST, 6}}, 2, false, 0, &p->flat_walls);
-    add_room(p, WEST, 0, &p->sheet_walls);
-    add_room(p, EAST, 1, &p->sheet_walls);
-    jox_storeys_add_walls(&p->storeys, &p->sheet_walls);
-    return p;
-}
-
-static void free_plan(Plan *p) {
-    jox_walls_free(&p->flat_walls);
-    jox_walls_free(&p->sheet_walls);
-    jox_storeys_free(&p->storeys);
-    jox_free(p);
-}
 
 /* Fails where the densities of a floor, 1/m2, differ by more than `within`, between x = from and
    x = to. */
@@ -322,153 +217,56 @@ static void measured_squares_beside_a_seam_are_those_of_one_plane(void **state) 
     free_plan(p);
 }
 
-/* ---- recordings ---- */
+/* ---- figures ---- */
 
-static char path[] = "/tmp/jostle-storeys-XXXXXX";
-
-/* Records a person who walks up the stair, 0.5 m from frame to frame, and a body on the upper
-   storey. */
-static void record_climb(const Plan *p) {
-    JoxText error = {0};
-    JoxRecorder *r =
-        jox_recorder_open(path, 10, "POLYGON ((0 0, 20 0, 20 10, 0 0))", &p->storeys, &error);
-    assert_non_null(r);
-    jox_recorder_describe_storeys(r, &p->sheet_walls, jox_v2(0, 0), jox_v2(20, 10));
-    for (uint32_t ring = 0, number = 0; ring < p->sheet_walls.ring_count; ring++) {
-        bool closed, twin;
-        jox_walls_given(&p->sheet_walls, ring, &closed, &twin);
-        jox_recorder_wall(r, 0, number++, &p->sheet_walls, ring, true);
-        ring += twin;
+/* Shows danger a frame of people at points that are not turned. */
+static void show_points(JoxDanger *danger, const Plan *p, double time, const float (*points)[2],
+                        uint32_t count) {
+    float x[8], y[8], still[8] = {0};
+    uint32_t key[8];
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxV2 at = put_on_sheet(p, points[i][0], points[i][1]);
+        x[i] = at.x;
+        y[i] = at.y;
+        key[i] = i;
     }
-    for (uint32_t f = 0; f < 20; f++) {
-        JoxRecordBody *body;
-        JoxRecordRow *row = jox_recorder_begin_frame(r, 1, 1, &body);
-        const JoxV2 at = put_on_sheet(p, 6.25f + 0.5f * (float)f, 5.0f);
-        const JoxV2 upstairs = jox_on_sheet(&p->storeys, 1, jox_v2(17, 3));
-        *row = (JoxRecordRow){.id = 4, .x = at.x, .y = at.y, .ori_x = 1.0f, .radius = 0.2f};
-        row->chest = row->breadth = row->depth = NAN;
-        *body = (JoxRecordBody){7, upstairs.x, upstairs.y, 0.5f, 0, 0, 0, 1};
-        assert_true(jox_recorder_submit_frame(r, f, &error));
-    }
-    assert_true(jox_recorder_close(r, &error));
-    assert_null(error.data);
+    const JoxFrame frame = {.time = time,
+                            .count = count,
+                            .keys = count,
+                            .key = key,
+                            .x = x,
+                            .y = y,
+                            .vx = still,
+                            .vy = still,
+                            .walls = &p->sheet_walls,
+                            .storeys = &p->storeys};
+    jox_danger_frame(danger, &frame, NULL);
 }
 
-/* Returns the first column of the first row as text; the caller frees it. */
-static char *query_text(const char *sql) {
-    sqlite3 *db;
-    sqlite3_stmt *statement;
-    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-    assert_int_equal(sqlite3_prepare_v2(db, sql, -1, &statement, NULL), SQLITE_OK);
-    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
-    char *text = jox_strdup((const char *)sqlite3_column_text(statement, 0));
-    sqlite3_finalize(statement);
-    sqlite3_close(db);
-    return text;
-}
-
-static void expect_text(const char *sql, const char *wanted) {
-    char *text = query_text(sql);
-    assert_string_equal(text, wanted);
-    jox_free(text);
-}
-
-static void recording_is_in_plan_and_reads_back_on_sheets(void **state) {
+static void stairs_have_figures_in_the_summary(void **state) {
     (void)state;
-    const JoxTrajectoryOptions options = {0};
     Plan *p = make_plan(0.0f);
-    JoxDiagnostics diagnostics = {0};
-    JoxText why = {0};
-    assert_true(mkstemp(path) >= 0);
-    unlink(path);
-    record_climb(p);
-    /* Readers of the format find all of the way in one plane. */
-    expect_text("SELECT max(abs(pos_x - 6.25 - 0.5 * frame) + abs(pos_y - 5)) < 1e-3 FROM "
-                "trajectory_data",
-                "1");
-    expect_text("SELECT value FROM metadata WHERE key = 'ymax'", "5");
-    expect_text("SELECT group_concat(storey || stair, ' ') FROM trajectory_data",
-                "00 00 00 00 01 01 01 01 01 01 11 11 11 11 11 11 10 10 10 10");
-    expect_text("SELECT storey || ' ' || y FROM jostle_body", "1 3.0");
-    expect_text("SELECT group_concat(name || ' ' || height, ', ') FROM jostle_storey",
-                "ground 0.0, first 3.0");
-    expect_text("SELECT name || ' ' || kind || ' ' || path || ' ' || width FROM jostle_stair",
-                "north stairs 8 5, 14 5 2.0");
-    expect_text("SELECT area FROM jostle_storey WHERE number = 1",
-                "POLYGON ((0 0, 20 0, 20 10, 0 10, 0 0), (8 4, 14 4, 14 6, 8 6, 8 4))");
-    JoxTrajectoryReader *reader = jox_trajectory_reader_open(path, &options, &diagnostics);
-    assert_non_null(reader);
-    const JoxTrajectoryReaderInfo info = jox_trajectory_reader_info(reader);
-    assert_non_null(info.storeys);
-    assert_string_equal(info.storeys->stairs[0].name, "north");
-    assert_near(info.storeys->pitch, p->storeys.pitch, 0);
-    assert_near(info.storeys->stairs[0].rise, 3.0, 0);
-    for (uint32_t f = 0; f < 20; f++) {
-        JoxTrajectoryReaderFrame frame;
-        assert_true(jox_trajectory_reader_read(reader, f, &frame, &why));
-        const JoxV2 at = put_on_sheet(p, 6.25f + 0.5f * (float)f, 5.0f);
-        assert_near(frame.x[0], at.x, 1e-3);
-        assert_near(frame.y[0], at.y, 1e-3);
-        assert_near(frame.bodies[0].y, 3 + p->storeys.pitch, 1e-3);
-    }
-    const JoxWalls *walls = jox_trajectory_reader_walls(reader, 0);
-    assert_int_equal(walls->count, p->sheet_walls.count);
-    for (uint32_t v = 0; v < walls->count; v++)
-        assert_near(walls->vertices[v].point.y, p->sheet_walls.vertices[v].point.y, 1e-3);
-    jox_trajectory_reader_close(reader);
-    /* Nobody is fast because of a seam. */
-    JoxTrajectories *t = jox_trajectories_read(path, &options, &diagnostics);
-    assert_non_null(t);
-    for (size_t k = 0; k < t->count; k++) {
-        assert_near(t->vx[k], 5.0, 1e-2);
-        assert_near(t->vy[k], 0.0, 1e-2);
-    }
-    jox_trajectories_free(t);
-    jox_diag_free(&diagnostics);
+    JoxDanger *danger = jox_danger_create(jox_v2(-1, -1), jox_v2(21, 11), &p->storeys);
+    /* One goes up, one down; one turns back; one comes in on the stair and goes up. */
+    show_points(danger, p, 0.0, (const float[][2]){{7, 5}, {15, 5}, {7, 4.5f}, {9, 5}}, 4);
+    show_points(danger, p, 0.5, (const float[][2]){{9, 4.5f}, {13, 5}, {9, 5.5f}, {10, 5}}, 4);
+    show_points(danger, p, 1.0, (const float[][2]){{15, 5}, {7, 5}, {7, 5.5f}, {16, 5}}, 4);
+    JoxText text = {0};
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_json_object(&json, NULL);
+    jox_danger_json(danger, &json);
+    jox_json_end(&json);
+    const char *stairs = strstr(text.data, "\"stairs\"");
+    assert_non_null(stairs);
+    assert_non_null(strstr(stairs, "\"north\": {\"up\": 2, \"down\": 1, \"people_max\": 4"));
+    /* Places are in plan, with the name of the storey or stair. */
+    assert_non_null(strstr(text.data, "\"density_max_storey\": \"north\""));
+    const char *y = strstr(text.data, "\"density_max_y\": ");
+    assert_non_null(y);
+    assert_near(strtod(y + 17, NULL), 5.0, 1.0);
+    jox_text_free(&text);
+    jox_danger_free(danger);
     free_plan(p);
-    unlink(path);
-}
-
-/* Changes a recording and returns whether it can still be read, with errors if not. */
-static bool reads_after(const char *sql) {
-    const JoxTrajectoryOptions options = {0};
-    JoxDiagnostics diagnostics = {0};
-    sqlite3 *db;
-    Plan *p = make_plan(0.0f);
-    record_climb(p);
-    free_plan(p);
-    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
-    assert_int_equal(sqlite3_exec(db, sql, NULL, NULL, NULL), SQLITE_OK);
-    sqlite3_close(db);
-    JoxTrajectories *t = jox_trajectories_read(path, &options, &diagnostics);
-    assert_int_equal(t == NULL, diagnostics.errors > 0);
-    const bool read = t != NULL;
-    jox_trajectories_free(t);
-    jox_diag_free(&diagnostics);
-    return read;
-}
-
-static void damaged_storeys_are_refused(void **state) {
-    (void)state;
-    static const char *const DAMAGES[] = {
-        "UPDATE jostle_row SET storey = 2 WHERE frame = 3",
-        "UPDATE jostle_row SET stair = -1 WHERE frame = 3",
-        "UPDATE jostle_storey SET height = 0",
-        "UPDATE jostle_storey SET number = number + 5",
-        "UPDATE jostle_stair SET upper = 9",
-        "UPDATE jostle_stair SET path = '8 5'",
-        "UPDATE jostle_stair SET path = '8 5, 8 5'",
-        "UPDATE jostle_stair SET path = '8 5, nan 5'",
-        "UPDATE jostle_stair SET width = 0",
-        "UPDATE jostle_stair SET landings = '3 2'",
-        "DELETE FROM metadata WHERE key = 'jostle_pitch'",
-        "UPDATE metadata SET value = 0 WHERE key = 'jostle_pitch'",
-    };
-    assert_true(reads_after("SELECT 1"));
-    for (size_t k = 0; k < sizeof DAMAGES / sizeof *DAMAGES; k++)
-        if (reads_after(DAMAGES[k]))
-            fail_msg("read after %s", DAMAGES[k]);
-    unlink(path);
 }
 
 int main(void) {
@@ -477,8 +275,7 @@ int main(void) {
         cmocka_unit_test(densities_over_seams_are_those_of_one_plane),
         cmocka_unit_test(rows_of_a_density_leave_out_what_is_not_floor),
         cmocka_unit_test(voronoi_cells_over_seams_are_those_of_one_plane),
-        cmocka_unit_test(recording_is_in_plan_and_reads_back_on_sheets),
-        cmocka_unit_test(damaged_storeys_are_refused),
+        cmocka_unit_test(stairs_have_figures_in_the_summary),
         cmocka_unit_test(measured_squares_beside_a_seam_are_those_of_one_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

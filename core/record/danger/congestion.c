@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/sort.h"
 #include "record/fields/pressure.h"
+#include "record/storey_figures.h"
 
 enum { TOLD = 8 }; /* regions that summaries list */
 
@@ -159,13 +160,13 @@ void jox_congestion_found_free(JoxCongestionFound *found) {
 
 /* ---- figures ---- */
 
-static void write_region(JoxJson *json, const JoxCongestionRegion *region) {
+static void write_region(JoxJson *json, const JoxStoreys *storeys,
+                         const JoxCongestionRegion *region) {
     jox_json_object(json, NULL);
     jox_json_number(json, "seconds", region->seconds);
     jox_json_number(json, "first_s", region->first);
     jox_json_number(json, "last_s", region->last);
-    jox_json_number(json, "x", (double)region->at.x);
-    jox_json_number(json, "y", (double)region->at.y);
+    jox_json_add_position(json, "", storeys, region->at, true);
     jox_json_number(json, "area", region->area);
     jox_json_number(json, "density_max", region->most);
     jox_json_end(json);
@@ -173,6 +174,7 @@ static void write_region(JoxJson *json, const JoxCongestionRegion *region) {
 
 void jox_congestion_json(const JoxCongestion *congestion, const JoxDensity *grid, JoxJson *json) {
     JoxCongestionFound found = jox_congestion_find(congestion, grid);
+    const JoxStoreys *storeys = jox_density_storeys_of(grid);
     const bool seen = found.longest > 0.0;
     double area = 0.0;
     for (uint32_t r = 0; r < found.count; r++)
@@ -185,12 +187,11 @@ void jox_congestion_json(const JoxCongestion *congestion, const JoxDensity *grid
     jox_json_number(json, "regions", found.known ? found.count : NAN);
     jox_json_number(json, "area", found.known ? area : NAN);
     jox_json_number(json, "longest_s", found.longest);
-    jox_json_number(json, "longest_x", seen ? (double)found.longest_at.x : NAN);
-    jox_json_number(json, "longest_y", seen ? (double)found.longest_at.y : NAN);
+    jox_json_add_position(json, "longest_", storeys, found.longest_at, seen);
     jox_json_number(json, "first_s", found.first);
     jox_json_array(json, "where");
     for (uint32_t r = 0; r < found.count && r < TOLD; r++)
-        write_region(json, &found.regions[r]);
+        write_region(json, storeys, &found.regions[r]);
     jox_json_end(json);
     jox_json_end(json);
     jox_congestion_found_free(&found);
@@ -198,14 +199,21 @@ void jox_congestion_json(const JoxCongestion *congestion, const JoxDensity *grid
 
 void jox_congestion_csv(const JoxCongestion *congestion, const JoxDensity *grid, FILE *out) {
     JoxCongestionFound found = jox_congestion_find(congestion, grid);
+    const JoxStoreys *storeys = jox_density_storeys_of(grid);
     fputs("x [m],y [m],seconds [s],first [s],last [s],area [m2],density_max [1/m2],low_x [m],low_y "
-          "[m],high_x [m],high_y [m]\n",
+          "[m],high_x [m],high_y [m]",
           out);
+    jox_csv_put_storey_title(out, storeys);
+    fputc('\n', out);
     for (uint32_t r = 0; r < found.count; r++) {
         const JoxCongestionRegion *g = &found.regions[r];
-        fprintf(out, "%.4f,%.4f,%.9g,%.9g,%.9g,%.9g,%.9g,%.4f,%.4f,%.4f,%.4f\n", (double)g->at.x,
-                (double)g->at.y, g->seconds, g->first, g->last, g->area, g->most, (double)g->low.x,
-                (double)g->low.y, (double)g->high.x, (double)g->high.y);
+        const JoxV2 at = jox_in_plan(storeys, g->at), low = jox_in_plan(storeys, g->low);
+        const JoxV2 high = jox_in_plan(storeys, g->high);
+        fprintf(out, "%.4f,%.4f,%.9g,%.9g,%.9g,%.9g,%.9g,%.4f,%.4f,%.4f,%.4f", (double)at.x,
+                (double)at.y, g->seconds, g->first, g->last, g->area, g->most, (double)low.x,
+                (double)low.y, (double)high.x, (double)high.y);
+        jox_csv_put_storey(out, storeys, g->at, true);
+        fputc('\n', out);
     }
     jox_congestion_found_free(&found);
 }

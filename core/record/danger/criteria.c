@@ -98,8 +98,11 @@ static void find_criterion_floor(JoxCriteria *c, uint32_t k, const JoxDensity *g
     const size_t cells = (size_t)grid->columns * grid->rows;
     floor->found = true;
     floor->within = jox_alloc(cells + 1, 1);
-    floor->cut = place->low.x < grid->low.x - cell_half || place->low.y < grid->low.y - cell_half ||
-                 place->high.x > high.x + cell_half || place->high.y > high.y + cell_half;
+    /* A grid on storeys has all of their floor. */
+    floor->cut =
+        !jox_density_storeys_of(grid) &&
+        (place->low.x < grid->low.x - cell_half || place->low.y < grid->low.y - cell_half ||
+         place->high.x > high.x + cell_half || place->high.y > high.y + cell_half);
     for (size_t cell = 0; cell < cells; cell++) {
         const JoxV2 middle = jox_density_middle(grid, cell);
         floor->within[cell] = jox_place_contains(c->places, number, middle);

@@ -290,6 +290,7 @@ static void sample_danger(JoxDanger *d, const JoxFrame *frame, const JoxExits *e
     jox_congestion_sample(&d->congestion, d->local->grid, frame->time, duration);
     jox_danger_lines_sample(&d->lines, frame, d->gaussian_density, duration);
     jox_danger_areas_sample(&d->areas, frame, d->gaussian_density, duration);
+    jox_danger_stairs_sample(&d->stairs, frame, d->gaussian_density);
 }
 
 void jox_danger_add_line(JoxDanger *d, const char *name, JoxV2 a, JoxV2 b) {
@@ -314,6 +315,7 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
     update_all_loads(d, frame);
     jox_congestion_frame(&d->congestion, frame->count, frame->time);
     jox_danger_lines_add_crossings(&d->lines, frame);
+    jox_danger_stairs_frame(&d->stairs, frame);
     if (exits)
         jox_leaving_update(&d->leaving, exits, frame->time);
     if (d->owns_local)
@@ -369,6 +371,7 @@ void jox_danger_sections(JoxDanger *d, JoxSections *s) {
     jox_danger_areas_sections(&d->areas, s);
     jox_leaving_sections(&d->leaving, s);
     jox_danger_walls_sections(&d->walls, s);
+    jox_danger_stairs_sections(&d->stairs, s);
     JOX_SECTION(s, "level_s", d->level_s);
     JOX_SECTION(s, "begun", d->begun);
     JOX_SECTION(s, "last_frame", d->last_frame);
@@ -400,5 +403,6 @@ void jox_danger_free(JoxDanger *d) {
     jox_danger_areas_free(&d->areas);
     jox_leaving_free(&d->leaving);
     jox_danger_walls_free(&d->walls);
+    jox_danger_stairs_free(&d->stairs);
     jox_free(d);
 }

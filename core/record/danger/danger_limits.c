@@ -4,6 +4,7 @@
 
 #include "base/number/elementary.h"
 #include "record/danger/danger_parts.h"
+#include "record/storey_figures.h"
 
 const char *const jox_danger_names[] = {"density", "pressure", "compression",
                                         "load",    "dose",     "voronoi"};
@@ -108,14 +109,16 @@ static void write_suffixed_number(JoxJson *json, const char *name, const char *s
 }
 
 void jox_danger_json(const JoxDanger *d, JoxJson *json) {
+    const JoxStoreys *storeys = jox_density_storeys_of(d->local->grid);
+    char prefix[64];
     jox_json_whole(json, "samples", d->samples);
     for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
         JoxDangerMost most = jox_danger_most(d, (JoxDangerMeasure)m);
         bool read = isfinite(most.time);
         write_suffixed_number(json, jox_danger_names[m], "_max", most.value);
         write_suffixed_number(json, jox_danger_names[m], "_max_s", most.time);
-        write_suffixed_number(json, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
-        write_suffixed_number(json, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
+        snprintf(prefix, sizeof prefix, "%s_max_", jox_danger_names[m]);
+        jox_json_add_position(json, prefix, storeys, most.at, read);
         if (m >= JOX_DANGER_FIRST_BORNE)
             write_suffixed_number(json, jox_danger_names[m], "_max_person",
                                   read ? most.person : NAN);
@@ -131,8 +134,7 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
         jox_json_number(json, "person_s", read ? count->person_s : NAN);
         jox_json_number(json, "longest_s", read ? count->longest : NAN);
         jox_json_number(json, "first_s", count->first);
-        jox_json_number(json, "first_x", seen ? count->first_at.x : NAN);
-        jox_json_number(json, "first_y", seen ? count->first_at.y : NAN);
+        jox_json_add_position(json, "first_", storeys, count->first_at, seen);
         jox_json_number(json, "since_min", jox_danger_minutes_since(d, count->first));
         jox_json_end(json);
     }
@@ -145,5 +147,6 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
     jox_congestion_json(&d->congestion, d->local->grid, json);
     jox_danger_areas_json(&d->areas, json);
     jox_danger_lines_json(&d->lines, d->congestion.begun, d->last_frame, json);
-    jox_danger_walls_json(&d->walls, d->last_frame, json);
+    jox_danger_walls_json(&d->walls, storeys, d->last_frame, json);
+    jox_danger_stairs_json(&d->stairs, storeys, json);
 }

@@ -8,6 +8,7 @@
 #include "record/danger/danger.h"
 #include "record/danger/leaving.h"
 #include "record/danger/line_counts.h"
+#include "record/danger/stair_counts.h"
 #include "record/danger/wall_loads.h"
 #include "record/fields/voronoi_people.h"
 #include "record/local_samples.h"
@@ -71,6 +72,7 @@ struct JoxDanger {
     JoxDangerAreas areas;
     JoxLeaving leaving;
     JoxDangerWalls walls;
+    JoxDangerStairs stairs;
     double level_s[JOX_LEVELS]; /* person-seconds at each level of service */
     /* Density of each person at the last sample: Gaussian (NAN outside the area) and Voronoi (NAN
        where it was not measured). */

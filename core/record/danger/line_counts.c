@@ -137,6 +137,20 @@ static float measure_line_distance(const JoxDangerLine *line, JoxV2 point) {
     return jox_length(jox_sub(from, jox_scale(along, t)));
 }
 
+/* Sets the position of person i as seen from the line: moved over a seam, if it stands beyond one.
+   Returns false if it is on another storey. */
+static bool place_beside_line(const JoxDangerLine *line, const JoxFrame *frame, uint32_t i,
+                              JoxV2 *at) {
+    const JoxV2 middle = jox_scale(jox_add(line->a, line->b), 0.5f);
+    JoxV2 way;
+    *at = (JoxV2){frame->x[i], frame->y[i]};
+    if (!frame->storeys)
+        return true;
+    const bool seen = jox_plan_offset(frame->storeys, middle, *at, &way);
+    *at = jox_add(middle, way);
+    return seen;
+}
+
 /* Counts the people waiting on each side and the mean densities close to the line. */
 static void measure_queues(const JoxDangerLine *line, const JoxWallOpenings *openings,
                            const JoxFrame *frame, const float *density, uint32_t waiting[2],
@@ -145,7 +159,9 @@ static void measure_queues(const JoxDangerLine *line, const JoxWallOpenings *ope
     uint32_t near[2] = {0, 0};
     waiting[0] = waiting[1] = 0;
     for (uint32_t i = 0; i < frame->count; i++) {
-        const JoxV2 at = {frame->x[i], frame->y[i]};
+        JoxV2 at;
+        if (!place_beside_line(line, frame, i, &at))
+            continue;
         const float away = measure_line_distance(line, at);
         if (away > FAR || !sees_opening(frame->walls, openings, at))
             continue;

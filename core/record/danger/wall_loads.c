@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/mem.h"
+#include "record/storey_figures.h"
 
 const char jox_rail_what[] = "steel railings were bent in fatal crowds";
 const char jox_rail_source[] = "J. J. Fruin, The causes and prevention of crowd disasters, 1993";
@@ -79,13 +80,15 @@ double jox_danger_piece_line_load(const JoxDangerPiece *piece) {
     return length > 0.0 ? (double)piece->most / length : NAN;
 }
 
-static void write_piece_middle(JoxJson *json, const JoxDangerPiece *piece, const char *x,
-                               const char *y) {
-    jox_json_number(json, x, piece ? 0.5 * ((double)piece->from.x + (double)piece->to.x) : NAN);
-    jox_json_number(json, y, piece ? 0.5 * ((double)piece->from.y + (double)piece->to.y) : NAN);
+static void write_piece_middle(JoxJson *json, const JoxStoreys *storeys,
+                               const JoxDangerPiece *piece, const char *prefix) {
+    const JoxV2 none = {0.0f, 0.0f};
+    const JoxV2 middle = piece ? jox_scale(jox_add(piece->from, piece->to), 0.5f) : none;
+    jox_json_add_position(json, prefix, storeys, middle, piece != NULL);
 }
 
-void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *json) {
+void jox_danger_walls_json(const JoxDangerWalls *walls, const JoxStoreys *storeys, double end,
+                           JoxJson *json) {
     if (!walls->known) {
         jox_json_null(json, "walls");
         return;
@@ -96,14 +99,14 @@ void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *jso
     jox_json_whole(json, "pieces", walls->count);
     jox_json_number(json, "load_max", most ? (double)most->most : 0.0);
     jox_json_number(json, "load_max_s", most ? most->most_time : NAN);
-    write_piece_middle(json, most, "load_max_x", "load_max_y");
+    write_piece_middle(json, storeys, most, "load_max_");
     jox_json_object(json, "rail_4500");
     jox_json_whole(json, "pieces", walls->over);
     jox_json_number(json, "limit", JOX_RAIL_LIMIT);
     jox_json_number(json, "piece_s", walls->piece_s);
     jox_json_number(json, "longest_s", walls->longest);
     jox_json_number(json, "first_s", first ? first->first : NAN);
-    write_piece_middle(json, first, "first_x", "first_y");
+    write_piece_middle(json, storeys, first, "first_");
     jox_json_number(json, "since_min", first ? (end - first->first) / 60.0 : NAN);
     jox_json_end(json);
     jox_json_end(json);

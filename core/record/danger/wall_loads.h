@@ -41,7 +41,8 @@ double jox_danger_walls_greatest_load(const JoxDangerWalls *walls);
 /* Returns the greatest load of a piece over its length, N/m. */
 double jox_danger_piece_line_load(const JoxDangerPiece *piece);
 /* Writes "walls": {...}, or null without wall loads. `end` is the time of the last frame, s. */
-void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *json);
+void jox_danger_walls_json(const JoxDangerWalls *walls, const JoxStoreys *storeys, double end,
+                           JoxJson *json);
 void jox_danger_walls_sections(JoxDangerWalls *walls, JoxSections *sections);
 void jox_danger_walls_free(JoxDangerWalls *walls);
 

@@ -22,7 +22,8 @@ typedef struct Sums {
 struct JoxPressure {
     uint32_t columns, rows;
     size_t cells;
-    float cell; /* m */
+    float cell;            /* m */
+    uint32_t *first, *end; /* rows of the block of each row; NULL: all are one block */
     /* Summed-area tables of pressures and of measured cells; one column and row more than the
        grid. */
     double *sum;
@@ -49,6 +50,13 @@ JoxPressure *jox_pressure_create(uint32_t columns, uint32_t rows, float cell) {
         p->now[c] = NAN;
     p->last = NAN;
     return p;
+}
+
+void jox_pressure_set_blocks(JoxPressure *p, const uint32_t *first, const uint32_t *end) {
+    p->first = jox_realloc(p->first, p->rows, sizeof *p->first);
+    p->end = jox_realloc(p->end, p->rows, sizeof *p->end);
+    memcpy(p->first, first, p->rows * sizeof *first);
+    memcpy(p->end, end, p->rows * sizeof *end);
 }
 
 static void begin_quarter(JoxPressure *p, double t) {
@@ -117,9 +125,10 @@ static void average_over_sections(JoxPressure *p) {
     for (uint32_t r = 0; r < p->rows; r++)
         for (uint32_t c = 0; c < p->columns; c++) {
             float *here = &p->now[(size_t)r * p->columns + c];
-            const size_t left = c > half ? c - half : 0, low = r > half ? r - half : 0;
+            const uint32_t first = p->first ? p->first[r] : 0, end = p->end ? p->end[r] : p->rows;
+            const size_t left = c > half ? c - half : 0, low = r > first + half ? r - half : first;
             const size_t right = c + half + 1 < p->columns ? c + half + 1 : p->columns;
-            const size_t top = r + half + 1 < p->rows ? r + half + 1 : p->rows;
+            const size_t top = r + half + 1 < end ? r + half + 1 : end;
             const size_t a = top * wide + right, b = top * wide + left, d = low * wide + right;
             const size_t e = low * wide + left;
             const uint32_t count = p->count[a] - p->count[b] - p->count[d] + p->count[e];
@@ -183,6 +192,8 @@ void jox_pressure_free(JoxPressure *p) {
         return;
     for (int q = 0; q < QUARTERS; q++)
         jox_free(p->quarters[q]);
+    jox_free(p->first);
+    jox_free(p->end);
     jox_free(p->now);
     jox_free(p->sum);
     jox_free(p->count);

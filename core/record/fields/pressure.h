@@ -42,6 +42,9 @@
 typedef struct JoxPressure JoxPressure;
 /* Creates a field of cells, row by row; `cell` is their side, m. */
 JoxPressure *jox_pressure_create(uint32_t columns, uint32_t rows, float cell);
+/* Keeps the means over sections within blocks of rows: row r is of the rows first[r] to end[r] - 1.
+   For densities of several storeys. */
+void jox_pressure_set_blocks(JoxPressure *pressure, const uint32_t *first, const uint32_t *end);
 /* Adds a sample at t, s. Samples ascend in time and are JOX_PRESSURE_PACE or more apart; after a
    gap of more than twice that, or a step back, the measurement starts again. `flow_x` and `flow_y`
    are density times velocity, 1/(m s). */

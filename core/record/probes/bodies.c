@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/number/rotation.h"
 #include "record/probes/probe_parts.h"
+#include "record/storey_figures.h"
 
 static const float TURNED = 10.0f;  /* degrees: turns beyond this count */
 static const float TOPPLED = 45.0f; /* degrees: tilts beyond this count as toppled */
@@ -105,20 +106,23 @@ static void list_bodies_sections(void *state, JoxSections *sections) {
 
 static void write_bodies_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Bodies *s = state;
-    (void)def;
     fputs("body,name,x [m],y [m],z [m],dx [m],dy [m],dz [m],moved [m],peak [m],turned [deg],"
-          "tilt [deg],peak_tilt [deg]\n",
+          "tilt [deg],peak_tilt [deg]",
           out);
+    jox_csv_put_storey_title(out, def->storeys);
+    fputc('\n', out);
     for (uint32_t k = 0; k < s->capacity; k++) {
         const Body *b = &s->bodies[k];
         if (!b->known)
             continue;
-        fprintf(out, "%u,%s,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f\n", k,
-                k < s->name_count && s->names[k] ? s->names[k] : "", (double)b->from.x,
-                (double)b->from.y, (double)b->from.z, (double)(b->at.x - b->from.x),
-                (double)(b->at.y - b->from.y), (double)(b->at.z - b->from.z),
-                (double)measure_distance(b), (double)b->peak, (double)b->turned, (double)b->tilt,
-                (double)b->peak_tilt);
+        const JoxV2 at = {b->from.x, b->from.y}, plan = jox_in_plan(def->storeys, at);
+        fprintf(out, "%u,%s,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f", k,
+                k < s->name_count && s->names[k] ? s->names[k] : "", (double)plan.x, (double)plan.y,
+                (double)b->from.z, (double)(b->at.x - b->from.x), (double)(b->at.y - b->from.y),
+                (double)(b->at.z - b->from.z), (double)measure_distance(b), (double)b->peak,
+                (double)b->turned, (double)b->tilt, (double)b->peak_tilt);
+        jox_csv_put_storey(out, def->storeys, at, true);
+        fputc('\n', out);
     }
 }
 

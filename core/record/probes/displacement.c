@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/number/statistics.h"
 #include "record/probes/probe_parts.h"
+#include "record/storey_figures.h"
 
 typedef struct Person {
     uint8_t known;        /* 0 or 1; not a bool, since a checkpoint may hold any byte */
@@ -158,16 +159,21 @@ static void list_displacement_sections(void *state, JoxSections *s) {
 }
 
 static void write_displacement_csv(const JoxProbeDef *def, const void *state, FILE *out) {
-    (void)def;
     const Displacement *d = state;
-    fputs("person,x [m],y [m],dx [m],dy [m],residual [m],peak [m],onset [s]\n", out);
+    fputs("person,x [m],y [m],dx [m],dy [m],residual [m],peak [m],onset [s]", out);
+    jox_csv_put_storey_title(out, def->storeys);
+    fputc('\n', out);
     for (uint32_t k = 0; k < d->capacity; k++) {
         const Person *p = &d->people[k];
         if (!p->known)
             continue;
-        fprintf(out, "%u,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,", k, p->x + p->base_x, p->y + p->base_y,
+        const JoxV2 at = {(float)(p->x + p->base_x), (float)(p->y + p->base_y)};
+        const JoxV2 plan = jox_in_plan(def->storeys, at);
+        fprintf(out, "%u,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,", k, (double)plan.x, (double)plan.y,
                 p->dx - p->base_x, p->dy - p->base_y, p->now, p->most);
-        fprintf(out, isfinite(p->onset) ? "%.4f\n" : "nan\n", p->onset);
+        fprintf(out, isfinite(p->onset) ? "%.4f" : "nan", p->onset);
+        jox_csv_put_storey(out, def->storeys, at, true);
+        fputc('\n', out);
     }
 }
 

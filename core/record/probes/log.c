@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
+#include "record/storey_figures.h"
 
 typedef enum { ENTERS, KICKS, HIT, PEAKS, LANDS, EVENTS } Event;
 static const char *const EVENT_NAMES[] = {"enters", "kicks", "hit", "peaks", "lands"};
@@ -251,25 +252,28 @@ static void list_log_sections(void *state, JoxSections *s) {
 
 static void write_log_csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Log *log = state;
-    (void)def;
     fputs("time [s],what,person,group,from,state,x [m],y [m],speed [m/s],body,body_x [m],"
-          "body_y [m],body_z [m],body_speed [m/s],gap [m],lies,passes [m]\n",
+          "body_y [m],body_z [m],body_speed [m/s],gap [m],lies,passes [m]",
           out);
+    jox_csv_put_storey_title(out, def->storeys);
+    fputc('\n', out);
     for (uint32_t n = 0; n < log->count; n++) {
         const Action *d = &log->actions[n];
+        const JoxV2 at = {d->before.x, d->before.y}, plan = jox_in_plan(def->storeys, at);
+        const JoxV2 ball = jox_in_plan(def->storeys, (JoxV2){d->at.x, d->at.y});
         fprintf(out, "%.4f,%s,%u,%s,%s,%s,%.4f,%.4f,%.4f,", d->time, EVENT_NAMES[d->event],
                 d->person, log->names[d->group], log->names[d->before.state], log->names[d->state],
-                (double)d->before.x, (double)d->before.y, (double)d->before.speed);
+                (double)plan.x, (double)plan.y, (double)d->before.speed);
         if (d->body < 0)
             fputs(",,,,,,", out);
         else
-            fprintf(out, "%d,%.4f,%.4f,%.4f,%.4f,%.4f,%d", d->body, (double)d->at.x,
-                    (double)d->at.y, (double)d->at.z, (double)d->speed, (double)d->gap,
-                    d->grounded != 0);
+            fprintf(out, "%d,%.4f,%.4f,%.4f,%.4f,%.4f,%d", d->body, (double)ball.x, (double)ball.y,
+                    (double)d->at.z, (double)d->speed, (double)d->gap, d->grounded != 0);
+        fputc(',', out);
         if (isfinite(d->passes))
-            fprintf(out, ",%.4f\n", (double)d->passes);
-        else
-            fputs(",\n", out);
+            fprintf(out, "%.4f", (double)d->passes);
+        jox_csv_put_storey(out, def->storeys, at, true);
+        fputc('\n', out);
     }
 }
 

@@ -14,6 +14,7 @@
 #include "record/fields/density.h"
 #include "record/local_samples.h"
 #include "record/probes/probe_parts.h"
+#include "record/storey_figures.h"
 
 enum { DENSITY, SPEED, COMPRESSION, FIELDS };
 static const float LEAST = 0.02f; /* 1/m2: at lower density a cell has no velocity */
@@ -46,8 +47,10 @@ static size_t count_map_cells(const JoxDensity *g) {
 
 static void begin_map(const JoxProbeDef *def, void *state) {
     Map *m = state;
-    m->grid = jox_density_create(def->low, def->high, (float)def->cell, (float)def->kernel);
-    m->local = jox_local_create(def->low, def->high, NULL);
+    const JoxStoreys *storeys = def->all_storeys ? def->storeys : NULL;
+    m->grid = jox_density_create_on_storeys(def->low, def->high, (float)def->cell,
+                                            (float)def->kernel, storeys);
+    m->local = jox_local_create(def->low, def->high, storeys);
     jox_local_enable_pressure(m->local);
     size_t cells = count_map_cells(m->grid), local_cells = count_map_cells(m->local->grid);
     for (int f = 0; f < FIELDS; f++)
@@ -161,7 +164,6 @@ static void take_map_frame(const JoxProbeDef *def, void *state, const JoxFrame *
 }
 
 static void add_map_figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
-    (void)def;
     const Map *m = state;
     double density = 0.0, pressure = NAN, n = m->samples ? m->samples : NAN;
     bool pressed = !isnan(m->pressure_most);
@@ -175,7 +177,7 @@ static void add_map_figures(const JoxProbeDef *def, const void *state, JoxFigure
     jox_figure_add(out, "density_max_x", "x of the greatest density", "m",
                    m->samples ? m->density_at.x : NAN);
     jox_figure_add(out, "density_max_y", "y of the greatest density", "m",
-                   m->samples ? m->density_at.y : NAN);
+                   m->samples ? jox_in_plan(def->storeys, m->density_at).y : NAN);
     jox_figure_add(out, "density_max_time", "time of the greatest density", "s",
                    m->samples ? m->density_time : NAN);
     jox_figure_add(out, "density_mean_max", "greatest mean density of a cell", "1/m2", density / n);
@@ -185,7 +187,7 @@ static void add_map_figures(const JoxProbeDef *def, const void *state, JoxFigure
     jox_figure_add(out, "pressure_max_x", "x of the greatest crowd pressure", "m",
                    pressed ? m->pressure_at.x : NAN);
     jox_figure_add(out, "pressure_max_y", "y of the greatest crowd pressure", "m",
-                   pressed ? m->pressure_at.y : NAN);
+                   pressed ? jox_in_plan(def->storeys, m->pressure_at).y : NAN);
     jox_figure_add(out, "pressure_max_time", "time of the greatest crowd pressure", "s",
                    pressed ? m->pressure_time : NAN);
     jox_figure_add(out, "pressure_mean_max", "greatest mean crowd pressure of a cell", "1/s2",
@@ -219,7 +221,6 @@ static void list_map_sections(void *state, JoxSections *s) {
 }
 
 static void write_map_csv(const JoxProbeDef *def, const void *state, FILE *out) {
-    (void)def;
     const Map *m = state;
     const JoxDensity *g = m->grid;
     uint32_t skip = 1;
@@ -227,36 +228,47 @@ static void write_map_csv(const JoxProbeDef *def, const void *state, FILE *out) 
         skip++;
     double n = m->samples ? m->samples : 1.0;
     fputs("x [m],y [m],density [1/m2],speed [m/s],pressure [1/s2],compression [N/m],"
-          "compression_most [N/m]\n",
+          "compression_most [N/m]",
           out);
+    jox_csv_put_storey_title(out, def->storeys);
+    fputs(jox_has_storeys(def->storeys) ? ",drawn_y [m]\n" : "\n", out);
     for (uint32_t row = 0; row < g->rows; row += skip) {
+        if (isnan(jox_density_middle(g, (size_t)row * g->columns).y))
+            continue; /* between the rows of two storeys */
         for (uint32_t column = 0; column < g->columns; column += skip) {
             size_t c = (size_t)row * g->columns + column;
             double weight = m->density[c];
             JoxV2 at = jox_density_middle(g, c);
-            fprintf(out, "%.3f,%.3f,%.4g,", at.x, at.y, weight / n);
+            const JoxV2 plan = jox_in_plan(def->storeys, at);
+            fprintf(out, "%.3f,%.3f,%.4g,", (double)plan.x, (double)plan.y, weight / n);
             if (weight < LEAST * n)
                 fprintf(out, "nan,%.4g,", mean_pressure(m, at));
             else
                 fprintf(out, "%.4g,%.4g,", m->speed[c] / weight, mean_pressure(m, at));
             if (m->has_compression)
-                fprintf(out, "%.4g,%.4g\n", weight < LEAST * n ? 0.0 : m->compression[c] / weight,
+                fprintf(out, "%.4g,%.4g", weight < LEAST * n ? 0.0 : m->compression[c] / weight,
                         m->compression_most[c]);
             else
-                fputs("nan,nan\n", out);
+                fputs("nan,nan", out);
+            jox_csv_put_storey(out, def->storeys, at, true);
+            if (jox_has_storeys(def->storeys))
+                fprintf(out, ",%.3f", (double)(g->low.y + ((float)row + 0.5f) * g->cell));
+            fputs("\n", out);
         }
         fputs("\n", out);
     }
 }
 
-/* Plots one field as a colour map. The colour range is given, since gnuplot warns where all values
-   are 0. */
-static void plot_field(bool walls, int column, const char *title, double most, JoxText *out) {
+/* Plots one field as a colour map, of several storeys one above the other (column 9). The colour
+   range is given, since gnuplot warns where all values are 0. */
+static void plot_field(bool walls, bool storeys, int column, const char *title, double most,
+                       JoxText *out) {
     jox_text_printf(out,
                     "set title '%s'\nset cbrange [0:%g]\n"
-                    "plot csv skip 1 using 1:2:%d with image%s\n",
-                    title, most > 0.0 ? most : 1.0, column,
-                    walls ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
+                    "plot csv skip 1 using 1:%d:%d with image%s\n",
+                    title, most > 0.0 ? most : 1.0, storeys ? 9 : 2, column,
+                    walls && !storeys ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'"
+                                      : "");
 }
 
 static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
@@ -280,11 +292,12 @@ static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxT
         "unset grid\nset xrange [%g:%g]\nset yrange [%g:%g]\n",
         g->low.x, g->low.x + (float)g->columns * g->cell, g->low.y,
         g->low.y + (float)g->rows * g->cell);
+    const bool storeys = jox_has_storeys(def->storeys);
     char title[96];
     snprintf(title, sizeof title, "density (1/m\xc2\xb2), Gaussian, R = %.3g m%s",
              def->kernel * sqrt(2.0), def->through_walls ? ", through walls" : "");
-    plot_field(walls, 3, title, density, out);
-    plot_field(walls, 4, "speed (m/s)", speed, out);
+    plot_field(walls, storeys, 3, title, density, out);
+    plot_field(walls, storeys, 4, "speed (m/s)", speed, out);
     if (isnan(m->pressure_most))
         jox_text_printf(
             out,
@@ -293,9 +306,10 @@ static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxT
             "set colorbox\n",
             (double)JOX_PRESSURE_LEAST, JOX_PRESSURE_SPAN);
     else
-        plot_field(walls, 5, "crowd pressure (1/s\xc2\xb2), where it was measured", pressure, out);
+        plot_field(walls, storeys, 5, "crowd pressure (1/s\xc2\xb2), where it was measured",
+                   pressure, out);
     if (m->has_compression)
-        plot_field(walls, 7, "greatest compression (N/m)", m->compression_greatest, out);
+        plot_field(walls, storeys, 7, "greatest compression (N/m)", m->compression_greatest, out);
 }
 
 static void free_map(void *state) {

@@ -10,6 +10,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "base/number/rotation.h"
+#include "geom/storey_text.h"
 #include "jostle_tools.h"
 #include "record/aggregate.h"
 #include "record/danger/trust.h"
@@ -177,8 +178,12 @@ static void add_standing(JoxJson *json, const JoScene *scene) {
     jox_json_digits(json, "s", stood->seconds, 6);
     if (stood->id != JOX_NO_INDEX) {
         jox_json_digits(json, "until_s", stood->until, 6);
-        jox_json_digits(json, "x", (double)stood->at.x, 6);
-        jox_json_digits(json, "y", (double)stood->at.y, 6);
+        const JoxStoreys *storeys = &scene->world->model.storeys;
+        const JoxV2 plan = jox_in_plan(storeys, stood->at);
+        jox_json_digits(json, "x", (double)plan.x, 6);
+        jox_json_digits(json, "y", (double)plan.y, 6);
+        if (jox_has_storeys(storeys))
+            jox_json_string(json, "storey", jox_storey_name_at(storeys, stood->at));
         jox_json_whole(json, "agent", stood->id);
     }
     jox_json_end(json);
