@@ -45,7 +45,8 @@ static void write_map_name(JoxDrawing *d, JoxV2 at, const char *text, bool bold,
     static const JoxV2 sides[] = {{1, 0},       {-1, 0},       {0.8f, -0.6f}, {-0.8f, -0.6f},
                                   {0.8f, 0.6f}, {-0.8f, 0.6f}, {0, -1},       {0, 1}};
     enum { SIDES = sizeof sides / sizeof *sides, NEAR = 3, RINGS = 5 };
-    const float size = 12 * d->unit;
+    /* Maps of several storeys in one picture are smaller. */
+    const float size = 12 * d->unit * (d->panels.columns > 1 ? 0.7f : 1.0f);
     char fit[128];
     jox_draw_fit_text(fit, sizeof fit, text, size, bold, 240 * d->unit);
     const float half = 0.5f * jox_draw_text_width(fit, size, bold) + 2 * d->unit;

@@ -97,6 +97,11 @@ void jox_draw_panel_floors(JoxDrawing *d, JoxInk ground) {
         jox_canvas_open(d->canvas, NULL, "storey", floor);
         jox_canvas_line(d->canvas, box, 4, true, name);
         jox_canvas_close(d->canvas);
+        if (d->label_count < JOX_DRAW_LABELS) { /* no other name is written there */
+            d->labels[d->label_count].low = jox_v2(low.x, high.y - 1.2f * size);
+            d->labels[d->label_count++].high =
+                jox_v2(low.x + jox_draw_text_width(name, size, true), high.y);
+        }
         jox_canvas_open(d->canvas, NULL, "storey-name", (JoxStyle){.fill = jox_ink_text});
         jox_canvas_text(d->canvas, jox_v2(low.x, high.y - 0.35f * size), size, JOX_ANCHOR_START,
                         true, name);
