@@ -1,7 +1,8 @@
 /* Random buildings: storeys of a plan with inner walls, joined by straight and dog-leg stairs at
    any angle, ramps and escalators. Everybody stays on floor, passes no wall, and gets out; runs on
    several threads and instruction sets have one hash, and go on from a saved state to the same one.
-   JOSTLE_BUILDINGS says how many buildings are tried (default 6). */
+   JOSTLE_BUILDINGS says how many buildings are tried (default 6), JOSTLE_BUILDING which is the
+   first. */
 #include "base/number/random.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
@@ -122,9 +123,11 @@ static void check_people(const JoScene *scene, uint32_t building, const JoxText 
 static void everybody_gets_out_of_random_buildings(void **state) {
     (void)state;
     const char *asked = getenv("JOSTLE_BUILDINGS");
-    const uint32_t count = asked ? (uint32_t)atoi(asked) : 6;
+    const char *from = getenv("JOSTLE_BUILDING");
+    const uint32_t first = from ? (uint32_t)atoi(from) : 0,
+                   count = asked ? (uint32_t)atoi(asked) : 6;
     uint32_t refused = 0;
-    for (uint32_t b = 0; b < count; b++) {
+    for (uint32_t b = first; b < first + count; b++) {
         JoxText text = {0};
         write_building(b, &text);
         JoScene *one = load_building(&text, JO_ISA_SCALAR, 1),

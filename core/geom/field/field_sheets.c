@@ -12,6 +12,7 @@
 static const float GAP = 2.0f;    /* m between sheets */
 static const float REPEAT = 2.0f; /* m beyond a seam that repeats the other side */
 static const float MARGIN = 1.0f; /* m round the plan of a storey */
+static const float HAIR = 1e-3f;  /* m: more than the rounding of positions on sheets */
 
 /* ---- the layout ---- */
 
@@ -116,9 +117,17 @@ static AtSeam place_at_seam(const JoxSeam *seam, JoxV2 plan) {
     return (AtSeam){jox_dot(seam->along, from), jox_det(seam->along, from)};
 }
 
+/* Returns whether a point beyond a seam repeats floor of the other side. What lies on the seam's
+   line belongs to the storey. */
 static bool repeats_floor(const JoxSeam *seam, JoxV2 plan) {
     const AtSeam at = place_at_seam(seam, plan);
-    return at.beyond > 0.0f && at.beyond <= REPEAT && at.along >= 0.0f && at.along <= seam->length;
+    return at.beyond > (seam->enters ? HAIR : -HAIR) && at.beyond <= REPEAT && at.along >= 0.0f &&
+           at.along <= seam->length;
+}
+
+static bool lies_on_line(const JoxSeam *seam, JoxV2 plan) {
+    const AtSeam at = place_at_seam(seam, plan);
+    return fabsf(at.beyond) <= HAIR && at.along >= 0.0f && at.along <= seam->length;
 }
 
 /* Returns whether a point of a sheet is floor, or repeats floor. */
@@ -127,7 +136,8 @@ static bool is_floor_or_repeats(const JoxStoreys *s, uint32_t sheet, JoxV2 plan)
     if (jox_is_floor_of(s, sheet, plan))
         return true;
     for (uint32_t k = on->first_seam; k < on->first_seam + on->seam_count; k++)
-        if (repeats_floor(&s->seams[k], plan))
+        if (repeats_floor(&s->seams[k], plan) ||
+            (s->seams[k].enters && lies_on_line(&s->seams[k], plan)))
             return true;
     return false;
 }
