@@ -271,6 +271,11 @@ void jox_place_make_line(JoxPlace *place) {
     place->count = 2;
 }
 
+void jox_place_make_area(JoxPlace *place) {
+    JOX_ASSERT(place->count >= 3);
+    place->kind = JOX_PLACE_POLYGON;
+}
+
 void jox_place_make_set(JoxPlace *place, uint32_t first, uint32_t count) {
     place->kind = JOX_PLACE_SET;
     place->members = jox_alloc((size_t)count + 1, sizeof *place->members);

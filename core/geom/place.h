@@ -93,6 +93,8 @@ double jox_place_floor(const JoxPlace *place);
    Call jox_place_finish afterwards. */
 void jox_place_make_spot(JoxPlace *place, JoxV2 at, float radius);
 void jox_place_make_line(JoxPlace *place);
+/* Makes a place with at least three points, counter-clockwise, an area. */
+void jox_place_make_area(JoxPlace *place);
 /* Makes a place a set of the places [first, first + count). Finish it by jox_place_finish_set. */
 void jox_place_make_set(JoxPlace *place, uint32_t first, uint32_t count);
 

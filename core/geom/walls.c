@@ -102,14 +102,15 @@ void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open
     }
 }
 
-void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
+/* Copies the rings that stand; closed gates if `gates`, and doors of lifts if `doors`. */
+static void copy_standing(JoxWalls *out, const JoxWalls *all, bool gates, bool doors) {
     out->count = out->ring_count = 0;
     JOX_RESERVE(out->vertices, out->capacity, all->count);
     JOX_RESERVE(out->rings, out->ring_capacity, all->ring_count);
     for (uint32_t r = 0; r < all->ring_count; r++) {
         const struct JoxWallRing *ring = &all->rings[r];
         JOX_ASSERT(ring->first >= out->count && ring->first + ring->count <= all->count);
-        if (ring->open || (ring->name && !gates))
+        if (ring->open || (ring->name && !gates) || (ring->is_lift_door && !doors))
             continue;
         uint32_t back = ring->first - out->count; /* rings are contiguous */
         for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {
@@ -124,6 +125,14 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
                                                              .outline = ring->outline,
                                                              .height = ring->height};
     }
+}
+
+void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
+    copy_standing(out, all, gates, true);
+}
+
+void jox_walls_for_ways(JoxWalls *out, const JoxWalls *all, bool gates) {
+    copy_standing(out, all, gates, false);
 }
 
 uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin) {

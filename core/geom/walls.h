@@ -28,15 +28,22 @@ typedef struct JoxWalls {
     struct JoxWallRing {
         uint32_t first, count;
         bool solid;
-        bool outline; /* boundary of the walkable area; its inside is walkable */
-        float height; /* m; INFINITY: not given */
-        float drawn;  /* m: height up to which the live page draws it; 0: its height */
-        char *name;   /* name of a gate; owned; NULL for other walls */
-        bool open;    /* open gate: no obstacle */
-        bool set;     /* opened or closed since it was made */
+        bool outline;      /* boundary of the walkable area; its inside is walkable */
+        float height;      /* m; INFINITY: not given */
+        float drawn;       /* m: height up to which the live page draws it; 0: its height */
+        char *name;        /* name of a gate; owned; NULL for other walls */
+        bool open;         /* open gate: no obstacle */
+        bool set;          /* opened or closed since it was made */
+        bool is_lift_door; /* the lift opens and closes it; ways lead through it as if it were open
+                            */
     } * rings;
     uint32_t ring_count, ring_capacity;
 } JoxWalls;
+
+/* Returns whether a ring is a closed gate that ways do not lead through. */
+static inline bool jox_wall_is_shut_gate(const JoxWalls *walls, uint32_t ring) {
+    return walls->rings[ring].name && !walls->rings[ring].open && !walls->rings[ring].is_lift_door;
+}
 
 /* A segment of a wall's edge, at most 1 m long, with the load of contacts on it. */
 typedef struct JoxWallLoad {
@@ -63,6 +70,8 @@ void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open
 /* Copies the closed walls of `all` to `out`, without names; without `gates`, only walls that never
    open. Reuses the memory of `out`. */
 void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
+/* Does the same without the doors of lifts, which ways lead through. */
+void jox_walls_for_ways(JoxWalls *out, const JoxWalls *all, bool gates);
 /* Returns the number of points of a ring as it was given, from its first vertex on, and whether the
    last is joined to the first. A closed polyline is stored as two rings, and *twin tells that the
    next ring repeats this one. */

@@ -8,6 +8,7 @@
 #include "base/guard.h"
 #include "base/number/pi.h"
 #include "machine/kernels.h"
+#include "machine/lifts.h"
 
 /* Kernels by instruction set; scalar if none was chosen. */
 #define X(name, isa) [isa] = jox_eval_numbers_##name,
@@ -223,6 +224,12 @@ static double eval_surroundings(const JoxMachineRun *run, const JoxMachine *mach
     case JOX_OP_QUEUED:
         place = jox_target_place(run, i, in->place);
         return place < 0 ? 0.0 : run->scratch->place_queue[place];
+    case JOX_OP_RODE:
+        return jox_has_ridden(run, i);
+    case JOX_OP_RIDING:
+        return jox_is_riding(run, i);
+    case JOX_OP_IN_USE:
+        return jox_is_lift_in_use(run, jox_target_place(run, i, in->place));
     case JOX_OP_SHUT:
         return jox_sees_shut(run, i, jox_target_place(run, i, in->place));
     default:

@@ -83,7 +83,9 @@ typedef enum JoxNow {
    none. EVERY: the time in state has reached a multiple of a, s, in this step. LIST_HAS: memory
    `arg`, a list, contains a, or target; LIST_SIZE, LIST_FIRST, LIST_LAST: its length and items.
    SHUT: a gate at place is closed, and the agent sees it. LEFT: number of agents that left the
-   world from `place`. QUEUED: number of agents in the queue `place`. OPEN: the gates called `name`
+   world from `place`. RODE: the agent's ride in a lift is over. RIDING: it is in the car.
+   IN_USE: the lift of `place` is in
+   use. QUEUED: number of agents in the queue `place`. OPEN: the gates called `name`
    are open. DONE: the machine that the outer state on level `arg` runs has ended. OUTER_AFTER,
    OUTER_LASTED, OUTER_TIME, OUTER_EVERY: AFTER, LASTED, the time in the state and EVERY, of the
    outer state whose clock is memory slot `arg`. Agents behind a wall are not seen, heard or
@@ -101,7 +103,7 @@ typedef enum JoxNow {
     X(HAS) X(HEARD) X(NEIGHBOURS) X(THEIRS) X(OF) X(EXISTS) X(SAME) X(TOLD)     \
     X(MESSAGE) X(EVERY) X(SHUT)                                                 \
     X(PROGRAM_NUMBER) X(PROGRAM_CONDITION)                                      \
-    X(QUEUED) X(OPEN) X(LEFT) X(LIST_HAS) X(LIST_SIZE) X(LIST_FIRST) X(LIST_LAST) X(DONE) X(OUTER_AFTER) X(OUTER_LASTED) X(OUTER_TIME)      \
+    X(RODE) X(RIDING) X(IN_USE) X(QUEUED) X(OPEN) X(LEFT) X(LIST_HAS) X(LIST_SIZE) X(LIST_FIRST) X(LIST_LAST) X(DONE) X(OUTER_AFTER) X(OUTER_LASTED) X(OUTER_TIME)      \
     X(OUTER_EVERY)
 /* clang-format on */
 

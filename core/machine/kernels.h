@@ -49,6 +49,13 @@ void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const 
 void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                      JoxSteer *steer);
 
+/* Does the same for places that are given for each agent, -1: none. */
+void jox_steer_to_places(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *steer,
+                         const int32_t *places);
+/* steering/ride.c: computes `way` of a term ride. */
+void jox_steer_ride(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
+                    JoxSteer *steer);
+
 /* steering/stay_in.c: changes preferred velocities so that agents stay in places (`stays_in`). */
 void jox_machines_stay_in(JoxMachineRun *run);
 

@@ -76,6 +76,7 @@ typedef enum JoxSteerKind {
     JOX_STEER_GATHER,    /* to the agent's spot in a polygon of waiting agents, filled from its
                             front, which lies in direction args[0], degrees; with args[1] spread
                             over all of it */
+    JOX_STEER_RIDE,      /* in a lift to target, the place of a lift on a storey */
     JOX_STEER_PLAYER,    /* the velocity that the input log gives; stand still if it gives none */
     JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
 } JoxSteerKind;

@@ -282,6 +282,7 @@ typedef struct JoxMachineRun {
     /* Returns how many agents left the world from a place, by its name; NULL: nobody counts. */
     uint32_t (*count_left)(const void *exits, const char *place);
     const void *exits;
+    const struct JoxLiftView *lifts; /* NULL: there are none */
     const JoxObjects *objects;
     const JoxPlace *places;
     uint32_t place_count;

@@ -13,7 +13,8 @@ static const char *const STEERING[] = {
     [JOX_STEER_ALONG] = "along",         [JOX_STEER_FIELD] = "field",
     [JOX_STEER_TOGETHER] = "together",   [JOX_STEER_WANDER] = "wander",
     [JOX_STEER_FORMATION] = "formation", [JOX_STEER_GATHER] = "gather",
-    [JOX_STEER_PLAYER] = "player",       [JOX_STEER_FUNCTION] = "a function",
+    [JOX_STEER_RIDE] = "ride",           [JOX_STEER_PLAYER] = "player",
+    [JOX_STEER_FUNCTION] = "a function",
 };
 
 /* Appends where a target is; returns whether it is found. */

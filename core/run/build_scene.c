@@ -152,6 +152,7 @@ void jox_run_build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     jox_run_restore_tags_and_teams(scene);
     add_bodies(scene, diagnostics);
     add_places(scene);
+    jox_world_set_lifts(scene->world, spec->lifts, spec->lift_count);
     if (!jox_run_load_machines(scene, diagnostics))
         return;
     jox_run_note_literal(scene, diagnostics);

@@ -30,6 +30,7 @@ static bool steers_toward_goal(const JoxState *state) {
         case JOX_STEER_DRIFT:
         case JOX_STEER_ALONG:
         case JOX_STEER_FIELD:
+        case JOX_STEER_RIDE:
             return true;
         default:
             break;

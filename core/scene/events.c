@@ -69,6 +69,8 @@ void jox_key_read_event_name(const JoxReader *r, const JoxKey *key, const JoxYam
         check_event_body(r, node, "moved");
     else if (event->kind == JOX_EVENT_PUSH)
         check_pushed_name(r, node, event);
+    else if (event->kind == JOX_EVENT_LIFT)
+        jox_scene_check_lift(r, node);
     else if (event->kind != JOX_EVENT_SIGNAL)
         jox_scene_check_wall(r, node, true);
     else if (!*node->text || strlen(node->text) > LONGEST_NAME)
@@ -112,6 +114,15 @@ static void check_push_keys(const JoxReader *r, const JoxYaml *map, const JoxEve
     }
 }
 
+static void check_lift_keys(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {
+    const JoxYaml *mode = jox_yaml_get(map, "mode");
+    if (mode && event->kind != JOX_EVENT_LIFT)
+        jox_scene_error(r, mode, "bad-event", NULL, "mode belongs to a lift");
+    else if (!mode && event->kind == JOX_EVENT_LIFT)
+        jox_scene_error(r, map, "bad-event", "mode: out_of_use",
+                        "an event of a lift says which mode it has from then on");
+}
+
 bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     JoxEvent *event = item;
     const JoxYaml *until = jox_yaml_get(map, "until");
@@ -126,6 +137,7 @@ bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool g
     event->every = isfinite(event->every) ? event->every : 0.0;
     check_throw_keys(r, map, event);
     check_push_keys(r, map, event);
+    check_lift_keys(r, map, event);
     if (until && !jox_yaml_get(map, "every"))
         jox_scene_error(r, until, "bad-event", "every: 5",
                         "until belongs to an event that is repeated");

@@ -59,6 +59,26 @@ void jox_key_read_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *n
     }
 }
 
+/* Reads a place of a lift, or a set that has one. */
+void jox_key_read_ride(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    JoxJourneyStep *step = item;
+    const JoxSceneSpec *s = r->draft->scene;
+    step->ride = -1;
+    if (!jox_key_read_scalar(r, key, node, "name"))
+        return;
+    const int32_t place = jox_scene_find_place(r, node);
+    if (place < 0)
+        return;
+    bool good = jox_scene_is_lift_place(s, place);
+    for (uint32_t m = 0; m < s->places[place].member_count; m++)
+        good |= jox_scene_is_lift_place(s, s->places[place].members[m]);
+    if (good)
+        step->ride = place;
+    else
+        jox_scene_error(r, node, "bad-place", "Places of lifts are LIFT.STOREY: ride: east.first",
+                        "the place '%.60s' is no lift's", node->text);
+}
+
 /* Reads the name of walls. */
 void jox_key_read_gate(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     if (!jox_key_read_scalar(r, key, node, "name"))
@@ -71,10 +91,14 @@ bool jox_finish_step(const JoxReader *r, const JoxYaml *map, void *item, bool go
     JoxJourneyStep *step = item;
     const bool any = jox_yaml_get(map, "to") || jox_yaml_get(map, "exit") ||
                      jox_yaml_get(map, "queue") || jox_yaml_get(map, "wait") ||
-                     jox_yaml_get(map, "until") || jox_yaml_get(map, "open");
+                     jox_yaml_get(map, "until") || jox_yaml_get(map, "open") ||
+                     jox_yaml_get(map, "ride");
     if (!any)
         jox_scene_error(r, map, "missing-key", "{to: hall}, {queue: [gate]} or {exit: door}",
-                        "a step has one of to, queue, wait, until, open and exit");
+                        "a step has one of to, queue, wait, until, open, ride and exit");
+    if (jox_yaml_get(map, "firemen") && !jox_yaml_get(map, "ride"))
+        jox_scene_error(r, jox_yaml_get(map, "firemen"), "bad-value", NULL,
+                        "firemen belongs to a ride");
     if (jox_yaml_get(map, "service") && !jox_yaml_get(map, "queue"))
         jox_scene_error(r, jox_yaml_get(map, "service"), "bad-value", NULL,
                         "service belongs to a queue");
@@ -107,15 +131,17 @@ static const JoxPlace *get_place(const Journey *j, int32_t place) {
 
 /* Parts of a step, and the beginnings of their states' names. A name is the number of the step, the
    part and a place, signal or gate: "3 Queue at gate_1". */
-static const char *const PARTS[] = {"Walk to",   "Look round", "Choose", "Go to",      "Queue at",
-                                    "Served at", "Wait",       "Until",  "Until open", "Leave by"};
-typedef enum { WALK, LOOK, CHOOSE, APPROACH, QUEUE, SERVED, WAIT, UNTIL, OPEN, LEAVE } Part;
+static const char *const PARTS[] = {"Walk to",    "Look round", "Choose",  "Go to",
+                                    "Queue at",   "Served at",  "Wait",    "Until",
+                                    "Until open", "Ride to",    "Leave by"};
+typedef enum { WALK, LOOK, CHOOSE, APPROACH, QUEUE, SERVED, WAIT, UNTIL, OPEN, RIDE, LEAVE } Part;
 
 static void print_state_name(const Journey *j, uint32_t step, Part part, uint32_t queue,
                              char out[256]) {
     const JoxJourneyStep *s = &j->group->journey[step];
     const char *what = part == WALK || part == LOOK ? get_place_name(j, s->to)
                        : part == LEAVE              ? get_place_name(j, s->exit)
+                       : part == RIDE               ? get_place_name(j, s->ride)
                        : part == UNTIL              ? s->until
                        : part == OPEN               ? s->gate
                        : part == WAIT || part == CHOOSE
@@ -145,6 +171,8 @@ static uint32_t list_parts(const Journey *j, uint32_t step, Part parts[8]) {
         parts[count++] = UNTIL;
     if (s->gate)
         parts[count++] = OPEN;
+    if (s->ride >= 0)
+        parts[count++] = RIDE;
     if (s->exit >= 0)
         parts[count++] = LEAVE;
     JOX_ASSERT(count > 0);
@@ -336,6 +364,13 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
     case OPEN:
         write_standing(j, step);
         snprintf(when, sizeof when, "open \"%.100s\"", s->gate);
+        break;
+    case RIDE:
+        jox_text_printf(&j->text, " steer = ride \"%s\",", get_place_name(j, s->ride));
+        snprintf(when, sizeof when, "rode");
+        if (!s->firemen)
+            snprintf(when, sizeof when, "rode | ~in_use \"%.100s\" & ~riding",
+                     get_place_name(j, s->ride));
         break;
     default:
         write_walk(j, s->exit);

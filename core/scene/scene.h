@@ -11,6 +11,7 @@
 #include "base/format/patch.h"
 #include "base/number/random.h"
 #include "body/body.h"
+#include "geom/lifts.h"
 #include "geom/place.h"
 #include "geom/storeys.h"
 #include "geom/walls.h"
@@ -160,6 +161,8 @@ typedef struct JoxSceneSpec {
     bool periodic_x, periodic_y; /* opposite bounds are joined */
     JoxStoreys storeys; /* without storeys: all members 0. Points of all else are positions on its
                            sheets */
+    JoxLift *lifts;     /* not laid out; their places are the first of `places` */
+    uint32_t lift_count;
     JoxPlace *places;
     uint32_t place_count;
     JoxSceneRegion *regions;

@@ -22,6 +22,22 @@ typedef struct JoxStoreysDraft {
     uint32_t stair_count;
 } JoxStoreysDraft;
 
+/* The struct of the owner "lift" while it is read. */
+typedef struct JoxLiftDraft {
+    JoxLift lift;
+    JoxV2 door[2]; /* m: of storeys without an own one, if has_door */
+    uint32_t has_door;
+    struct JoxDoorDraft {
+        uint32_t storey;
+        JoxV2 ends[2];
+        JoxPosition position;
+    } * doors;
+    uint32_t door_count;
+    double load;          /* kg; NAN: not given */
+    uint32_t home, first; /* storeys, if given */
+    JoxPosition position;
+} JoxLiftDraft;
+
 /* A scene while it is read. `reader.draft` points to it. */
 typedef struct JoxSceneDraft {
     JoxReader reader;
@@ -32,6 +48,8 @@ typedef struct JoxSceneDraft {
     const JoxYaml *root;            /* the scene's tree, with includes and mods merged */
     bool walls_wrong;        /* some walls could not be read: names of walls are not checked then */
     JoxStoreysDraft storeys; /* as they are written */
+    JoxLiftDraft *lifts;     /* likewise */
+    uint32_t lift_count;
     bool measuring; /* only the extent of all points is of interest: no groups are placed */
     double pieces;  /* bodies read so far, counting their blocks and parts: bounded in all */
     /* Values of the body or group that is being read, until it is complete. */
@@ -95,6 +113,8 @@ JoxKeyRead jox_key_read_box;
 /* storeys.c. Reads the `storey` of a map, on whose sheet its points lie from then on; the stairs of
    a scene, after which storeys are laid out; storeys that a stair joins, into a uint32_t; its
    landings. */
+/* Returns the index of a storey, or -1 with an error that suggests a name. */
+int32_t jox_scene_find_storey(const JoxReader *reader, const JoxYaml *name);
 JoxKeyRead jox_key_read_storey, jox_key_read_stairs, jox_key_read_stair_storey,
     jox_key_read_landings;
 JoxOwnerFinish jox_finish_storey, jox_finish_stair;
@@ -140,8 +160,18 @@ void jox_place_group(const JoxReader *reader, const JoxYaml *map, JoxGroup *grou
 /* The same for a group with `starts`: those of time 0 are its agents at the start. */
 void jox_place_group_starts(const JoxReader *reader, const JoxYaml *map, JoxGroup *group);
 
+/* lifts.c */
+JoxKeyRead jox_key_read_lifts, jox_key_read_lift_area, jox_key_read_lift_door;
+JoxKeyRead jox_key_read_lift_doors, jox_key_read_lift_storeys;
+JoxOwnerFinish jox_finish_lift;
+void jox_scene_add_lift_walls(const JoxSceneSpec *scene, JoxWalls *walls);
+/* Returns whether a place is the floor of a lift's car. */
+bool jox_scene_is_lift_place(const JoxSceneSpec *scene, int32_t place);
+/* Reports a name that no lift has. */
+void jox_scene_check_lift(const JoxReader *reader, const JoxYaml *name);
+
 /* journeys.c */
-JoxKeyRead jox_key_read_duration, jox_key_read_queues, jox_key_read_gate;
+JoxKeyRead jox_key_read_duration, jox_key_read_queues, jox_key_read_gate, jox_key_read_ride;
 JoxOwnerFinish jox_finish_step;
 /* Writes the behaviour of a group's journey, in Lua, and makes it the group's only behaviour. */
 void jox_write_journey_behaviour(const JoxReader *reader, const JoxYaml *map, JoxGroup *group);

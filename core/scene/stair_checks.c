@@ -254,6 +254,7 @@ static void check_floors(const JoxReader *r, const JoxSceneSpec *s) {
 
 /* Warns of storeys that nothing joins to another, though others are joined. */
 static void check_joined(const JoxReader *r, const JoxStoreys *s) {
+    const JoxSceneSpec *scene = r->draft->scene;
     const JoxYaml *map = jox_yaml_get(r->draft->root, "storeys");
     bool any = false; /* where nothing is joined, that is meant */
     for (uint32_t n = 0; n < s->stair_count; n++)
@@ -263,12 +264,14 @@ static void check_joined(const JoxReader *r, const JoxStoreys *s) {
         for (uint32_t n = 0; n < s->stair_count && !joined; n++)
             joined = s->stairs[n].lower != s->stairs[n].upper &&
                      (s->stairs[n].lower == k || s->stairs[n].upper == k);
+        for (uint32_t l = 0; l < scene->lift_count && !joined; l++)
+            joined = jox_lift_stop_at(&scene->lifts[l], k) >= 0;
         for (uint32_t i = 0; !joined && i < map->count; i++)
             if (strcmp(map->keys[i], s->storeys[k].name) == 0)
                 jox_diag_warn(
                     r->diagnostics, map->key_positions[i], "storey-alone",
                     "stairs: {north: {from: ground, to: first, path: [[10, 2], [16, 2]]}}",
-                    "no stair joins %.60s to another storey", s->storeys[k].name);
+                    "no stair or lift joins %.60s to another storey", s->storeys[k].name);
     }
 }
 

@@ -1,14 +1,17 @@
-/* Rows of key_table.c for storeys, the stairs between them, and the storey of what is placed. Uses
-   the macros of that file. */
+/* Rows of key_table.c for storeys, the stairs and lifts between them, and the storey of what is
+   placed. Uses the macros of that file. */
 #ifndef JOX_SCENE_STOREY_KEY_ROWS_H
 #define JOX_SCENE_STOREY_KEY_ROWS_H
+
+#include "scene/lift_key_rows.h"
 
 /* clang-format off */
 #define JOX_STOREY_SCENE_ROWS \
     {"scene", "storeys", TABLE, "", 0, 0, "", ITEMS(JoxSceneDraft, storeys.storeys, storeys.storey_count), .in_draft = true, .content = "storey*", .example = "storeys: {ground: {height: 0}, first: {height: 3.5}}", \
      RESTART("the world is made with them"), .meaning = "storeys of a building, from the lowest up; `storey` says on which of them a place, a wall or anything else is"}, \
     {"scene", "stairs", TABLE, "", 0, 0, "", READ_TO(jox_key_read_stairs, JoxSceneDraft, storeys.stairs, storeys.stair_count), .in_draft = true, .content = "stair*", .example = "stairs: {north: {from: ground, to: first, path: [[10, 2], [16, 2]]}}", \
-     RESTART("the world is made with them"), .meaning = "stairs, ramps and escalators"},
+     RESTART("the world is made with them"), .meaning = "stairs, ramps and escalators"}, \
+    JOX_LIFT_SCENE_ROWS
 
 #define JOX_STOREY_OF(owner, what) \
     {owner, "storey", TEXT, "", 0, 0, "", READ(jox_key_read_storey), .first = true, .meaning = what},
@@ -32,13 +35,16 @@
     JOX_STOREY_OF("group", "storey or stair on which the points of `at` and `starts` are; default: the lowest storey. Places of `in` have storeys of their own") \
     JOX_STOREY_OF("probe", "storey or stair on which its points are; default: the lowest storey") \
     JOX_STOREY_OF("event", "of a throw: storey or stair on which the point `from` is; default: the lowest storey") \
-    JOX_STOREY_OF("heatmap", "storey or stair on which its area is; default: the lowest storey")
+    JOX_STOREY_OF("heatmap", "storey or stair on which its area is; default: the lowest storey") \
+    JOX_LIFT_EVENT_ROWS \
+    JOX_LIFT_KEY_ROWS
 
 #define JOX_STOREY_OWNERS \
     {"storey", "Storeys", "`storeys` maps names to storeys, from the lowest up. All coordinates are in plan; `storey: NAME` says on which storey something is. What names no storey is on the lowest.", \
      .struct_size = sizeof(JoxStorey), .name_offset = AT(JoxStorey, name), .finish = jox_finish_storey}, \
     {"stair", "Stairs", "`stairs` maps names to stairs, ramps and escalators, each from a storey up to another. They have walls at both sides; on their storeys they are open at the foot and at the head alone.", \
-     .struct_size = sizeof(JoxStairDraft), .name_offset = AT(JoxStairDraft, stair.name), .position_offset = AT(JoxStairDraft, position), .finish = jox_finish_stair},
+     .struct_size = sizeof(JoxStairDraft), .name_offset = AT(JoxStairDraft, stair.name), .position_offset = AT(JoxStairDraft, position), .finish = jox_finish_stair}, \
+    JOX_LIFT_OWNERS
 /* clang-format on */
 
 #endif

@@ -39,6 +39,13 @@ static void report_unknown_storey(const JoxReader *r, const JoxYaml *node, bool 
                     "there is no storey%s '%.60s'", stairs ? " or stair" : "", node->text);
 }
 
+int32_t jox_scene_find_storey(const JoxReader *r, const JoxYaml *name) {
+    const int32_t storey = find_storey(r->draft, name->text);
+    if (storey < 0)
+        report_unknown_storey(r, name, false);
+    return storey;
+}
+
 void jox_key_read_storey(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const JoxStoreys *laid = &r->draft->scene->storeys;
     (void)item;
@@ -77,10 +84,8 @@ void jox_key_read_stair_storey(const JoxReader *r, const JoxKey *key, const JoxY
                                void *item) {
     if (!jox_key_read_scalar(r, key, node, "name"))
         return;
-    const int32_t storey = find_storey(r->draft, node->text);
-    if (storey < 0)
-        report_unknown_storey(r, node, false);
-    else
+    const int32_t storey = jox_scene_find_storey(r, node);
+    if (storey >= 0)
         *JOX_MEMBER(uint32_t, item, key->offset) = (uint32_t)storey;
 }
 

@@ -164,5 +164,6 @@ void jox_key_read_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *li
         }
     }
     jox_storeys_add_walls(&r->draft->scene->storeys, walls);
+    jox_scene_add_lift_walls(r->draft->scene, walls);
     r->draft->walls_wrong = r->diagnostics->errors > errors;
 }

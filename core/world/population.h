@@ -52,6 +52,8 @@ typedef struct JoxJourneyStep {
     uint32_t queue_count;
     char *service, *wait, *until,
         *gate; /* expressions of a behaviour: durations, s; names of a signal and a gate; or NULL */
+    int32_t ride;  /* place of a lift, or a set of them, to ride to */
+    bool firemen;  /* of a ride: waits also for a lift that is not in use */
     double served; /* s: expected duration of a service */
     JoxPosition position;
 } JoxJourneyStep;

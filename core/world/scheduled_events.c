@@ -93,6 +93,11 @@ bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],
 }
 
 bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why) {
+    if (jox_world_is_lift_door(world, wall)) {
+        jox_text_printf(why, "'%.60s' is the door of a lift, which the lift opens and closes",
+                        wall);
+        return false;
+    }
     const bool walls = jox_world_open_walls(world, wall, open) > 0;
     const bool stair = jox_world_close_stair(world, wall, !open);
     if (!walls && !stair) {
@@ -117,6 +122,18 @@ bool jox_event_signal(JoWorld *world, const char *name, JoxText *why) {
     return true;
 }
 
+bool jox_event_lift(JoWorld *world, const char *lift, uint32_t mode, JoxText *why) {
+    const int32_t l = jox_world_find_lift(world, lift);
+    if (l < 0 && (strcmp(lift, "all") != 0 || !world->model.lift_count)) {
+        const char *names[JOX_MOST_LIFTS];
+        for (uint32_t n = 0; n < world->model.lift_count; n++)
+            names[n] = world->model.lifts[n].name;
+        return jox_event_refuse_name("lift", lift, names, world->model.lift_count, why);
+    }
+    jox_world_set_lift_mode(world, l, (JoxLiftMode)mode);
+    return true;
+}
+
 /* ---- times ---- */
 
 static void run_event(JoWorld *world, const JoxEvent *event) {
@@ -136,6 +153,9 @@ static void run_event(JoWorld *world, const JoxEvent *event) {
         break;
     case JOX_EVENT_SIGNAL:
         good = jox_event_signal(world, event->name, &why);
+        break;
+    case JOX_EVENT_LIFT:
+        good = jox_event_lift(world, event->name, event->mode, &why);
         break;
     case JOX_EVENT_PUSH: /* applied each step while it lasts */
         good = event->place >= 0 || find_body(world, event->name, &why) != JOX_NO_BODY;

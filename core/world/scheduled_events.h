@@ -16,6 +16,7 @@ typedef enum JoxEventKind {
     JOX_EVENT_OPEN,
     JOX_EVENT_CLOSE,
     JOX_EVENT_SIGNAL,
+    JOX_EVENT_LIFT,
     JOX_EVENT_PUSH
 } JoxEventKind;
 
@@ -23,7 +24,8 @@ typedef enum JoxEventKind {
 typedef struct JoxEvent {
     JoxEventKind kind;
     double at, every, until;     /* s: first time, interval (0: once), last time */
-    char *name;                  /* name of a body, of walls, or of a signal */
+    char *name;                  /* name of a body, of walls, of a lift, or of a signal */
+    uint32_t mode;               /* lift: JoxLiftMode */
     bool placed;                 /* thrown from `from`, else from where it lies */
     double from[3];              /* m: origin of the shape's frame */
     double velocity[3], spin[3]; /* m/s, rad/s */
@@ -49,6 +51,8 @@ bool jox_event_move(JoWorld *world, const char *body, const double velocity[3],
                     const double spin[3], JoxText *why);
 bool jox_event_open(JoWorld *world, const char *wall, bool open, JoxText *why);
 bool jox_event_signal(JoWorld *world, const char *name, JoxText *why);
+/* Sets the mode of a lift, or of `all`. */
+bool jox_event_lift(JoWorld *world, const char *lift, uint32_t mode, JoxText *why);
 /* Appends that no `kind` has a name, and suggests the nearest of `names`; returns false. */
 bool jox_event_refuse_name(const char *kind, const char *name, const char *const *names,
                            uint32_t count, JoxText *why);

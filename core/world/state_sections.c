@@ -88,6 +88,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     list_walls(w, s);
     jox_sources_sections(w, s);
     jox_population_sections(w, s);
+    jox_lifts_sections(w, s);
     jox_agents_sections(&w->state.agents, s);
     jox_machines_sections(&w->machines, s);
     list_input(&w->state.input, s);
@@ -101,6 +102,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     jox_sections_module(s, "figures");
     jox_sections_unhashed(s, true);
     JOX_SECTION(s, "statistics", w->state.statistics);
+    jox_lift_figures_sections(w, s);
     jox_sections_unhashed(s, false);
 }
 

@@ -226,6 +226,7 @@ bool jox_world_step(JoWorld *w) {
     const bool timed = w->scratch.timed || jox_pool_threads(w->scratch.pool) > 1;
     const double entered = timed ? jox_clock_wall() : 0.0;
     jox_world_run_events(w);
+    jox_world_run_lifts(w);
     jox_world_settle_walls(w);
     const uint32_t before = w->state.agents.count;
     jox_world_run_sources(w);

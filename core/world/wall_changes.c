@@ -166,6 +166,26 @@ bool jox_world_close_stair(JoWorld *world, const char *name, bool closed) {
     return found;
 }
 
+void jox_world_set_lift_door(JoWorld *world, const char *name, bool open) {
+    for (uint32_t r = 0; r < world->model.all_walls.ring_count; r++) {
+        struct JoxWallRing *ring = &world->model.all_walls.rings[r];
+        if (!ring->is_lift_door || strcmp(ring->name, name) != 0)
+            continue;
+        ring->open = open;
+        ring->set = true;
+        world->state.walls_applied = false;
+    }
+}
+
+bool jox_world_is_lift_door(const JoWorld *world, const char *name) {
+    for (uint32_t r = 0; r < world->model.all_walls.ring_count; r++) {
+        const struct JoxWallRing *ring = &world->model.all_walls.rings[r];
+        if (ring->is_lift_door && strcmp(ring->name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
 static bool has_images(const JoWorld *world) {
     const JoxV2 period = world->state.agents.period;
     return period.x > 0.0f || period.y > 0.0f || world->state.agents.storeys;

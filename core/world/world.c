@@ -109,6 +109,7 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.discs.discs);
     jox_free(world->scratch.discs.agents);
     jox_hands_free(&world->scratch.hands);
+    jox_lifts_free(world);
     free_places(world);
     jox_entrances_clear(&world->scratch.entrances);
     jox_free(world->state.sources.arrivals);

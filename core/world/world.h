@@ -24,6 +24,7 @@
 #include "world/exits.h"
 #include "world/falls.h"
 #include "world/input/input_entries.h"
+#include "world/lifts.h"
 #include "world/population.h"
 #include "world/routes/routes.h"
 #include "world/scheduled_events.h"
@@ -42,6 +43,8 @@ typedef struct JoxWorldModel {
     JoWorldDef def;
     JoxWalkLaw walking;
     JoxStoreys storeys; /* owned; without storeys: all members 0 */
+    JoxLift *lifts;     /* owned */
+    uint32_t lift_count;
     JoxWalls all_walls; /* all, with their names; whether a gate is open is state. Walls that were
                            added while the world runs follow the others, and are state */
     uint32_t added_ring, added_vertex; /* first ring and vertex of added walls, if there are any */
@@ -89,6 +92,7 @@ typedef struct JoxWorldState {
     JoxDrags drags;
     JoxPopulation population;
     JoxSourceState sources;
+    JoxLiftState lifts;
     uint32_t walls_version;    /* counts the changes of the walls */
     JoxAddedWall *added_walls; /* in the order in which they were added */
     uint32_t added_count;
@@ -120,6 +124,7 @@ typedef struct JoxWorldScratch {
     JoxDepartures departures; /* agents that left in the last step */
     JoxDiscList discs;
     JoxHands hands;
+    JoxLiftScratch lifts;
     JoxFalls falls;
     JoxStepEvents step_events; /* events of the last step */
     struct {
@@ -191,6 +196,10 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
 /* Closes or opens the stair of a name: ways lead over it no more, or again; who is on it goes on.
    Returns whether there is one. */
 bool jox_world_close_stair(JoWorld *world, const char *name, bool closed);
+/* Opens or closes the door of a lift by its name, in which nobody stands. No ways change. */
+void jox_world_set_lift_door(JoWorld *world, const char *name, bool open);
+/* Returns whether a name is that of a lift's door. */
+bool jox_world_is_lift_door(const JoWorld *world, const char *name);
 /* Throws a body from a point (origin of its shape's frame, m; NULL: from where it is) with a
    velocity (m/s) and spin (rad/s). Its carrier loses it. Returns false for a static body or none.
  */

@@ -592,6 +592,19 @@ function shut(place) end
 ---@return jostle.Condition
 function open(gate) end
 
+--- `rode`: the agent has left the lift in which it steers by `ride`, on whichever storey it was let out, or was on the storey already
+---@type jostle.Condition
+rode = nil
+
+--- `riding`: the agent, which steers by `ride`, is in the car, also while that moves
+---@type jostle.Condition
+riding = nil
+
+--- `in_use(place)`: the lift of the place, or one of a set, serves everybody's calls: it is neither out of use nor left to firemen. Agents know it wherever they are, as of a sign
+---@param place jostle.Place
+---@return jostle.Condition
+function in_use(place) end
+
 --- `density(place)` in 1/m2: people per square metre in a place; at a point, line or queue: within 2 m of it
 ---@param place jostle.Place
 ---@return jostle.Number
@@ -803,6 +816,11 @@ function orbit(place, options) end
 ---@return jostle.Steering
 function queue(place) end
 
+--- `ride(place)`: in a lift to the storey of the place, which the key `lifts` of a scene makes for each of its storeys (`LIFT.STOREY`), or by the lift of a set that takes least time: to the door, where the agent calls the lift and waits beside the door; in, when it is there, goes its way and has room; and out on that storey (see `rode`). It stands still where the place is no lift's
+---@param place jostle.Place
+---@return jostle.Steering
+function ride(place) end
+
 --- `along(place)`: in the direction of a line, or along a queue to its head
 ---@param place jostle.Place
 ---@return jostle.Steering
@@ -942,7 +960,7 @@ function list(capacity, nobody) end
 ---@return jostle.MachineValue
 function machine(sheet) end
 
---- `sequence { step, ... }`: a machine of steps, one after the other, which ends after the last; a state runs it (see `runs`). A step is a steering: seek, field and queue are over when the agent is there; wait(seconds); a machine, over when it has ended; a function(me), called once; or a state's table, with `lasts` or `when`, the condition that it is over. A text names the step after it, as does `name` in a table; other steps are called "1 seek post", "2 wait". Keys of a machine may stand in it, too
+--- `sequence { step, ... }`: a machine of steps, one after the other, which ends after the last; a state runs it (see `runs`). A step is a steering: seek, field, queue and ride are over when the agent is there; wait(seconds); a machine, over when it has ended; a function(me), called once; or a state's table, with `lasts` or `when`, the condition that it is over. A text names the step after it, as does `name` in a table; other steps are called "1 seek post", "2 wait". Keys of a machine may stand in it, too
 ---@param steps table
 ---@return jostle.MachineValue
 function sequence(steps) end

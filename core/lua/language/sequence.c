@@ -159,6 +159,9 @@ static bool push_ending(lua_State *L, int table) {
              steer->term.kind == JOX_STEER_QUEUE) {
         over = make_condition(L, JOX_OP_FIRST_IN);
         over->place = steer->target;
+    } else if (steer && steer->kind == JOX_NODE_STEER && !steer->next &&
+               steer->term.kind == JOX_STEER_RIDE) {
+        over = make_condition(L, JOX_OP_RODE);
     } else if (has_key(L, table, "steer") && !(steer && steer->kind == JOX_NODE_ERROR)) {
         return false;
     }

@@ -78,6 +78,13 @@ const JoxWord jox_words[] = {
      "the walls of this name are open. Agents know it wherever they are, as of a door whose "
      "opening is announced",
      "open \"gate\""},
+    {"rode", NULL, CONDITION, JOX_OP_RODE, 0, "rode", "",
+     "the agent has left the lift in which it steers by `ride`, on whichever storey it was let out, or was on the storey already", "rode"},
+    {"riding", NULL, CONDITION, JOX_OP_RIDING, 0, "riding", "",
+     "the agent, which steers by `ride`, is in the car, also while that moves", "riding"},
+    {"in_use", "p", CONDITION, JOX_OP_IN_USE, 0, "in_use(place)", "",
+     "the lift of the place, or one of a set, serves everybody's calls: it is neither out of use nor left to firemen. Agents "
+     "know it wherever they are, as of a sign", "in_use \"post\""},
     /* numbers */
     {"density", "p", NUMBER, JOX_OP_PLACE_DENSITY, 0, "density(place)", "1/m2",
      "people per square metre in a place; at a point, line or queue: within 2 m of it", "density \"yard\""},
@@ -198,6 +205,10 @@ const JoxWord jox_words[] = {
      "to the end of a queue, along it where walls hide that, and straight where they hide all of it (`field` leads round "
      "them); an agent that comes within 1 m of the queue takes the next place, and moves up as those before it leave",
      "queue \"row\""},
+    {"ride", "p", STEER, JOX_STEER_RIDE, 0, "ride(place)", "",
+     "in a lift to the storey of the place, which the key `lifts` of a scene makes for each of its storeys (`LIFT.STOREY`), "
+     "or by the lift of a set that takes least time: to the door, where the agent calls the lift and waits beside the door; in, when it "
+     "is there, goes its way and has room; and out on that storey (see `rode`). It stands still where the place is no lift's", "ride \"post\""},
     {"along", "p", STEER, JOX_STEER_ALONG, 0, "along(place)", "",
      "in the direction of a line, or along a queue to its head", "along \"row\""},
     {"follow", "t?d", STEER, JOX_STEER_FOLLOW, 0, "follow(target [, metres])", "",
@@ -251,7 +262,7 @@ const JoxWord jox_words[] = {
      "machine { name = \"m\", start = \"A\", states = { A = {} } }"},
     {"sequence", "*", 0, 0, 0, "sequence { step, ... }", "",
      "a machine of steps, one after the other, which ends after the last; a state runs it (see `runs`). A step is a "
-     "steering: seek, field and queue are over when the agent is there; wait(seconds); a machine, over when it has "
+     "steering: seek, field, queue and ride are over when the agent is there; wait(seconds); a machine, over when it has "
      "ended; a function(me), called once; or a state's table, with `lasts` or `when`, the condition that it is over. "
      "A text names the step after it, as does `name` in a table; other steps are called \"1 seek post\", \"2 wait\". "
      "Keys of a machine may stand in it, too",

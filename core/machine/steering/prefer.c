@@ -105,6 +105,10 @@ static void evaluate_term(const Prefer *p, const JoxMachine *machine, const JoxS
         jox_steer_field(p->run, machine, term, s);
         return;
     }
+    if (term->kind == JOX_STEER_RIDE) {
+        jox_steer_ride(p->run, machine, term, s);
+        return;
+    }
     for (uint32_t n = 0; n < s->count; n++) {
         const uint32_t i = s->index[n];
         JoxV2 way = {0.0f, 0.0f};

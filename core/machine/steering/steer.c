@@ -250,6 +250,7 @@ JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *t
     case JOX_STEER_ALONG:
     case JOX_STEER_DRIFT: /* by batch: prefer.c */
     case JOX_STEER_FIELD: /* by batch: steer_field.c */
+    case JOX_STEER_RIDE:  /* by batch: ride.c */
     case JOX_STEER_EVADE: /* from the sum of the others: prefer.c */
     case JOX_STEER_FUNCTION:
         break;

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "machine/kernels.h"
+#include "machine/lifts.h"
 
 #define X(name, isa) [isa] = jox_field_look_##name,
 static JoxFieldKernel *const LOOK[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -50,13 +51,21 @@ static bool is_on_another_sheet(const Asking *q, uint32_t i) {
            jox_sheet_of(s, place->centre.y) != jox_sheet_of(s, q->run->agents->y[i]);
 }
 
+/* Returns the direction straight to the place, (0, 0) in it. */
+static JoxV2 find_straight_way(const Asking *q, uint32_t i) {
+    const JoxV2 at = {q->run->agents->x[i], q->run->agents->y[i]};
+    return jox_unit(jox_sub(jox_place_nearest(q->run->places, q->place, at), at));
+}
+
 /* Writes the direction of an agent; straight towards the target where no way is known. */
 static void write_way(const Asking *q, uint32_t k, JoxV2 direction) {
     JoxSteer *s = q->s;
     const uint32_t n = q->number[k];
     if (!(jox_length2(direction) > 0.0f) &&
         !(q->run->agents->storeys && is_on_another_sheet(q, s->index[n])))
-        direction = jox_steer_seek(q->run, s->index[n], q->term->target);
+        direction = q->term->kind == JOX_STEER_RIDE
+                        ? find_straight_way(q, s->index[n])
+                        : jox_steer_seek(q->run, s->index[n], q->term->target);
     s->way_x[n] = direction.x;
     s->way_y[n] = direction.y;
 }
@@ -160,17 +169,14 @@ static void lead_to_place(Asking *q, int32_t *places, uint32_t first) {
         lead_by_fields(q);
 }
 
-/* Directs the agents of a batch whose target is a place; the others get no way. `places`: of each
-   agent, -1 for what is no place. */
-static void lead_to_places(const JoxMachineRun *run, const JoxMachine *machine,
-                           const JoxSteerTerm *term, JoxSteer *s, int32_t *places) {
+void jox_steer_to_places(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *s,
+                         const int32_t *places) {
     int32_t left[JOX_BATCH];
     Asking q; /* arrays are filled as far as they are read */
     q.run = run;
     q.term = term;
     q.s = s;
     JOX_ASSERT(s->count <= JOX_BATCH);
-    jox_target_places(run, machine, term->target, s->index, s->count, places);
     for (uint32_t n = 0; n < s->count; n++) {
         s->way_x[n] = s->way_y[n] = 0.0f;
         left[n] = jox_weight_counts(s->by[n]) ? places[n] : -1;
@@ -178,6 +184,19 @@ static void lead_to_places(const JoxMachineRun *run, const JoxMachine *machine,
     for (uint32_t n = 0; n < s->count; n++)
         if (left[n] >= 0)
             lead_to_place(&q, left, n);
+}
+
+/* Directs the agents of a batch whose target is a place; the others get no way. `places`: of each
+   agent, -1 for what is no place. */
+static void lead_to_places(const JoxMachineRun *run, const JoxMachine *machine,
+                           const JoxSteerTerm *term, JoxSteer *s, int32_t *places) {
+    if (term->kind == JOX_STEER_RIDE)
+        for (uint32_t n = 0; n < s->count; n++)
+            places[n] = jox_ride_approach(run, s->index[n],
+                                          jox_target_place(run, s->index[n], term->target));
+    else
+        jox_target_places(run, machine, term->target, s->index, s->count, places);
+    jox_steer_to_places(run, term, s, places);
 }
 
 void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
@@ -204,8 +223,9 @@ void jox_machines_ask_routes(JoxMachineRun *run) {
         const JoxState *state = &machine->states[a->state[i]];
         s.index[0] = i;
         for (uint32_t t = 0; t < state->steer_count; t++)
-            if (state->steer[t].kind == JOX_STEER_FIELD &&
-                !machine->targets[state->steer[t].target].score)
+            if (state->steer[t].kind == JOX_STEER_RIDE ||
+                (state->steer[t].kind == JOX_STEER_FIELD &&
+                 !machine->targets[state->steer[t].target].score))
                 lead_to_places(run, machine, &state->steer[t], &s, &place);
     }
 }

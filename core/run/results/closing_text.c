@@ -17,6 +17,7 @@
 #include "run/results/demand.h"
 #include "run/results/idle_input.h"
 #include "run/results/kept_people.h"
+#include "run/results/lift_figures.h"
 #include "run/results/lost_steering.h"
 #include "run/results/unleft_states.h"
 #include "run/run.h"
@@ -258,6 +259,7 @@ char *jo_scene_closing(const JoScene *scene) {
     jox_run_say_kept(scene, &text);
     say_events(scene, &text);
     say_drives(scene, &text);
+    jox_run_say_lifts(scene, &text);
     jox_run_say_tally(scene, &text);
     jox_run_say_game(scene, &text);
     say_standing(scene, &text);

@@ -20,6 +20,7 @@
 #include "run/probe_listener.h"
 #include "run/results/demand.h"
 #include "run/results/kept_people.h"
+#include "run/results/lift_figures.h"
 #include "run/results/lost_steering.h"
 #include "run/results/unleft_states.h"
 #include "run/run.h"
@@ -358,6 +359,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_drives(&json, scene);
     add_regions(&json, scene);
     add_events(&json, scene);
+    jox_run_add_lifts(scene, &json);
     jox_run_add_demand(scene, &json);
     jox_run_add_starts(scene, &json);
     jox_run_add_kept(scene, &json);

@@ -390,13 +390,15 @@ void jox_key_read_items(const JoxReader *reader, const JoxKey *key, const JoxYam
     JOX_ASSERT(owner && owner->struct_size);
     const bool map = key->content[length] == '*';
     uint32_t *count = JOX_MEMBER(uint32_t, item, key->count_offset);
-    *count = 0;
+    const uint32_t before = *count; /* made by keys that were read before */
     if (!check_items_node(reader, key, node, owner, map))
         return;
-    uint32_t most = 0;
+    uint32_t most = before;
     for (uint32_t i = 0; i < node->count; i++)
         most += jox_owner_count_copies(reader->format, owner->name, node->items[i]);
     char *items = jox_arena_take(reader->arena, most, owner->struct_size);
+    if (before)
+        memcpy(items, *JOX_MEMBER(void *, item, key->offset), before * owner->struct_size);
     const JoxYaml **from = jox_arena_take(reader->arena, most, sizeof *from);
     *JOX_MEMBER(void *, item, key->offset) = items;
     for (uint32_t i = 0; i < node->count; i++) {
@@ -413,6 +415,6 @@ void jox_key_read_items(const JoxReader *reader, const JoxKey *key, const JoxYam
         }
     }
     JOX_ASSERT(*count <= most);
-    for (uint32_t i = 0; owner->resolve && i < *count; i++)
+    for (uint32_t i = before; owner->resolve && i < *count; i++)
         owner->resolve(reader, from[i], items + i * owner->struct_size);
 }

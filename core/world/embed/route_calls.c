@@ -37,7 +37,7 @@ static const JoxField *get_field(JoWorld *w, uint32_t place, JoxV2 from) {
     JoxWalls standing = {0};
     JoxV2 low, high;
     const JoxAgents *a = &w->state.agents;
-    jox_walls_standing(&standing, &w->model.all_walls, true);
+    jox_walls_for_ways(&standing, &w->model.all_walls, true);
     find_box(w, &standing, from, &low, &high);
     JoxPlace *places = w->model.places;
     uint32_t count = w->model.place_count, goal = place;

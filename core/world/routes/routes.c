@@ -248,7 +248,7 @@ static Making *prepare_field(const JoxRouteStage *w, uint32_t place,
     making->item.run = make_field;
     making->clearance = look->clearance;
     copy_stairs(w->agents->storeys, making);
-    jox_walls_standing(&making->walls, w->all_walls, look->gates);
+    jox_walls_for_ways(&making->walls, w->all_walls, look->gates);
     jox_obstacles_add(&w->routes->obstacles, look->bodies, &making->walls);
     making->places = jox_places_copy_goal(w->places, place, &making->place_count);
     if (jox_routes_lead_over_edges(w->agents, w->all_walls)) {
@@ -321,7 +321,7 @@ static void take_field(JoxRoutes *routes, uint32_t at) {
 /* Returns whether a closed gate or a movable body may block ways. */
 static bool can_be_blocked(const JoxRouteStage *w) {
     for (uint32_t r = 0; r < w->all_walls->ring_count; r++)
-        if (w->all_walls->rings[r].name && !w->all_walls->rings[r].open)
+        if (jox_wall_is_shut_gate(w->all_walls, r))
             return true;
     for (uint32_t o = 0; o < w->routes->obstacles.count; o++)
         if (w->routes->obstacles.items[o].kind != JOX_OBSTACLE_FIXED)

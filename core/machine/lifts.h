@@ -1,0 +1,97 @@
+/* What behaviours know of lifts: the state of each car, and of each agent that rides or is about
+   to. world/lifts.c keeps both from step to step; the steering term `ride` and the words `rode` and
+   `in_use` read them. */
+#ifndef JOX_MACHINE_LIFTS_H
+#define JOX_MACHINE_LIFTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "geom/lifts.h"
+#include "machine/machine.h"
+
+typedef enum JoxLiftDoor {
+    JOX_DOOR_SHUT,
+    JOX_DOOR_OPENING,
+    JOX_DOOR_OPEN,
+    JOX_DOOR_CLOSING
+} JoxLiftDoor;
+
+/* State of a car. Sections hold no padding. */
+typedef struct JoxLiftCar {
+    double height;     /* m: elevation of its floor */
+    double speed;      /* m/s, positive upwards */
+    double left;       /* s until the door's present phase is over */
+    double quiet;      /* s since an agent passed the open door */
+    double idle;       /* s for which nobody has called it */
+    uint32_t mode;     /* JoxLiftMode */
+    uint32_t door;     /* JoxLiftDoor */
+    uint32_t stop;     /* stop where it stands, or which it left: its riders' storey */
+    int32_t target;    /* stop that it moves to; -1: it stands */
+    int32_t direction; /* of travel: 1 up, -1 down, 0 none */
+    uint32_t people;   /* in the car; counted while the door is not shut */
+    float mass;        /* kg: of these */
+    uint32_t refuses;  /* 1: nobody boards until the door shuts, as one found no room, or was too
+                         heavy */
+} JoxLiftCar;
+
+/* How far an agent that rides has come. */
+typedef enum JoxRidePhase {
+    JOX_RIDE_APPROACH, /* on the way to the door */
+    JOX_RIDE_WAIT,     /* before the door: it has called the lift */
+    JOX_RIDE_BOARD,    /* it goes in */
+    JOX_RIDE_INSIDE,   /* in the car */
+    JOX_RIDE_ASIDE,    /* it stepped out to let others out, and keeps its room in the car */
+    JOX_RIDE_LEAVE,    /* it goes out */
+    JOX_RIDE_OVER      /* it is on a storey where it was let out, or that it rides to */
+} JoxRidePhase;
+
+/* An agent whose state steers by `ride`. Sections hold no padding. */
+typedef struct JoxRider {
+    uint32_t id;  /* of the agent */
+    int32_t goal; /* place, or set of places, that it rides to */
+    uint32_t lift;
+    uint32_t from, to; /* stops */
+    uint32_t phase;    /* JoxRidePhase */
+    uint32_t since;    /* tick: when it called; once inside, when it boarded */
+    int32_t spot;      /* index of its spot before the door or in the car; -1: none */
+    float x, y;        /* m: position that it goes to, unless it approaches */
+} JoxRider;
+
+/* Lifts as the machines see them. */
+typedef struct JoxLiftView {
+    const JoxStoreys *storeys;
+    const JoxLift *lifts;
+    const JoxLiftCar *cars;
+    uint32_t lift_count;
+    const JoxRider *riders; /* by ascending id */
+    uint32_t rider_count;
+} JoxLiftView;
+
+typedef struct JoxMachineRun JoxMachineRun;
+
+/* Finds the lift and the stop that a place is the car's floor of; false if it is none. */
+bool jox_lift_find_place(const JoxLiftView *view, int32_t place, uint32_t *lift, uint32_t *stop);
+/* Returns the entry of an agent that rides, by its id; NULL if it is new or does not ride. */
+const JoxRider *jox_rider_find(const JoxLiftView *view, uint32_t id);
+/* Returns the stop of a lift where an agent at a position calls it: that on its storey, else that
+   on the nearest one. */
+uint32_t jox_lift_near_stop(const JoxLiftView *view, uint32_t lift, JoxV2 at);
+/* Returns the place that an agent's state rides to, -1: its state does not ride. */
+int32_t jox_machines_ride_goal(const JoxMachineRun *run, uint32_t agent);
+/* Returns whether agents of a machine may ride in some state. */
+bool jox_machine_rides(const JoxMachineRun *run, uint32_t machine);
+
+/* Of this folder alone. */
+/* Returns the term by which agents in a state ride, or NULL. */
+const JoxSteerTerm *jox_ride_term(const JoxState *state);
+/* Returns the place to which an agent walks that rides to `goal`, at the door of a lift; -1: it
+   does not walk there by a field. */
+int32_t jox_ride_approach(const JoxMachineRun *run, uint32_t agent, int32_t goal);
+/* Return whether an agent's ride is over; whether it rides, in the car; whether the lift of a
+   place, or one of a set, is in use. */
+bool jox_has_ridden(const JoxMachineRun *run, uint32_t agent);
+bool jox_is_riding(const JoxMachineRun *run, uint32_t agent);
+bool jox_is_lift_in_use(const JoxMachineRun *run, int32_t place);
+
+#endif
