@@ -99,8 +99,9 @@ const CliCommand cli_report = {
     .about =
         "Measures a recording: an SQLite file of `jostle run --record` or of JuPedSim (versions 1 "
         "and 2), text with the columns id, frame, x, y (PeTrack, the archive of Juelich), or CSV "
-        "with a header line (ID,Frame,x,y,v_x,v_y). Give one of --out and --summary, or both. For "
-        "a file of `jostle sweep` with one variant, --out writes the page of all its seeds.",
+        "with a header line (ID,Frame,x,y,v_x,v_y; a column storey, level or floor tells storeys "
+        "apart). Give one of --out and --summary, or both. For a file of `jostle sweep` with one "
+        "variant, --out writes the page of all its seeds.",
     .notes = "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

@@ -293,6 +293,8 @@ static void plot_map(const JoxProbeDef *def, const void *state, bool walls, JoxT
         g->low.x, g->low.x + (float)g->columns * g->cell, g->low.y,
         g->low.y + (float)g->rows * g->cell);
     const bool storeys = jox_has_storeys(def->storeys);
+    if (storeys)
+        jox_text_add(out, "set ylabel 'y (m), storeys from below, then stairs'\n");
     char title[96];
     snprintf(title, sizeof title, "density (1/m\xc2\xb2), Gaussian, R = %.3g m%s",
              def->kernel * sqrt(2.0), def->through_walls ? ", through walls" : "");
