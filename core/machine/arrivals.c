@@ -3,6 +3,7 @@
    it have kept it from getting nearer for a while. The column `arrived_at` remembers the place. */
 #include "base/mem.h"
 #include "machine/machine_parts.h"
+#include "machine/way_between.h"
 
 #define KEPT_OFF 1.0f  /* s: an agent that is kept off for this time gets no nearer */
 #define PROGRESS 0.25f /* share of its speed at which an agent at least gets nearer to a place */

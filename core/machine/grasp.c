@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "machine/obstacles.h"
+#include "machine/way_between.h"
 
 static const float SLIPS = 1.0f;     /* m: gap at which the hold is lost */
 static const float STIFFNESS = 2e3f; /* N/m: stiffness of an arm */

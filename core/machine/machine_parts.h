@@ -264,17 +264,6 @@ JoxV2 jox_steer_arrive(JoxV2 from, JoxV2 to, float speed);
 /* Returns a velocity sideways, past the agents that come against `ahead`, the sum of the other
    terms. */
 JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t agent, JoxV2 ahead);
-/* Returns the vector from agent i to agent j, m; out of sight where they are on different storeys
-   and do not see each other over the foot or head of a stair. */
-#define JOX_OUT_OF_SIGHT 1e6f /* m */
-static inline JoxV2 jox_way_between(const JoxAgents *a, uint32_t i, uint32_t j) {
-    JoxV2 offset;
-    if (!a->storeys)
-        return jox_offset(a, i, j);
-    const bool sees =
-        jox_plan_offset(a->storeys, jox_v2(a->x[i], a->y[i]), jox_v2(a->x[j], a->y[j]), &offset);
-    return sees ? jox_wrap(a, offset) : jox_v2(0.0f, JOX_OUT_OF_SIGHT);
-}
 /* Returns the velocity straight towards a target; it slows down near a point. */
 JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t agent, int32_t target);
 

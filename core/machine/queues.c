@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "base/sort.h"
 #include "machine/machine_parts.h"
+#include "machine/way_between.h"
 
 #define COMES_TO 1.0f /* m: an agent this near to a queue takes its place */
 #define HELD_UP 3.0f  /* s: an agent that has not moved for this time takes a place twice as far */

@@ -7,6 +7,7 @@
 #include "geom/polygon.h"
 #include "geom/wall_grid.h"
 #include "machine/machine_parts.h"
+#include "machine/way_between.h"
 
 /* Returns whether the bounding box of a segment and that of an edge are disjoint. */
 static bool misses_box(JoxV2 from, JoxV2 to, JoxV2 a, JoxV2 b) {

@@ -5,6 +5,7 @@
 #include "agents/torso.h"
 #include "base/mem.h"
 #include "machine/machine_parts.h"
+#include "machine/way_between.h"
 
 /* Returns whether a number is a whole one from `first` on, and 32 bits hold its distance from that.
  */

@@ -5,6 +5,7 @@
 #include "agents/torso.h"
 #include "base/assert.h"
 #include "machine/machine_parts.h"
+#include "machine/way_between.h"
 
 /* Returns the index of a place if it is valid, else -1. */
 static inline int32_t keep_valid_place(const JoxMachineRun *run, int32_t place) {

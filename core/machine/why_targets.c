@@ -6,6 +6,7 @@
 #include "base/format/plurals.h"
 #include "base/mem.h"
 #include "machine/why_words.h"
+#include "machine/way_between.h"
 
 /* What a target asks of an agent or body, in the order in which it is told. */
 typedef enum Need {

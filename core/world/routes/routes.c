@@ -7,6 +7,7 @@
 #include "base/mem.h"
 #include "task/worker.h"
 #include "world/routes/body_obstacles.h"
+#include "world/routes/held_up.h"
 #include "world/routes/joined_edges.h"
 
 enum { MOST_FIELDS = 64 };
@@ -25,10 +26,7 @@ static const double PAUSE = 2.0;      /* s: between fields made anew for moving 
 static const double LOOK = 0.25;      /* s: interval at which bodies and crowds are examined */
 static const double CROWD_PAUSE = 1.0;      /* s: between fields made anew for a crowd */
 static const float CROWD_CELLS = 150000.0f; /* cells; larger fields wait longer in proportion */
-enum {
-    HELD = 256,
-    FEW_HELD = 5 * HELD
-}; /* unit of one agent held up; fewer than FEW_HELD are no crowd */
+enum { FEW_HELD = 5 * JOX_HELD };           /* fewer agents held up are no crowd */
 
 /* One field being made, with copies of all that it is made of, as a worker thread makes it. */
 typedef struct Making {
@@ -65,7 +63,7 @@ struct JoxRoutes {
     JoxField **fields;
     Route *items;
     uint8_t *wanted; /* by place: a bit for each kind that agents asked for */
-    uint32_t *held;  /* by place: agents held up on the way there, in 1 / HELD; scratch */
+    uint32_t *held;  /* by place: agents held up on the way there, in 1 / JOX_HELD; scratch */
     uint32_t count;  /* fields in use or being made */
 };
 
@@ -120,51 +118,13 @@ static void make_fields(void *context, uint32_t begin_route, uint32_t end, uint3
         make_field(&makings[i]->item);
 }
 
-/* ---- crowds ---- */
-
-/* Returns by how much an agent is held up: the lacking share of its preferred speed, in 1 / HELD.
- */
-static uint32_t measure_hold_up(const JoxAgents *a, uint32_t i) {
-    JoxV2 preferred = {a->pref_x[i], a->pref_y[i]}, velocity = {a->vx[i], a->vy[i]};
-    float speed2 = jox_length2(preferred);
-    if (!(speed2 > 0.0f))
-        return 0;
-    float share = 1.0f - jox_dot(velocity, preferred) / speed2;
-    return (uint32_t)(jox_clampf(share, 0.0f, 1.0f) * (float)HELD);
-}
-
-/* Sums agents held up by place; in whole numbers, so that their order does not matter. */
-static void sum_held(const JoxRouteStage *w) {
-    JoxRoutes *routes = w->routes;
-    const JoxAgents *a = w->agents;
-    if (routes->capacity)
-        memset(routes->held, 0, routes->capacity * sizeof *routes->held);
-    for (uint32_t i = 0; i < a->count; i++)
-        if (a->bound[i] && a->bound[i] <= routes->capacity)
-            routes->held[jox_referred(a->bound[i])] += measure_hold_up(a, i);
-}
-
-static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *crowd) {
-    const JoxAgents *a = w->agents;
-    crowd->slowing = (float)w->crowd_slowing;
-    crowd->isa = w->isa;
-    crowd->at = jox_alloc(a->count + 1, sizeof *crowd->at);
-    crowd->held = jox_alloc(a->count + 1, sizeof *crowd->held);
-    for (uint32_t rank = 0; rank < a->count; rank++) { /* in ascending id */
-        uint32_t i = a->by_rank[rank],
-                 held = jox_referred(a->bound[i]) == (int32_t)place ? measure_hold_up(a, i) : 0;
-        if (held == 0)
-            continue;
-        crowd->at[crowd->count] = (JoxV2){a->x[i], a->y[i]};
-        crowd->held[crowd->count++] = (float)held / (float)HELD;
-    }
-}
-
 /* Returns the time between fields round a crowd, s: longer for many cells. */
 static double get_crowd_pause(const JoxField *field) {
     double cells = field ? (double)jox_field_cells(field) : 0.0;
     return cells > CROWD_CELLS ? CROWD_PAUSE * cells / (double)CROWD_CELLS : CROWD_PAUSE;
 }
+
+/* ---- preparing one ---- */
 
 /* Returns whether the box of the previous field contains low..high, and is not much larger than a
    new box for it. */
@@ -289,7 +249,7 @@ static Making *begin_route(const JoxRouteStage *w, uint32_t place, JoxRouteKind 
     Making *making = prepare_field(w, place, &look, crowd ? MOST_CROWD_CELLS : MOST_CELLS,
                                    routes->fields[place * JOX_ROUTE_KINDS + kind]);
     if (crowd) {
-        copy_crowd(w, place, &making->crowd);
+        making->crowd = jox_held_up_list(w->agents, place, (float)w->crowd_slowing, w->isa);
         if (jox_routes_lead_over_edges(w->agents, w->all_walls))
             jox_routes_add_crowd_images(w->agents, &making->crowd);
         making->keeps_marks = true;
@@ -430,7 +390,7 @@ void jox_routes_update(const JoxRouteStage *w) {
     }
     bool looks = w->tick % every == 0;
     if (looks && routes->count > 0) {
-        sum_held(w);
+        jox_held_up_sum(w->agents, routes->held, routes->capacity);
         free_crowd_fields(routes);
     }
     for (uint32_t p = 0; any && p < routes->capacity; p++) {
