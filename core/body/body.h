@@ -110,6 +110,8 @@ void jox_bodies_free(JoxBodies *bodies);
    finite. Thin ones are 4 cm thick. Each call replaces the earlier walls, and wakes sleeping
    bodies. */
 void jox_bodies_set_walls(JoxBodies *bodies, const JoxWalls *walls, float height);
+/* Sets the sheets along y that bodies must not leave: where the first begins, and the pitch, m. */
+void jox_bodies_set_sheets(JoxBodies *bodies, float origin, float pitch);
 
 /* Adds a body. Returns its row, or JOX_NO_BODY with a sentence in `error` (which may be NULL).
    Rows of removed bodies are reused; ids are not. */
@@ -214,7 +216,13 @@ typedef struct JoxDiscHit {
 
 /* Reason why a body is lost: below the ground, a number that is not finite, 10 km from the
    origin, through a wall. */
-typedef enum { JOX_BODY_FELL, JOX_BODY_NOT_FINITE, JOX_BODY_LEFT, JOX_BODY_PASSED_WALL } JoxBodyEnd;
+typedef enum {
+    JOX_BODY_FELL,
+    JOX_BODY_NOT_FINITE,
+    JOX_BODY_LEFT,
+    JOX_BODY_PASSED_WALL,
+    JOX_BODY_LEFT_STOREY
+} JoxBodyEnd;
 typedef struct JoxBodyGone {
     uint32_t row, id;
     JoxBodyEnd why;

@@ -67,6 +67,11 @@ void jox_bodies_ensure(JoxBodies *b) {
         jox_bodies_raise_walls(b);
 }
 
+void jox_bodies_set_sheets(JoxBodies *b, float origin, float pitch) {
+    b->origin = origin;
+    b->pitch = pitch;
+}
+
 void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
     if (!(height > 0))
         return;

@@ -197,6 +197,7 @@ struct JoxBodies {
     JoxWalls standing;     /* closed walls of the scene, from which `walls` are made */
     JoxWallGrid wall_grid; /* grid over `standing`, for the guard; empty until a body moves */
     float wall_height;     /* m: height of walls without one */
+    float origin, pitch;   /* m along y: sheets, which bodies must not leave; pitch 0: one plane */
     JoxRow *rows;
     uint32_t count, capacity;
     uint32_t *order; /* rows of live bodies in order of id */

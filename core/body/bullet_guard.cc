@@ -25,6 +25,12 @@ static bool is_outside_world(const btVector3 &at) {
     return fabsf(at.x()) > FARTHEST || fabsf(at.y()) > FARTHEST || fabsf(at.z()) > FARTHEST;
 }
 
+/* Whether a body went from one sheet to the next, which is another storey. */
+static bool has_left_sheet(const JoxBodies *b, const JoxRow *r, const btVector3 &at) {
+    return b->pitch > 0.0f && floorf((at.y() - b->origin) / b->pitch) !=
+                                  floorf((get_position_before(r).y() - b->origin) / b->pitch);
+}
+
 /* Returns the height of the wall to which an edge belongs, m. */
 static float find_wall_height(const JoxBodies *b, uint32_t edge) {
     const JoxWalls *walls = &b->standing;
@@ -68,6 +74,8 @@ static bool is_body_lost(JoxBodies *b, const JoxRow *r, JoxBodyEnd *why) {
         *why = JOX_BODY_FELL;
     else if ((moves || r->kinematic) && is_outside_world(at))
         *why = JOX_BODY_LEFT;
+    else if ((moves || r->kinematic) && has_left_sheet(b, r, at))
+        *why = JOX_BODY_LEFT_STOREY;
     else if (moves && r->body->isActive() && has_passed_wall(b, r))
         *why = JOX_BODY_PASSED_WALL;
     else

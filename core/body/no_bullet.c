@@ -14,6 +14,10 @@ JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
 void jox_bodies_free(JoxBodies *bodies) {
     jox_free(bodies);
 }
+void jox_bodies_set_sheets(JoxBodies *bodies, float origin, float pitch) {
+    (void)bodies, (void)origin, (void)pitch;
+}
+
 void jox_bodies_set_walls(JoxBodies *bodies, const JoxWalls *walls, float height) {
     (void)bodies, (void)walls, (void)height;
 }

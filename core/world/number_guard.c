@@ -211,6 +211,15 @@ static bool put_to_rest(JoWorld *w, const Column *columns, uint32_t i) {
     return known;
 }
 
+/* Counts a lost agent, and removes it if that is asked for or its position is unknown. */
+static void count_lost(JoWorld *w, uint32_t i, bool known) {
+    w->state.statistics.people_lost++;
+    if (w->model.def.lost_people != JO_LOST_REMOVE && known)
+        return;
+    JOX_RESERVE(w->scratch.lost.ids, w->scratch.lost.capacity, w->scratch.lost.count + 1);
+    w->scratch.lost.ids[w->scratch.lost.count++] = w->state.agents.id[i];
+}
+
 /* Puts all agents with wrong numbers to rest. Those with a wrong number in the column of the cause
    are lost; the others only had them near, and continue. */
 static void recover_agents(JoWorld *w, const Column *columns, int cause) {
@@ -227,13 +236,8 @@ static void recover_agents(JoWorld *w, const Column *columns, int cause) {
                           columns[cause + 1].what == columns[cause].what &&
                           is_wrong(&columns[cause + 1], i);
         const bool known = put_to_rest(w, columns, i);
-        if (!lost && !pair && known)
-            continue;
-        w->state.statistics.people_lost++;
-        if (w->model.def.lost_people == JO_LOST_REMOVE || !known) {
-            JOX_RESERVE(w->scratch.lost.ids, w->scratch.lost.capacity, w->scratch.lost.count + 1);
-            w->scratch.lost.ids[w->scratch.lost.count++] = a->id[i];
-        }
+        if (lost || pair || !known)
+            count_lost(w, i, known);
     }
     jox_nav_invalidate_order(w->scratch.nav); /* moved agents are not where they were sorted */
 }
@@ -256,7 +260,8 @@ void jox_world_report_lost_body(JoWorld *w, const JoxBodyGone *gone) {
     const char *const ends[] = {[JOX_BODY_FELL] = "fell through the ground",
                                 [JOX_BODY_NOT_FINITE] = "has a number that is not finite",
                                 [JOX_BODY_LEFT] = "is more than 10 km from the origin",
-                                [JOX_BODY_PASSED_WALL] = "passed a wall"};
+                                [JOX_BODY_PASSED_WALL] = "passed a wall",
+                                [JOX_BODY_LEFT_STOREY] = "left the plan of its storey"};
     JoxText what = {0};
     add_when(w, &what);
     jox_text_printf(&what, "body %u%s%s %s", gone->id, *gone->name ? ", " : "", gone->name,
@@ -286,11 +291,43 @@ void jox_world_end_overloaded(JoWorld *w, const JoxDriveLoad *load) {
     report_loss(w, JO_LOST_END, 0, &what);
 }
 
+/* Returns whether an agent left the sheet on which it was, not over a seam, which moves the
+   position before, too. */
+static bool has_left_sheet(const JoxStoreys *s, const JoxAgents *a, uint32_t i) {
+    return jox_sheet_of(s, a->y[i]) != jox_sheet_of(s, a->prev_y[i]);
+}
+
+/* Handles agents that left the plan of their storey; false if the run ends. */
+static bool guard_storeys(JoWorld *w) {
+    const JoxStoreys *s = &w->model.storeys;
+    const JoxAgents *a = &w->state.agents;
+    const uint64_t before = w->state.statistics.people_lost;
+    uint32_t first = JOX_NO_INDEX;
+    Column columns[COLUMN_COUNT];
+    JoxText what = {0};
+    list_columns(&w->state.agents, columns);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (has_left_sheet(s, a, i) && (first == JOX_NO_INDEX || a->id[i] < a->id[first]))
+            first = i;
+    if (first == JOX_NO_INDEX)
+        return true;
+    add_when(w, &what);
+    jox_text_printf(&what, "agent %u left the plan of its storey", a->id[first]);
+    add_machine(w, first, &what);
+    add_point_in_plan(w, &what, ", before at", (JoxV2){a->prev_x[first], a->prev_y[first]});
+    jox_text_add(&what, "; enclose it by walls");
+    for (uint32_t i = 0; w->model.def.lost_people != JO_LOST_END && i < a->count; i++)
+        if (has_left_sheet(s, a, i))
+            count_lost(w, i, put_to_rest(w, columns, i));
+    jox_nav_invalidate_order(w->scratch.nav);
+    return report_loss(w, w->model.def.lost_people, before, &what);
+}
+
 bool jox_world_guard_numbers(JoWorld *w) {
     if (w->failure[0]) /* set for a lost body */
         return false;
     if (!may_any_be_wrong(w))
-        return true;
+        return !jox_has_storeys(&w->model.storeys) || guard_storeys(w);
     Column columns[COLUMN_COUNT];
     list_columns(&w->state.agents, columns);
     for (int c = 0; c < COLUMN_COUNT; c++) {

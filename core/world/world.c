@@ -72,6 +72,7 @@ void jox_world_set_storeys(JoWorld *world, const JoxStoreys *storeys) {
         return;
     world->state.agents.storeys = &world->model.storeys;
     world->state.agents.pitch = storeys->pitch;
+    jox_bodies_set_sheets(world->state.bodies, storeys->origin, storeys->pitch);
 }
 
 void jox_world_set_timed(JoWorld *world, bool timed) {

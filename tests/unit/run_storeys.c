@@ -153,12 +153,44 @@ static void programs_read_and_write_points_in_plan(void **state) {
     jo_scene_free(scene);
 }
 
+#define OPEN_STOREYS(more)                                                                         \
+    "jostle: 1\nstoreys: {ground: {height: 0}, first: {height: 3}}\n"                              \
+    "places: {far: {point: [0, 9]}}\n" more
+
+/* People and bodies that leave the plan would come to the next storey: they are reported, as those
+   with invalid numbers are. */
+static void who_leaves_the_plan_is_reported(void **state) {
+    (void)state;
+    JoError error = {0};
+    JoScene *scene = load_scene_text(
+        OPEN_STOREYS("groups: {g: {behaviour: own.lua, at: [[0, 0]]}}\n"), MACHINE_START
+        "\"A\", states = { A = { steer = function() return 0, 2 end, speed = 2 } } }\n");
+    bool ended = false;
+    for (int s = 0; s < 2000 && !ended; s++)
+        ended = !jo_scene_step(scene, &error);
+    assert_true(ended);
+    assert_non_null(strstr(error.text, "agent 0 left the plan of its storey (machine m, state A), "
+                                       "before at (0, "));
+    assert_non_null(strstr(error.text, "on ground; enclose it by walls; the run cannot go on"));
+    jo_scene_free(scene);
+    scene = load_scene_text(
+        OPEN_STOREYS("groups: {g: {behaviour: own.lua, at: [[0, 0]]}}\n"
+                     "bodies: [{name: cart, shape: {box: {size: [1, 1, 1]}}, kinematic: true, at: "
+                     "[5, 0, 0.6], velocity: [0, 5, 0], storey: first}]\n"),
+        MACHINE_START "\"A\", states = { A = { steer = hold } } }\n");
+    step_scene_seconds(scene, 12);
+    assert_int_equal(scene->world->state.statistics.bodies_lost, 1);
+    assert_non_null(strstr(scene_messages.data, "cart left the plan of its storey, at (5, "));
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stairs_one_above_the_other_empty_a_tower),
         cmocka_unit_test(nobody_sets_out_over_a_closed_stair),
         cmocka_unit_test(edits_that_move_sheets_wait),
         cmocka_unit_test(programs_read_and_write_points_in_plan),
+        cmocka_unit_test(who_leaves_the_plan_is_reported),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }
