@@ -256,7 +256,9 @@ static void check_floors(const JoxReader *r, const JoxSceneSpec *s) {
 static void check_joined(const JoxReader *r, const JoxStoreys *s) {
     const JoxSceneSpec *scene = r->draft->scene;
     const JoxYaml *map = jox_yaml_get(r->draft->root, "storeys");
-    bool any = false; /* where nothing is joined, that is meant */
+    bool any = false;                          /* where nothing is joined, that is meant */
+    if (jox_yaml_get(r->draft->root, "lifts")) /* which join storeys, too */
+        return;
     for (uint32_t n = 0; n < s->stair_count; n++)
         any |= s->stairs[n].lower != s->stairs[n].upper;
     for (uint32_t k = 0; any && k < s->storey_count; k++) {
