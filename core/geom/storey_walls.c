@@ -10,6 +10,7 @@
 
 static const float RAIL = 1.1f;  /* m: height of the walls around a stair on the storey above it */
 static const float HAIR = 0.01f; /* m: points this near to a line lie on it */
+static const float SLIT = 0.7f;  /* m: gaps beside seams that are narrower lead nowhere */
 
 /* A wall in the making: points of the plan that follow each other. */
 typedef struct Chain {
@@ -120,6 +121,30 @@ static void append_edge(Chain *c, const JoxStair *own, JoxV2 a, JoxV2 b) {
     jox_free(at);
 }
 
+/* Closes a slit beside the end of a seam, between its stair and the nearest wall of a stair that
+   does not begin there: people would be pressed into it. */
+static void close_slit(Chain *c, JoxV2 end) {
+    const JoxStoreys *s = c->storeys;
+    JoxV2 nearest = end;
+    float least = SLIT;
+    for (uint32_t k = 0; k < s->stair_count; k++) {
+        const JoxStair *stair = &s->stairs[k];
+        const uint32_t n = 2 * stair->path_count;
+        for (uint32_t e = 0; is_on_storey(stair, c->storey) && e < n; e++) {
+            const JoxV2 at =
+                jox_segment_nearest(stair->outline[e], stair->outline[(e + 1) % n], end);
+            const float away = jox_length(jox_sub(at, end));
+            if (away > 2.0f * HAIR && away < least) {
+                least = away;
+                nearest = at;
+            }
+        }
+    }
+    if (least < SLIT && !is_passage(c, NULL, jox_scale(jox_add(end, nearest), 0.5f)))
+        append_part(c, end, nearest);
+    end_chain(c);
+}
+
 /* Adds the walls of a stair on its own sheet. */
 static void add_sides(const JoxStoreys *s, const JoxStair *st, JoxWalls *walls) {
     const uint32_t n = st->path_count;
@@ -132,7 +157,19 @@ static void add_sides(const JoxStoreys *s, const JoxStair *st, JoxWalls *walls) 
     jox_free(side);
 }
 
+static void close_slits(const JoxStoreys *s, JoxWalls *walls) {
+    for (uint32_t k = 0; k < s->seam_count; k++) {
+        Chain chain = {.walls = walls, .storeys = s, .storey = s->seams[k].here, .height = RAIL};
+        if (!s->seams[k].enters)
+            continue;
+        close_slit(&chain, s->seams[k].a);
+        close_slit(&chain, s->seams[k].b);
+        jox_free(chain.points);
+    }
+}
+
 void jox_storeys_add_walls(const JoxStoreys *s, JoxWalls *walls) {
+    close_slits(s, walls);
     for (uint32_t k = 0; k < s->stair_count; k++) {
         const JoxStair *st = &s->stairs[k];
         const uint32_t n = 2 * st->path_count;
