@@ -5,8 +5,8 @@
 
 #include "base/format/plurals.h"
 #include "base/mem.h"
-#include "machine/why_words.h"
 #include "machine/way_between.h"
+#include "machine/why_words.h"
 
 /* What a target asks of an agent or body, in the order in which it is told. */
 typedef enum Need {
