@@ -8,7 +8,7 @@
 
 enum { JOX_MOST_LIFTS = 100 };
 
-/* What a lift is there for. */
+/* The use of a lift. */
 typedef enum JoxLiftMode {
     JOX_LIFT_IN_USE,     /* serves calls in the direction of travel */
     JOX_LIFT_OUT_OF_USE, /* lets riders out at the next storey, and stands */
@@ -20,7 +20,7 @@ typedef struct JoxLiftStop {
     uint32_t storey;
     JoxV2 door[2]; /* m: ends of the door, on the outline of the shaft */
     int32_t place; /* index of the place that is the car's floor on this storey */
-    char *name;    /* of that place, and of the gate that is the door */
+    char *name;    /* name of that place, and of the gate that is the door */
     /* Laid out: */
     JoxV2 middle, out; /* m: middle of the door; unit vector out of the car */
     float half;        /* m: half of the door's width */

@@ -183,7 +183,7 @@ static JoxSeam make_seam(const JoxStoreys *s, uint32_t stair, bool at_head, bool
     const uint32_t n = st->path_count, storey = at_head ? st->upper : st->lower;
     const JoxV2 right = st->outline[at_head ? n - 1 : 0],
                 left = st->outline[at_head ? n : 2 * n - 1];
-    const bool up = at_head != enters; /* who crosses it goes up */
+    const bool up = at_head != enters; /* crossing it leads up */
     JoxSeam seam = {.here = enters ? storey : st->sheet,
                     .there = enters ? st->sheet : storey,
                     .stair = stair,

@@ -96,7 +96,7 @@ typedef struct JoxStoreys {
     JoxSheet *sheets;
     uint32_t sheet_count;
     uint32_t *sheet_stairs;
-    JoxSeam *seams; /* those of a sheet are consecutive */
+    JoxSeam *seams; /* sorted by sheet */
     uint32_t seam_count;
     JoxFlight *flights;
     uint32_t flight_count;

@@ -28,7 +28,7 @@ typedef struct JoxLiftCar {
     uint32_t door;     /* JoxLiftDoor */
     uint32_t stop;     /* stop where it stands, or which it left: its riders' storey */
     int32_t target;    /* stop that it moves to; -1: it stands */
-    int32_t direction; /* of travel: 1 up, -1 down, 0 none */
+    int32_t direction; /* 1 up, -1 down, 0 none */
     uint32_t people;   /* in the car; counted while the door is not shut */
     float mass;        /* kg: of these */
     uint32_t refuses;  /* 1: nobody boards until the door shuts, as one found no room, or was too
@@ -82,7 +82,7 @@ int32_t jox_machines_ride_goal(const JoxMachineRun *run, uint32_t agent);
 /* Returns whether agents of a machine may ride in some state. */
 bool jox_machine_rides(const JoxMachineRun *run, uint32_t machine);
 
-/* Of this folder alone. */
+/* Functions for this folder alone. */
 /* Returns the term by which agents in a state ride, or NULL. */
 const JoxSteerTerm *jox_ride_term(const JoxState *state);
 /* Returns the place to which an agent walks that rides to `goal`, at the door of a lift; -1: it

@@ -8,9 +8,10 @@
 #include "geom/polygon.h"
 #include "picture/draw_parts.h"
 
-static const float GAP = 0.04f, HEAD = 0.07f; /* of a panel's longer side: beside it; above it */
-static const float WANTED = 1.4f;             /* width over height of all panels together */
-static const float TREAD = 0.6f;              /* m between the lines across a flight */
+static const float GAP = 0.04f,
+                   HEAD = 0.07f;  /* shares of a panel's longer side: beside it; above it */
+static const float WANTED = 1.4f; /* width over height of all panels together */
+static const float TREAD = 0.6f;  /* m between the lines across a flight */
 
 /* Returns the size of a panel and what is around it, m. */
 static JoxV2 find_step(const JoxPicture *p) {

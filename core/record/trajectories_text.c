@@ -23,7 +23,7 @@ typedef struct Text {
     double unit, fps;       /* m, frames per second; 0: unknown */
     char separator;         /* ' ' stands for blanks and tabs */
     bool named;             /* a header line was read */
-    /* Of a column of storeys: their names or numbers as they come, and the storey of each row. */
+    /* A column of storeys: their names or numbers as they come, and the storey of each row. */
     char *storeys[JOX_MOST_STOREYS];
     uint32_t storey_count;
     uint16_t *storey;

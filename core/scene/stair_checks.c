@@ -14,7 +14,7 @@ static const float SHARPEST = -0.2f; /* cosine of the sharpest turn of a path */
 static const float SHARP = 0.85f;    /* of turns that have a landing, as in geom/storeys.c */
 static const float SHORTEST = 0.05f; /* m, of a part of a path */
 static const float LONGEST = 300.0f; /* m */
-static const float STEEPEST = 1.0f;  /* of any stair: 45 degrees */
+static const float STEEPEST = 1.0f;  /* slope of any stair: 45 degrees */
 static const float STEEP_RAMP = 1.0f / 6.0f; /* building codes allow 1:12 to 1:8 */
 static const float CLEAR_FRONT = 0.6f;       /* m before a foot or head that no wall may cross */
 

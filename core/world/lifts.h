@@ -12,7 +12,7 @@ typedef struct JoWorld JoWorld;
 /* Figures of a lift; no step reads them. */
 typedef struct JoxLiftFigures {
     uint64_t trips;      /* departures with people in the car */
-    uint64_t full_trips; /* of these: no room was left */
+    uint64_t full_trips; /* trips on which no room was left */
     uint64_t carried;    /* people who came in */
     uint64_t let_out;
     uint64_t left_behind; /* times that a person who waited found no room when the door closed */

@@ -222,7 +222,7 @@ static void firemen_fetch_storey_by_storey(void **state) {
         JoScene *scene = load_scene_text(text, RIDER("east.ground"));
         for (int n = 0; n < 4000 && get_figures(scene)->trips < 1; n++)
             step_scene(scene, 1);
-        assert_int_equal(count_on_storey(scene, k ? 2 : 1), 4); /* who wait still */
+        assert_int_equal(count_on_storey(scene, k ? 2 : 1), 4); /* they still wait */
         step_scene_seconds(scene, 150);
         assert_int_equal(count_on_storey(scene, 0), 8);
         jo_scene_free(scene);

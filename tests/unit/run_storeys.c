@@ -122,7 +122,7 @@ static void programs_read_and_write_points_in_plan(void **state) {
     const JoAgent agent = jo_world_agent_of(w, 3);
     const JoAgentState at = jo_agent_state(w, agent);
     assert_true(at.storey == 1 && at.y < 5.5);
-    /* Those on one storey are no neighbours of a point of another. */
+    /* People on one storey are no neighbours of a point of another. */
     assert_int_equal(jo_world_neighbours_on(w, 1, at.x, at.y, 10, ids, NULL, 16), 12);
     assert_int_equal(jo_world_neighbours_on(w, 0, at.x, at.y, 10, ids, NULL, 16), 0);
     assert_int_equal(jo_world_neighbours(w, at.x, at.y, 10, ids, NULL, 16), 0);

@@ -46,7 +46,7 @@ static void set_grid(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 
 }
 
 /* Fills a field whose grid is set. */
-static void make_field(JoxField *f, const JoxWalls *walls, const JoxPlace *places, uint32_t place,
+static void fill_field(JoxField *f, const JoxWalls *walls, const JoxPlace *places, uint32_t place,
                        float clearance, const JoxFieldCrowd *crowd, JoxFieldMarks **marks) {
     f->clearance = clearance > LEAST_CLEARANCE ? clearance : LEAST_CLEARANCE;
     size_t count = (size_t)f->columns * (size_t)f->rows;
@@ -71,7 +71,7 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     JoxField *f = jox_alloc(1, sizeof *f);
     if (!jox_has_storeys(storeys)) {
         set_grid(f, places, place, low, high, cell);
-        make_field(f, walls, places, place, clearance, crowd, marks);
+        fill_field(f, walls, places, place, clearance, crowd, marks);
         return f;
     }
     JoxWalls packed_walls = {0};
@@ -85,7 +85,7 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     jox_field_pack_walls(f, walls, &packed_walls);
     if (crowd)
         jox_field_pack_crowd(f, crowd, &packed_crowd);
-    make_field(f, &packed_walls, goal, 0, clearance, crowd ? &packed_crowd : NULL, marks);
+    fill_field(f, &packed_walls, goal, 0, clearance, crowd ? &packed_crowd : NULL, marks);
     jox_places_free_goal(goal, count);
     jox_walls_free(&packed_walls);
     jox_free(packed_crowd.at);
@@ -97,7 +97,7 @@ void jox_field_set_storeys(JoxField *f, const JoxStoreys *storeys) {
     if (!f || !jox_has_storeys(storeys))
         return;
     jox_field_lay_sheets(f, storeys);
-    if (f->rows != rows) { /* of other storeys: it leads nowhere */
+    if (f->rows != rows) { /* the field is of other storeys: unused */
         jox_free(f->sheets);
         f->sheets = NULL;
         f->rows = rows;

@@ -24,7 +24,7 @@ void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
     for (uint32_t t = 0; t < twins.count; t++)
         before[t] = w->slowness[twins.items[t].copy];
     SPREAD[jox_isa_resolve(crowd->isa)](w, crowd, open);
-    for (uint32_t t = 0; t < twins.count; t++) /* what spread over a seam acts on its other side */
+    for (uint32_t t = 0; t < twins.count; t++) /* slowness beyond a seam acts on its other side */
         before[t] = w->slowness[twins.items[t].copy] - before[t];
     for (uint32_t t = 0; t < twins.count; t++)
         w->slowness[twins.items[t].of] += before[t];

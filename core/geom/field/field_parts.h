@@ -69,7 +69,7 @@ struct JoxField {
     uint32_t *refs; /* edges near each cell, cell by cell */
     uint32_t ref_count;
     const JoxStoreys *storeys; /* borrowed; NULL: one plane */
-    JoxFieldSheet *sheets;     /* of each sheet; NULL: one plane */
+    JoxFieldSheet *sheets;     /* one per sheet; NULL: one plane */
 };
 
 /* Returns where a point lies in the grid. */

@@ -23,7 +23,7 @@ typedef struct JoxDangerStairs {
         uint32_t stair, from;
     } * people;
     uint32_t people_capacity;
-    const JoxStoreys *storeys; /* those of the last frame */
+    const JoxStoreys *storeys; /* storeys of the last frame */
 } JoxDangerStairs;
 
 /* Takes a frame; every frame. Does nothing in a world without storeys. */

@@ -49,7 +49,7 @@ void jox_cell_visible_area(const JoxCell *cell, JoxV2 at, const JoxBars *bars, c
    jox_sites_free frees it. */
 typedef struct JoxSites {
     const JoxBars *bars;       /* sites behind these are no neighbours; NULL: no walls */
-    const JoxStoreys *storeys; /* of images beyond seams; NULL: none */
+    const JoxStoreys *storeys; /* for images beyond seams; NULL: none */
     JoxV2 *points;
     uint32_t *person; /* number given by the caller */
     uint32_t *seam;   /* of images: 1 + the seam, from the person's side; 0: no image */
