@@ -114,18 +114,25 @@ uint32_t jo_world_path(JoWorld *world, double x, double y, const char *place, do
     return trace_way_to(world, x, y, place, xy, capacity, length);
 }
 
+/* Does the same as trace_way_to, with points in plan. */
+static uint32_t trace_way_in_plan(JoWorld *w, double x, double y, const char *place, JoWhere *out,
+                                  uint32_t capacity, double *length) {
+    double *xy = jox_alloc(2 * (size_t)capacity + 1, sizeof *xy);
+    const uint32_t count = trace_way_to(w, x, y, place, xy, capacity, length);
+    for (uint32_t k = 0; k < count && k < capacity; k++) {
+        const double *at = &xy[2 * (size_t)k];
+        out[k] = jox_world_where(w, (JoxV2){(float)at[0], (float)at[1]});
+    }
+    jox_free(xy);
+    return count;
+}
+
 uint32_t jo_world_path_on(JoWorld *world, uint32_t storey, double x, double y, const char *place,
                           JoWhere *out, uint32_t capacity, double *length) {
     JOX_REQUIRE(world && !world->busy && place && fabs(x) <= 1e4 && fabs(y) <= 1e4, 0);
     JOX_REQUIRE(jox_world_has_storey(world, storey) && (out || capacity == 0), 0);
     JOX_GUARD (world->heap, NULL)
         return 0;
-    double *xy = jox_alloc(2 * (size_t)capacity + 1, sizeof *xy);
-    const uint32_t count = trace_way_to(world, x, jox_world_move_to_storey(world, storey, y), place,
-                                        xy, capacity, length);
-    for (uint32_t k = 0; k < count && k < capacity; k++)
-        out[k] =
-            jox_world_where(world, (JoxV2){(float)xy[2 * (size_t)k], (float)xy[2 * (size_t)k + 1]});
-    jox_free(xy);
-    return count;
+    return trace_way_in_plan(world, x, jox_world_move_to_storey(world, storey, y), place, out,
+                             capacity, length);
 }
