@@ -8,6 +8,8 @@
 
 static const char YARD[] =
     "jostle: 1\n"
+    "storeys: {ground: {height: 0}, first: {height: 3}}\n"
+    "lifts: {east: {area: [[2, 16], [4, 18]], door: [[2.5, 16], [3.5, 16]]}}\n"
     "places:\n"
     "  yard: {polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]}\n"
     "  mid: {line: [[10, 0], [10, 20]]}\n"

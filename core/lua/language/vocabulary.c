@@ -84,7 +84,7 @@ const JoxWord jox_words[] = {
      "the agent, which steers by `ride`, is in the car, also while that moves", "riding"},
     {"in_use", "p", CONDITION, JOX_OP_IN_USE, 0, "in_use(place)", "",
      "the lift of the place, or one of a set, serves everybody's calls: it is neither out of use nor left to firemen. Agents "
-     "know it wherever they are, as of a sign", "in_use \"post\""},
+     "know it wherever they are, as of a sign", "in_use \"east.first\""},
     /* numbers */
     {"density", "p", NUMBER, JOX_OP_PLACE_DENSITY, 0, "density(place)", "1/m2",
      "people per square metre in a place; at a point, line or queue: within 2 m of it", "density \"yard\""},
@@ -208,7 +208,7 @@ const JoxWord jox_words[] = {
     {"ride", "p", STEER, JOX_STEER_RIDE, 0, "ride(place)", "",
      "in a lift to the storey of the place, which the key `lifts` of a scene makes for each of its storeys (`LIFT.STOREY`), "
      "or by the lift of a set that takes least time: to the door, where the agent calls the lift and waits beside the door; in, when it "
-     "is there, goes its way and has room; and out on that storey (see `rode`). It stands still where the place is no lift's", "ride \"post\""},
+     "is there, goes its way and has room; and out on that storey (see `rode`). It stands still where the place is no lift's", "ride \"east.first\""},
     {"along", "p", STEER, JOX_STEER_ALONG, 0, "along(place)", "",
      "in the direction of a line, or along a queue to its head", "along \"row\""},
     {"follow", "t?d", STEER, JOX_STEER_FOLLOW, 0, "follow(target [, metres])", "",

@@ -44,6 +44,7 @@ const JoxExample jox_scene_examples[] = {
     {"scene", OPENING
      "storeys: {ground: {height: 0}, first: {height: 3.5}}\n"
      "stairs: {north: {from: ground, to: first, path: [[4, 0], [10, 0]]}}\n"
+     "lifts: {east: {area: [[12, 5], [13.6, 6.8]], door: [[12.35, 5], [13.25, 5]]}}\n"
      STANDER},
     {"storey", OPENING
      "storeys:                       # from the lowest up\n"
@@ -317,6 +318,14 @@ const JoxExample jox_scene_examples[] = {
      "      luggage: {share: 2, set: {radius: 0.3, mass: 95, speed: 'normal(1.1, 0.15, 0.6, 1.5)'}}\n"
      "      wheelchair: {share: 0.5, set: {radius: 0.35, mass: 110, speed: 0.9}}\n"},
     {"step", OPENING
+     STOREYS
+     "lifts: {east: {area: [[12, 5], [13.6, 6.8]], door: [[12.35, 5], [13.25, 5]]}}\n"
+     "places:\n"
+     "  office: {polygon: [[0, 0], [8, 0], [8, 4], [0, 4]], storey: first}\n"
+     "  street: {line: [[-3, -5], [-3, 5]]}\n"
+     "groups:\n"
+     "  in wheelchairs: {count: 3, in: office, journey: [{ride: east.ground, firemen: true}, {exit: street}]}\n"},
+    {"step", OPENING
      "places:\n"
      "  hall: {polygon: [[0, 0], [20, 0], [20, 10], [0, 10]]}\n"
      "  gate_1: {queue: [[22, 3], [16, 3]]}\n"
@@ -385,6 +394,11 @@ const JoxExample jox_scene_examples[] = {
     {"oscillation", OPENING
      "include: running-through.yaml\n"
      "probes: {swirl: {oscillation: {area: [[-2, -2], [6, 6]], window: 2, span: 4}, every: 0.1}}\n"},
+    {"event", OPENING
+     STOREYS
+     "lifts: {east: {area: [[12, 5], [13.6, 6.8]], door: [[12.35, 5], [13.25, 5]]}}\n"
+     "events: [{at: 30, lift: east, mode: firemen}]\n"
+     STANDER},
     {"event", OPENING
      "walls:\n"
      "  - {line: [[0, 0], [0, 2]], name: gate}\n"
