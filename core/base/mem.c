@@ -166,6 +166,13 @@ void *jox_alloc(size_t count, size_t size) {
                        bytes);
 }
 
+void *jox_copy_array(const void *from, size_t count, size_t size) {
+    void *copy = jox_alloc(count + 1, size);
+    if (count)
+        memcpy(copy, from, count * size);
+    return copy;
+}
+
 void *jox_alloc_aligned(size_t count, size_t size) {
     const size_t bytes = compute_block_size(count, size, ALIGNMENT + sizeof(JoxBlock));
     char *start = count_allocation() ? allocate_zeroed_bytes(bytes) : NULL;

@@ -22,6 +22,9 @@ void *jox_alloc(size_t count, size_t size);
 void *jox_realloc(void *memory, size_t count, size_t size);
 /* As jox_alloc, aligned to 64 bytes. Freed by jox_free; cannot be reallocated. */
 void *jox_alloc_aligned(size_t count, size_t size);
+/* Copies an array into memory of its own, which holds one more item, zeroed. `from`: may be NULL if
+   `count` is 0. */
+void *jox_copy_array(const void *from, size_t count, size_t size);
 /* Frees memory of any heap, from any thread; NULL is fine. */
 void jox_free(void *memory);
 /* Copy a text. jox_strdup of NULL is NULL. */

@@ -382,16 +382,12 @@ int jox_place_find(const JoxPlace *places, uint32_t count, const char *name) {
 void jox_place_copy(JoxPlace *to, const JoxPlace *from) {
     *to = *from;
     to->name = jox_strdup(from->name);
-    to->points = jox_alloc((size_t)from->count + 1, sizeof *to->points);
-    to->members = jox_alloc((size_t)from->member_count + 1, sizeof *to->members);
+    to->points = jox_copy_array(from->points, from->count, sizeof *to->points);
+    to->members = jox_copy_array(from->members, from->member_count, sizeof *to->members);
     const size_t fours = from->boxes ? JOX_PLACE_FOURS(from->member_count) : 0;
     to->boxes = fours ? jox_alloc(fours, sizeof *to->boxes) : NULL;
     if (fours)
         memcpy(to->boxes, from->boxes, fours * sizeof *to->boxes);
-    if (from->count)
-        memcpy(to->points, from->points, from->count * sizeof *to->points);
-    if (from->member_count)
-        memcpy(to->members, from->members, from->member_count * sizeof *to->members);
 }
 
 void jox_place_free(JoxPlace *place) {

@@ -255,31 +255,25 @@ void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
 
 /* ---- memory ---- */
 
-static void *copy_items(const void *items, size_t count, size_t size) {
-    void *copy = jox_alloc(count + 1, size);
-    if (count)
-        memcpy(copy, items, count * size);
-    return copy;
-}
-
 void jox_storeys_copy(JoxStoreys *to, const JoxStoreys *from) {
     *to = *from;
-    to->storeys = copy_items(from->storeys, from->storey_count, sizeof *from->storeys);
-    to->stairs = copy_items(from->stairs, from->stair_count, sizeof *from->stairs);
-    to->sheets = copy_items(from->sheets, from->sheet_count, sizeof *from->sheets);
+    to->storeys = jox_copy_array(from->storeys, from->storey_count, sizeof *from->storeys);
+    to->stairs = jox_copy_array(from->stairs, from->stair_count, sizeof *from->stairs);
+    to->sheets = jox_copy_array(from->sheets, from->sheet_count, sizeof *from->sheets);
     to->sheet_stairs =
-        copy_items(from->sheet_stairs, from->sheets ? from->stair_count : 0, sizeof(uint32_t));
-    to->seams = copy_items(from->seams, from->seam_count, sizeof *from->seams);
-    to->flights = copy_items(from->flights, from->flight_count, sizeof *from->flights);
+        jox_copy_array(from->sheet_stairs, from->sheets ? from->stair_count : 0, sizeof(uint32_t));
+    to->seams = jox_copy_array(from->seams, from->seam_count, sizeof *from->seams);
+    to->flights = jox_copy_array(from->flights, from->flight_count, sizeof *from->flights);
     for (uint32_t k = 0; k < to->storey_count; k++)
         to->storeys[k].name = jox_strdup(from->storeys[k].name);
     for (uint32_t k = 0; k < to->stair_count; k++) {
         const JoxStair *st = &from->stairs[k];
         to->stairs[k].name = jox_strdup(st->name);
-        to->stairs[k].path = copy_items(st->path, st->path_count, sizeof *st->path);
-        to->stairs[k].landings = copy_items(st->landings, st->landing_count, sizeof *st->landings);
+        to->stairs[k].path = jox_copy_array(st->path, st->path_count, sizeof *st->path);
+        to->stairs[k].landings =
+            jox_copy_array(st->landings, st->landing_count, sizeof *st->landings);
         to->stairs[k].outline =
-            copy_items(st->outline, st->outline ? 2 * st->path_count : 0, sizeof *st->outline);
+            jox_copy_array(st->outline, st->outline ? 2 * st->path_count : 0, sizeof *st->outline);
     }
 }
 
@@ -431,6 +425,15 @@ const JoxSeam *jox_find_seam_between(const JoxStoreys *s, JoxV2 from, JoxV2 to) 
         if (s->seams[k].there == there && jox_seam_lets_see(&s->seams[k], from_plan, to_plan))
             return &s->seams[k];
     return NULL;
+}
+
+bool jox_leads_off_sheet(const JoxStoreys *s, JoxV2 from, JoxV2 to) {
+    const uint32_t here = jox_sheet_of(s, from.y);
+    const JoxSheet *on = &s->sheets[here];
+    bool leaves = jox_sheet_of(s, to.y) != here;
+    for (uint32_t k = on->first_seam; !leaves && k < on->first_seam + on->seam_count; k++)
+        leaves = jox_seam_lets_see(&s->seams[k], jox_in_plan(s, from), jox_in_plan(s, to));
+    return leaves;
 }
 
 bool jox_plan_offset(const JoxStoreys *s, JoxV2 from, JoxV2 to, JoxV2 *offset) {

@@ -169,6 +169,8 @@ static inline bool jox_seam_lets_see(const JoxSeam *seam, JoxV2 from_plan, JoxV2
 /* Returns the seam through which two positions see each other, seen from the first: NULL if they
    are on one sheet, or none joins their sheets in line. */
 const JoxSeam *jox_find_seam_between(const JoxStoreys *storeys, JoxV2 from, JoxV2 to);
+/* Returns whether the straight way between two positions leaves the sheet of the first. */
+bool jox_leads_off_sheet(const JoxStoreys *storeys, JoxV2 from, JoxV2 to);
 /* Sets *offset to the way from one position to another, m in plan: straight on one sheet, else over
    a seam through which they see each other. Returns false if there is none. */
 bool jox_plan_offset(const JoxStoreys *storeys, JoxV2 from, JoxV2 to, JoxV2 *offset);

@@ -214,7 +214,7 @@ static void create_fields(JoxRender *r) {
     if (r->scene)
         jox_run_collect_danger_in(r->scene, p->low, p->high);
     else
-        r->danger = jox_danger_create(p->low, p->high, NULL);
+        r->danger = jox_danger_create(p->low, p->high, p->storeys);
 }
 
 /* Measures the density of the current frame on the grid and at each person. */

@@ -150,7 +150,7 @@ static bool begin_danger(void *self, JoScene *scene, const void *options, JoErro
     const DangerArea *area = options;
     (void)error;
     JoxDanger *danger = *(JoxDanger **)self =
-        area ? jox_danger_create(area->low, area->high, NULL)
+        area ? jox_danger_create(area->low, area->high, scene->world->state.agents.storeys)
              : jox_danger_create_on(find_collector(scene, &LOCAL));
     jox_danger_add_plan(danger, scene->spec->places, scene->spec->place_count, scene->spec->probes,
                         scene->spec->probe_count);

@@ -184,6 +184,28 @@ static void who_leaves_the_plan_is_reported(void **state) {
     jo_scene_free(scene);
 }
 
+/* `seek` leads over stairs to a place on another storey, and straight on the storey of the place.
+ */
+static void seekers_climb_stairs(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(
+        "jostle: 1\nstoreys: {ground: {height: 0}, first: {height: 3}}\n"
+        "stairs: {up: {from: ground, to: first, path: [[8, 3], [13, 3]], width: 1.4}}\n"
+        "walls: [{line: [[0, 0], [20, 0], [20, 12], [0, 12]], closed: true, "
+        "storey: [ground, first]}]\n"
+        "places: {desk: {point: [4, 9], storey: first}}\n"
+        "groups: {g: {behaviour: own.lua, at: [[3, 3], [4, 9]], storey: ground}}\n",
+        MACHINE_START "\"A\", states = { A = { steer = seek \"desk\", speed = 1.3 } } }\n");
+    const JoWorld *w = scene->world;
+    step_scene_seconds(scene, 60);
+    for (uint32_t i = 0; i < 2; i++) {
+        const JoxV2 at = {w->state.agents.x[i], w->state.agents.y[i]};
+        assert_int_equal(jox_sheet_of(&w->model.storeys, at.y), 1);
+        assert_true(jox_length(jox_sub(at, w->model.places[0].centre)) < 1.0f);
+    }
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stairs_one_above_the_other_empty_a_tower),
@@ -191,6 +213,7 @@ int main(void) {
         cmocka_unit_test(edits_that_move_sheets_wait),
         cmocka_unit_test(programs_read_and_write_points_in_plan),
         cmocka_unit_test(who_leaves_the_plan_is_reported),
+        cmocka_unit_test(seekers_climb_stairs),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -32,13 +32,6 @@ void jox_field_marks_free(JoxFieldMarks *m) {
     jox_free(m);
 }
 
-static void *duplicate_array(const void *from, size_t count, size_t size) {
-    void *to = jox_alloc(count + 1, size);
-    if (count)
-        memcpy(to, from, count * size);
-    return to;
-}
-
 static bool matches_field(const JoxFieldMarks *m, const JoxField *f) {
     return m->low.x == f->low.x && m->low.y == f->low.y && m->size == f->size &&
            m->clearance == f->clearance && m->columns == f->columns && m->rows == f->rows &&
@@ -52,12 +45,12 @@ bool jox_field_recall(JoxFieldWork *w, const JoxFieldMarks *m) {
     if (!m || !matches_field(m, f))
         return false;
     f->ref_count = m->ref_count;
-    f->refs = duplicate_array(m->refs, m->ref_count, sizeof *f->refs);
+    f->refs = jox_copy_array(m->refs, m->ref_count, sizeof *f->refs);
     memcpy(w->slowness, m->slowness, count * sizeof *w->slowness);
     for (size_t i = 0; i < count; i++)
         f->cells[i].patch = m->patch[i];
     f->patch_count = f->patch_capacity = m->patch_count;
-    f->patches = duplicate_array(m->patches, m->patch_count, sizeof *f->patches);
+    f->patches = jox_copy_array(m->patches, m->patch_count, sizeof *f->patches);
     w->walled = m->walled;
     return true;
 }
@@ -78,12 +71,12 @@ void jox_field_remember(const JoxFieldWork *w, JoxFieldMarks **marks) {
                          .ref_count = f->ref_count,
                          .patch_count = f->patch_count,
                          .walled = w->walled};
-    m->edges = duplicate_array(f->edges, f->edge_count, sizeof *f->edges);
-    m->refs = duplicate_array(f->refs, f->ref_count, sizeof *f->refs);
-    m->slowness = duplicate_array(w->slowness, count, sizeof *w->slowness);
+    m->edges = jox_copy_array(f->edges, f->edge_count, sizeof *f->edges);
+    m->refs = jox_copy_array(f->refs, f->ref_count, sizeof *f->refs);
+    m->slowness = jox_copy_array(w->slowness, count, sizeof *w->slowness);
     m->patch = jox_alloc(count, sizeof *m->patch);
     for (size_t i = 0; i < count; i++)
         m->patch[i] = f->cells[i].patch;
-    m->patches = duplicate_array(f->patches, f->patch_count, sizeof *m->patches);
+    m->patches = jox_copy_array(f->patches, f->patch_count, sizeof *m->patches);
     *marks = m;
 }

@@ -43,43 +43,26 @@ static void steer_along(const JoxMachineRun *run, const int32_t *places, JoxStee
     }
 }
 
-/* Returns whether no part of a place is on the storey, or the stair, where a point is. */
-static bool is_elsewhere(const JoxMachineRun *run, int32_t index, JoxV2 at) {
-    const JoxStoreys *s = run->agents->storeys;
+/* Returns whether the straight way to a place leads off the storey, or the stair, where a point is.
+ */
+static bool leads_elsewhere(const JoxMachineRun *run, int32_t index, JoxV2 at) {
     const JoxPlace *place = &run->places[index];
-    bool elsewhere = place->count == 0 || jox_sheet_of(s, place->centre.y) != jox_sheet_of(s, at.y);
-    for (uint32_t k = 0; k < place->member_count && elsewhere; k++)
-        elsewhere = is_elsewhere(run, place->members[k], at);
-    return elsewhere;
+    return (place->count == 0 && place->member_count == 0) ||
+           jox_leads_off_sheet(run->agents->storeys, at,
+                               jox_place_nearest(run->places, (uint32_t)index, at));
 }
 
-/* Returns the way over stairs to a place on another storey; (0, 0) until it is known, and where
-   none leads. */
-static JoxV2 find_way_over_stairs(const JoxMachineRun *run, int32_t place, JoxV2 at) {
-    const uint32_t kind = JOX_ROUTE_NOW;
-    if (!run->fields)
-        return (JoxV2){0.0f, 0.0f};
-    __atomic_fetch_or(&run->wanted[place], (uint8_t)(1u << kind), __ATOMIC_RELAXED);
-    const JoxField *field = run->fields[(uint32_t)place * JOX_ROUTE_KINDS + kind];
-    return field ? jox_field_direction(field, at) : (JoxV2){0.0f, 0.0f};
-}
-
-static void steer_seek_batch(const JoxMachineRun *run, const int32_t *places, int32_t target,
-                             JoxSteer *s) {
+/* Directs the agents of a batch straight to their targets; those with `away` not -1 keep the way
+   that they have. */
+static void steer_straight(const JoxMachineRun *run, const int32_t *places, const int32_t *away,
+                           int32_t target, JoxSteer *s) {
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
-        const JoxV2 at = {run->agents->x[s->index[n]], run->agents->y[s->index[n]]};
-        if (place && run->agents->storeys && is_elsewhere(run, places[n], at)) {
-            const JoxV2 over = find_way_over_stairs(run, places[n], at);
-            s->arrives[n] = 0;
-            s->to_x[n] = s->to_y[n] = 0.0f;
-            s->way_x[n] = over.x;
-            s->way_y[n] = over.y;
-            continue;
-        }
-        const bool arrives = place && jox_place_is_spot(place);
+        const bool arrives = place && away[n] < 0 && jox_place_is_spot(place);
         JoxV2 way = {0.0f, 0.0f}, to = {0.0f, 0.0f};
-        if (arrives)
+        if (away[n] >= 0)
+            way = (JoxV2){s->way_x[n], s->way_y[n]};
+        else if (arrives)
             to = place->centre;
         else if (jox_weight_counts(s->by[n]))
             way = jox_steer_seek(run, s->index[n], target);
@@ -95,8 +78,20 @@ void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const 
                      JoxSteer *s) {
     int32_t places[JOX_BATCH];
     jox_target_places(run, machine, term->target, s->index, s->count, places);
-    if (term->kind == JOX_STEER_ALONG)
+    if (term->kind == JOX_STEER_ALONG) {
         steer_along(run, places, s);
-    else
-        steer_seek_batch(run, places, term->target, s);
+        return;
+    }
+    int32_t away[JOX_BATCH]; /* places that stairs lead to */
+    bool any = false;
+    for (uint32_t n = 0; n < s->count; n++) {
+        const JoxV2 at = {run->agents->x[s->index[n]], run->agents->y[s->index[n]]};
+        const bool is_away =
+            places[n] >= 0 && run->agents->storeys && leads_elsewhere(run, places[n], at);
+        away[n] = is_away ? places[n] : -1;
+        any |= is_away;
+    }
+    if (any) /* over stairs, as flow leads */
+        jox_steer_to_places(run, term, s, away);
+    steer_straight(run, places, away, term->target, s);
 }

@@ -37,7 +37,7 @@ typedef struct Making {
     JoxV2 low, high;
     float cell, clearance; /* m */
     JoxFieldCrowd crowd;
-    const JoxStoreys *storeys; /* of the world; NULL: one plane */
+    const JoxStoreys *storeys; /* the world's storeys; NULL: one plane */
     JoxStoreys
         stairs; /* the same, with a copy of the stairs: which are closed may change meanwhile */
     bool keeps_marks;
@@ -195,9 +195,7 @@ static void copy_stairs(const JoxStoreys *storeys, Making *making) {
     if (!storeys)
         return;
     making->stairs = *storeys;
-    making->stairs.stairs = jox_alloc((size_t)storeys->stair_count + 1, sizeof(JoxStair));
-    if (storeys->stair_count)
-        memcpy(making->stairs.stairs, storeys->stairs, storeys->stair_count * sizeof(JoxStair));
+    making->stairs.stairs = jox_copy_array(storeys->stairs, storeys->stair_count, sizeof(JoxStair));
 }
 
 /* Copies all that a field is made of. `before`: the field that it replaces, or NULL. */
