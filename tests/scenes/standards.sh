@@ -15,7 +15,7 @@ grep -q 'plan-N4.1.png' "$page" && [ -s "$work/rep/plan-N4.1.png" ]; verdict "ea
 grep -q '<td>IMO MSC.1/Circ.1533<td class=n>4<td class=n>4<td class=n>0' "$page"; verdict "the tests of a standard are counted" $?
 grep -q 'Wrong input, with which the test must fail: the first exit is shut only when all have left' "$page" && grep -q '<td class=n>20, fails' "$page"; verdict "each test has its wrong input" $?
 grep -q 'Verdicts of quick runs are not the published ones. Cut to fewer seeds or shorter runs: [^<]*R5' "$page"; verdict "the page says which quick tests were cut" $?
-grep -q '2.2 (stairs)' "$page"; verdict "tests that are not covered are named" $?
+grep -q '2.5 and 2.6 (smoke)' "$page"; verdict "tests that are not covered are named" $?
 says "a group runs its claims" 0 "N2.10  NIST 2.10" "$JOSTLE" reproduce nist --list
 says "standards runs the tests of all standards" 0 "R16  RiMEA 16" "$JOSTLE" reproduce --standards --list
 "$JOSTLE" reproduce --standards --list 2>/dev/null | grep -q '^B1 '; verdict "and no others" $((1 - $?))

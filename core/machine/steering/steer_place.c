@@ -52,15 +52,16 @@ static bool leads_elsewhere(const JoxMachineRun *run, int32_t index, JoxV2 at) {
                                jox_place_nearest(run->places, (uint32_t)index, at));
 }
 
-/* Directs the agents of a batch straight to their targets; those with `away` not -1 keep the way
-   that they have. */
+/* Directs the agents of a batch straight to their targets; those whose place is `away` keep the way
+   that they have. `away` is NULL in a world of one sheet. */
 static void steer_straight(const JoxMachineRun *run, const int32_t *places, const int32_t *away,
                            int32_t target, JoxSteer *s) {
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxPlace *place = places[n] < 0 ? NULL : &run->places[places[n]];
-        const bool arrives = place && away[n] < 0 && jox_place_is_spot(place);
+        const bool is_away = away && away[n] >= 0;
+        const bool arrives = place && !is_away && jox_place_is_spot(place);
         JoxV2 way = {0.0f, 0.0f}, to = {0.0f, 0.0f};
-        if (away[n] >= 0)
+        if (is_away)
             way = (JoxV2){s->way_x[n], s->way_y[n]};
         else if (arrives)
             to = place->centre;
@@ -82,12 +83,15 @@ void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const 
         steer_along(run, places, s);
         return;
     }
-    int32_t away[JOX_BATCH]; /* places that stairs lead to */
+    if (!run->agents->storeys) {
+        steer_straight(run, places, NULL, term->target, s);
+        return;
+    }
+    int32_t away[JOX_BATCH]; /* places that stairs lead to, else -1 */
     bool any = false;
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxV2 at = {run->agents->x[s->index[n]], run->agents->y[s->index[n]]};
-        const bool is_away =
-            places[n] >= 0 && run->agents->storeys && leads_elsewhere(run, places[n], at);
+        const bool is_away = places[n] >= 0 && leads_elsewhere(run, places[n], at);
         away[n] = is_away ? places[n] : -1;
         any |= is_away;
     }
