@@ -6,11 +6,14 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
+#include "base/text.h"
 #include "geom/polygon.h"
 
 static const float WIDEST = 0.7f;   /* m: between riders where there is room */
 static const float CLOSEST = 0.25f; /* m */
 static const float TIGHTER = 0.95f; /* from one spacing to the next that is tried */
+
+const char *const jox_lift_mode_names[] = {"in_use", "out_of_use", "firemen"};
 
 bool jox_lift_contains(const JoxLift *lift, JoxV2 plan) {
     return jox_is_within(plan, lift->low, lift->high) &&
@@ -170,6 +173,12 @@ void jox_lift_add_walls(const JoxLift *lift, const JoxStoreys *storeys, JoxWalls
 }
 
 /* ---- memory ---- */
+
+char *jox_lift_stop_name(const char *lift, const char *storey) {
+    JoxText name = {0};
+    jox_text_printf(&name, "%.100s.%.100s", lift, storey);
+    return name.data;
+}
 
 void jox_lift_copy(JoxLift *to, const JoxLift *from) {
     *to = *from;

@@ -49,6 +49,19 @@ typedef struct JoxLift {
     uint32_t spot_count;
 } JoxLift;
 
+/* A car at one moment, of a run or a recording. */
+typedef struct JoxCarLook {
+    float height;    /* m: elevation of its floor */
+    float open;      /* share of the door's width that is open, 0 to 1 */
+    uint32_t stop;   /* stop on whose storey its riders are: where it stands, or which it left */
+    uint32_t people; /* in the car */
+    uint32_t mode;   /* JoxLiftMode */
+} JoxCarLook;
+
+/* Names of modes in scenes and messages, by JoxLiftMode: "in_use", ... */
+extern const char *const jox_lift_mode_names[];
+enum { JOX_LIFT_MODES = 3 };
+
 /* Lays a lift out for storeys that are laid out: doors, heights and spots, at least as many as the
    capacity. Call it once all members above "Laid out" are set. */
 void jox_lift_lay_out(JoxLift *lift, const JoxStoreys *storeys);
@@ -61,6 +74,8 @@ bool jox_lift_contains(const JoxLift *lift, JoxV2 plan);
 double jox_lift_travel_time(const JoxLift *lift, double metres);
 /* Returns the stop at a storey, or -1. */
 int32_t jox_lift_stop_at(const JoxLift *lift, uint32_t storey);
+/* Returns the name of a stop, "LIFT.STOREY", which the caller frees. */
+char *jox_lift_stop_name(const char *lift, const char *storey);
 /* Copies a lift that is not laid out into memory of its own; frees one. */
 void jox_lift_copy(JoxLift *to, const JoxLift *from);
 void jox_lift_free(JoxLift *lift);

@@ -9,11 +9,12 @@
 #include "base/format/json_writer.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "geom/lifts.h"
 #include "geom/walls.h"
 #include "jostle_tools.h"
 
 /* Version of the messages: a page that was loaded with another version reloads itself. */
-enum { JOX_LIVE_PROTOCOL = 6 };
+enum { JOX_LIVE_PROTOCOL = 7 };
 
 /* A growing byte buffer; zero-initialise, set `length = 0` to reuse, free by jox_bytes_free. */
 typedef struct JoxBytes {
@@ -144,8 +145,9 @@ void jox_live_field(JoScene *scene, JoxLiveField field, JoxLiveScales *scales, J
 
 /* ---- packing of crowds, running or recorded ---- */
 
-/* Bytes of a frame's head, of a slot and of a body; the state of an empty slot. */
-enum { JOX_LIVE_HEAD = 48, JOX_LIVE_SLOT = 8, JOX_LIVE_BODY = 20, JOX_LIVE_NOBODY = 255 };
+/* Bytes of a frame's head, of a slot, of a body and of a lift's car; the state of an empty slot. */
+enum { JOX_LIVE_HEAD = 48, JOX_LIVE_SLOT = 8, JOX_LIVE_BODY = 20, JOX_LIVE_CAR = 8 };
+enum { JOX_LIVE_NOBODY = 255 };
 /* State of people whose state is not in the scene message's list. */
 enum { JOX_LIVE_OTHER_STATE = 254 };
 /* The flags byte of a slot. Bit 0 flips when the position jumps (a new person in the slot, a
@@ -209,6 +211,8 @@ void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, Jox
    `slots`: the crowd's, as the frame was packed. */
 void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 at,
                        const float turn[4]);
+/* Appends the cars of lifts to a packed frame. */
+void jox_live_add_cars(JoxBytes *frame, const JoxCarLook *cars, uint32_t count);
 /* Writes radii and groups by slot over those in `out`; true if a byte of them changed. */
 bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out);
 
@@ -234,6 +238,8 @@ void jox_live_free_grid(JoxLiveGrid *grid);
 
 /* Adds the member "walls" of a scene message, an array of chains. */
 void jox_live_add_walls(const JoxWalls *walls, JoxJson *json);
+/* Adds the member "lifts" of a scene message, an array of lifts that are laid out. */
+void jox_live_add_lifts(const JoxLift *lifts, uint32_t count, JoxJson *json);
 /* Adds the member "walls" of a status, an object: for each name of a wall, whether it is open. */
 void jox_live_add_gates(const JoxWalls *walls, JoxJson *json);
 /* Adds the member "colours", an object: unit and greatest value by name of a colour. */

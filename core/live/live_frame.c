@@ -266,6 +266,8 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxLiveScales *scales,
                               .scales = scales};
     jox_live_pack_frame(&head, &crowd, colour, out);
     pack_scene_bodies(scene, a->slot_count, out);
+    const JoxFrame *frame = jox_run_present_frame(scene, 0);
+    jox_live_add_cars(out, frame->cars, frame->lift_count);
 }
 
 bool jox_live_people(JoScene *scene, JoxBytes *out) {

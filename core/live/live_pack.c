@@ -210,6 +210,19 @@ void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 posi
         at = put16(at, (uint16_t)(int16_t)lrintf(jox_clampf(turn[i], -1.0f, 1.0f) * 32767.0f));
 }
 
+void jox_live_add_cars(JoxBytes *frame, const JoxCarLook *cars, uint32_t count) {
+    const size_t before = frame->length;
+    resize_bytes(frame, before + (size_t)count * JOX_LIVE_CAR);
+    uint8_t *at = frame->data + before;
+    for (uint32_t l = 0; l < count; l++) {
+        at = put_float(at, cars[l].height);
+        *at++ = (uint8_t)(jox_clampf(cars[l].open, 0.0f, 1.0f) * 255.0f + 0.5f);
+        *at++ = (uint8_t)cars[l].stop;
+        *at++ = (uint8_t)(cars[l].people < 255 ? cars[l].people : 255);
+        *at++ = (uint8_t)cars[l].mode;
+    }
+}
+
 /* ---- people ---- */
 
 /* Sizes the message for `slots` of `person` bytes each and writes its head. Bytes of slots that

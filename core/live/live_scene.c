@@ -84,6 +84,29 @@ void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxJson *json) 
     jox_json_end(json);
 }
 
+void jox_live_add_lifts(const JoxLift *lifts, uint32_t count, JoxJson *json) {
+    jox_json_array(json, "lifts");
+    for (uint32_t l = 0; l < count; l++) {
+        const JoxLift *lift = &lifts[l];
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", lift->name);
+        jox_json_whole(json, "capacity", lift->capacity);
+        add_points(json, "outline", lift->outline, lift->point_count);
+        jox_json_array(json, "stops");
+        for (uint32_t s = 0; s < lift->stop_count; s++) {
+            jox_json_object(json, NULL);
+            jox_json_whole(json, "storey", lift->stops[s].storey);
+            jox_json_digits(json, "height", (double)lift->stops[s].height, DIGITS);
+            jox_json_string(json, "wall", lift->stops[s].name);
+            add_points(json, "door", lift->stops[s].door, 2);
+            jox_json_end(json);
+        }
+        jox_json_end(json);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
 void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson *json) {
     jox_json_object(json, "regions");
     for (uint32_t r = 0; r < count; r++)
@@ -350,6 +373,7 @@ void jox_live_scene(JoScene *scene, bool restarts, JoxText *out) {
     jox_live_add_head(&head, &json);
     jox_live_add_walls(&world->model.all_walls, &json);
     jox_live_add_places(world->model.places, scene->world->model.scene_places, &json);
+    jox_live_add_lifts(world->model.lifts, world->model.lift_count, &json);
     jox_live_add_regions(spec->regions, spec->region_count, &json);
     add_scene_groups(&json, spec);
     add_scene_states(&json, &world->machines);

@@ -53,6 +53,18 @@ static void add_flows_and_gates(JoxJson *json, const JoScene *scene) {
     jox_live_add_gates(&scene->world->model.all_walls, json);
 }
 
+/* Adds "lifts": of each, the people who wait for it and those whom it let out. */
+static void add_lift_counts(JoxJson *json, const JoWorld *world) {
+    jox_json_array(json, "lifts");
+    for (uint32_t l = 0; l < world->model.lift_count; l++) {
+        jox_json_object(json, NULL);
+        jox_json_whole(json, "waiting", jox_world_lift_waiting(world, l));
+        jox_json_whole(json, "let_out", world->state.lifts.figures[l].let_out);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
 /* Adds "hints": parts of behaviours that had no effect so far, a sentence each with file and
    line. */
 static void add_hints(JoxJson *json, const JoScene *scene) {
@@ -122,6 +134,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     jox_json_digits(&json, "density_r", (double)jox_live_density_r(&live->grid), 3);
     add_costs(&json, live, scene);
     add_flows_and_gates(&json, scene);
+    add_lift_counts(&json, world);
     add_hints(&json, scene);
     jox_json_string(&json, "broke", session->broke);
     jox_live_add_end(scene, session, &json);

@@ -60,21 +60,21 @@ static void make_bodies(JoxReplay *r) {
     }
 }
 
-static uint32_t choose_walls_frame(const JoxReplay *r) {
+static uint32_t choose_shown_frame(const JoxReplay *r) {
     return r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown;
 }
 
 const JoxWalls *jox_replay_walls(const JoxReplay *r) {
     return r->spec && !r->info.has_walls
                ? &r->spec->walls
-               : jox_trajectory_reader_walls(r->reader, choose_walls_frame(r));
+               : jox_trajectory_reader_walls(r->reader, choose_shown_frame(r));
 }
 
 /* Walls that stand in the shown frame: without open gates. */
 static const JoxWalls *find_standing_walls(const JoxReplay *r) {
     return r->spec && !r->info.has_walls
                ? &r->spec->walls
-               : jox_trajectory_reader_standing(r->reader, choose_walls_frame(r));
+               : jox_trajectory_reader_standing(r->reader, choose_shown_frame(r));
 }
 
 /* Extends the area to hold the recording's bounds, walls and places. */
@@ -292,6 +292,8 @@ void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxLiveScales *scales,
                               .scales = scales};
     jox_live_pack_frame(&head, &crowd, colour, out);
     pack_recorded_bodies(r, out);
+    jox_live_add_cars(out, jox_trajectory_reader_cars(r->reader, choose_shown_frame(r)),
+                      r->info.lift_count);
 }
 
 bool jox_replay_people(const JoxReplay *r, JoxBytes *out) {

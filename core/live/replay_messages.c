@@ -128,6 +128,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     jox_live_add_head(&head, &json);
     jox_live_add_walls(jox_replay_walls(r), &json);
     jox_live_add_places(look->places, look->place_count, &json);
+    jox_live_add_lifts(r->info.lifts, r->info.lift_count, &json);
     jox_live_add_regions(spec ? spec->regions : NULL, spec ? spec->region_count : 0, &json);
     jox_json_bool(&json, "periodic", r->period.x > 0.0f || r->period.y > 0.0f);
     add_recorded_names(&json, r);
@@ -199,5 +200,7 @@ void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double facto
         jox_json_object(&json, UNKNOWN[u]);
         jox_json_end(&json);
     }
+    jox_json_array(&json, "lifts");
+    jox_json_end(&json);
     jox_json_end(&json);
 }

@@ -268,6 +268,7 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     jox_draw_field(d);
     if (d->panels.storeys)
         jox_draw_stairs(d);
+    jox_draw_lifts(d);
     draw_places(d);
     draw_trails(d);
     draw_walls(d);

@@ -124,6 +124,9 @@ typedef struct JoxPicture {
     float radius;    /* m: of every person, used if the frame has no radii */
     JoxV2 low, high; /* m: lower and upper corner of the area shown; with storeys, in plan */
     const JoxStoreys *storeys; /* each is drawn in a panel of its own; NULL: one plane */
+    const JoxLift *lifts;      /* laid out */
+    uint32_t lift_count;
+    const JoxCarLook *cars; /* one for each lift; NULL: shafts alone are drawn */
 } JoxPicture;
 
 /* Choose a picture's size in pixels, both even, for its area and storeys. The second is for a panel

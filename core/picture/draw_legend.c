@@ -239,6 +239,11 @@ static void write_symbol_rows(Legend *l) {
                                       jox_ink_with(jox_ink_place, 0.6f), 0.8f * u, 0});
         write_legend_row(l, "place", "");
     }
+    if (p->lift_count && p->cars) {
+        draw_box_symbol(l, (JoxStyle){jox_ink_with(jox_ink_place, 0.18f),
+                                      jox_ink_with(jox_ink_place, 0.9f), 1.2f * u, 0});
+        write_legend_row(l, "car of a lift", "");
+    }
     if (p->exit_count) {
         draw_box_symbol(l,
                         (JoxStyle){jox_ink_with(jox_ink_exit, 0.14f), jox_ink_exit, 1.6f * u, 0});

@@ -141,6 +141,36 @@ void jox_draw_probes(JoxDrawing *d) {
     jox_canvas_close(d->canvas);
 }
 
+/* Returns whether a place or gate is a lift's: the lift's own name stands for both. */
+static bool is_of_lift(const JoxPicture *p, const char *name) {
+    for (uint32_t l = 0; l < p->lift_count; l++)
+        for (uint32_t s = 0; s < p->lifts[l].stop_count; s++)
+            if (p->lifts[l].stops[s].name && strcmp(p->lifts[l].stops[s].name, name) == 0)
+                return true;
+    return false;
+}
+
+/* Returns where a lift's name goes on a storey, m: beside the shaft, opposite to its door. */
+static JoxV2 find_lift_name_spot(const JoxDrawing *d, const JoxLift *lift,
+                                 const JoxLiftStop *stop) {
+    const JoxV2 size = jox_sub(lift->high, lift->low);
+    const JoxV2 middle = jox_scale(jox_add(lift->low, lift->high), 0.5f);
+    const float text = 12 * d->unit, half = 0.5f * jox_draw_text_width(lift->name, text, false);
+    const float away = (fabsf(stop->out.x) * half + fabsf(stop->out.y) * 0.6f * text) / d->scale +
+                       0.5f * (fabsf(stop->out.x) * size.x + fabsf(stop->out.y) * size.y);
+    return jox_on_sheet(d->picture->storeys, stop->storey,
+                        jox_sub(middle, jox_scale(stop->out, away)));
+}
+
+/* Writes the name of each lift on the storeys that it serves. */
+static void write_lift_names(JoxDrawing *d, JoxInk ink) {
+    const JoxPicture *p = d->picture;
+    for (uint32_t l = 0; p->storeys && l < p->lift_count; l++)
+        for (uint32_t s = 0; s < p->lifts[l].stop_count; s++)
+            write_map_name(d, find_lift_name_spot(d, &p->lifts[l], &p->lifts[l].stops[s]),
+                           p->lifts[l].name, false, ink);
+}
+
 void jox_draw_names(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     JoxStyle style = {
@@ -149,7 +179,8 @@ void jox_draw_names(JoxDrawing *d) {
     jox_canvas_open(d->canvas, NULL, "gates", style);
     bool closed;
     for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
-        if (p->walls->rings[r].name && jox_draw_ring_points(p->walls, r, &closed))
+        if (p->walls->rings[r].name && !is_of_lift(p, p->walls->rings[r].name) &&
+            jox_draw_ring_points(p->walls, r, &closed))
             write_map_name(d, find_gate_name_spot(d, &p->walls->rings[r]), p->walls->rings[r].name,
                            false, jox_ink_gate);
     jox_canvas_close(d->canvas);
@@ -159,11 +190,15 @@ void jox_draw_names(JoxDrawing *d) {
         jox_canvas_open(d->canvas, NULL, exits ? "exits" : "places", style);
         for (uint32_t i = 0; i < p->place_count; i++) {
             const JoxPlace *place = &p->places[i];
-            if (place->count && place->name && jox_draw_is_exit(p, place->name) == exits)
+            if (place->count && place->name && !is_of_lift(p, place->name) &&
+                jox_draw_is_exit(p, place->name) == exits)
                 write_map_name(d, find_place_name_spot(d, place), place->name, exits, style.fill);
         }
         jox_canvas_close(d->canvas);
     }
+    jox_canvas_open(d->canvas, NULL, "lifts", style); /* in the colour of places */
+    write_lift_names(d, style.fill);
+    jox_canvas_close(d->canvas);
     style.fill = jox_ink_probe;
     jox_canvas_open(d->canvas, NULL, "probes", style);
     for (uint32_t i = 0; i < p->probe_count; i++)

@@ -59,7 +59,11 @@ JoxV2 jox_draw_in_panel(const JoxPanels *panels, uint32_t panel, JoxV2 plan);
 JoxV2 jox_draw_in_panels(const JoxPanels *panels, JoxV2 at);
 void jox_draw_panel_floors(JoxDrawing *drawing, JoxInk ground);
 void jox_draw_panel_fields(JoxDrawing *drawing, const uint8_t *levels, const JoxInk *ink);
+/* Converts a point of the plan on a storey to pixels. */
+JoxV2 jox_draw_plan_pixels(const JoxDrawing *drawing, uint32_t storey, JoxV2 plan);
 void jox_draw_stairs(JoxDrawing *drawing);
+/* draw_lifts.c: draws the shafts and cars of lifts. */
+void jox_draw_lifts(JoxDrawing *drawing);
 
 /* Converts a point of the picture's own plane, m, to pixels. */
 static inline JoxV2 jox_draw_panel_pixels(const JoxDrawing *d, JoxV2 p) {

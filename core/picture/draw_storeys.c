@@ -76,7 +76,7 @@ JoxV2 jox_draw_in_panels(const JoxPanels *panels, JoxV2 at) {
 }
 
 /* Returns the pixels of a point of the plan in a panel. */
-static JoxV2 place_in_panel(const JoxDrawing *d, uint32_t panel, JoxV2 plan) {
+JoxV2 jox_draw_plan_pixels(const JoxDrawing *d, uint32_t panel, JoxV2 plan) {
     return jox_draw_panel_pixels(d, jox_draw_in_panel(&d->panels, panel, plan));
 }
 
@@ -87,8 +87,8 @@ void jox_draw_panel_floors(JoxDrawing *d, JoxInk ground) {
         .fill = ground, .line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit};
     jox_canvas_open(d->canvas, "storeys", NULL, (JoxStyle){0});
     for (uint32_t k = 0; k < p->storeys->storey_count; k++) {
-        const JoxV2 low = place_in_panel(d, k, p->plan_low),
-                    high = place_in_panel(d, k, p->plan_high);
+        const JoxV2 low = jox_draw_plan_pixels(d, k, p->plan_low),
+                    high = jox_draw_plan_pixels(d, k, p->plan_high);
         const JoxV2 box[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
         const float size = jox_minf(
             14.0f * d->unit, 0.55f * (p->step.y - (p->plan_high.y - p->plan_low.y)) * d->scale);
@@ -119,8 +119,8 @@ static void draw_flights(const JoxDrawing *d, const JoxStair *stair) {
         const JoxV2 aside = jox_scale(jox_left(flight->along), 0.5f * stair->width);
         for (float at = 0.0f; at <= flight->run + 0.01f; at += TREAD) {
             const JoxV2 middle = jox_add(flight->from, jox_scale(flight->along, at));
-            const JoxV2 ends[2] = {place_in_panel(d, stair->lower, jox_sub(middle, aside)),
-                                   place_in_panel(d, stair->lower, jox_add(middle, aside))};
+            const JoxV2 ends[2] = {jox_draw_plan_pixels(d, stair->lower, jox_sub(middle, aside)),
+                                   jox_draw_plan_pixels(d, stair->lower, jox_add(middle, aside))};
             jox_canvas_line(d->canvas, ends, 2, false, NULL);
         }
     }
@@ -131,26 +131,28 @@ static void draw_arrow(const JoxDrawing *d, const JoxStair *stair) {
     const uint32_t n = stair->path_count;
     const bool down = stair->way == JOX_STAIR_DOWN;
     for (uint32_t k = 0; k + 1 < n; k++) {
-        const JoxV2 ends[2] = {place_in_panel(d, stair->lower, stair->path[k]),
-                               place_in_panel(d, stair->lower, stair->path[k + 1])};
+        const JoxV2 ends[2] = {jox_draw_plan_pixels(d, stair->lower, stair->path[k]),
+                               jox_draw_plan_pixels(d, stair->lower, stair->path[k + 1])};
         jox_canvas_line(d->canvas, ends, 2, false, NULL);
     }
     const JoxV2 tip = stair->path[down ? 0 : n - 1], before = stair->path[down ? 1 : n - 2];
     const JoxV2 back =
         jox_scale(jox_unit(jox_sub(before, tip)), jox_minf(0.5f, 0.4f * stair->width));
     const JoxV2 side = jox_scale(jox_left(back), 0.6f);
-    const JoxV2 head[3] = {place_in_panel(d, stair->lower, jox_add(tip, jox_add(back, side))),
-                           place_in_panel(d, stair->lower, tip),
-                           place_in_panel(d, stair->lower, jox_add(tip, jox_sub(back, side)))};
+    const JoxV2 head[3] = {
+        jox_draw_plan_pixels(d, stair->lower, jox_add(tip, jox_add(back, side))),
+        jox_draw_plan_pixels(d, stair->lower, tip),
+        jox_draw_plan_pixels(d, stair->lower, jox_add(tip, jox_sub(back, side)))};
     jox_canvas_line(d->canvas, head, 3, false, NULL);
 }
 
 /* Draws the hole of a stair in a storey above its foot: crossed by its diagonals. */
 static void draw_hole(const JoxDrawing *d, const JoxStair *stair, uint32_t storey) {
     const JoxV2 low = stair->low, high = stair->high;
-    const JoxV2 one[2] = {place_in_panel(d, storey, low), place_in_panel(d, storey, high)};
-    const JoxV2 two[2] = {place_in_panel(d, storey, jox_v2(low.x, high.y)),
-                          place_in_panel(d, storey, jox_v2(high.x, low.y))};
+    const JoxV2 one[2] = {jox_draw_plan_pixels(d, storey, low),
+                          jox_draw_plan_pixels(d, storey, high)};
+    const JoxV2 two[2] = {jox_draw_plan_pixels(d, storey, jox_v2(low.x, high.y)),
+                          jox_draw_plan_pixels(d, storey, jox_v2(high.x, low.y))};
     jox_canvas_line(d->canvas, one, 2, false, stair->name);
     jox_canvas_line(d->canvas, two, 2, false, stair->name);
 }
@@ -208,7 +210,7 @@ static void draw_panel_field(JoxDrawing *d, uint32_t panel, const uint8_t *level
             here[(size_t)(rows - 1 - (uint32_t)r) * columns + (uint32_t)c] = levels[cell];
     }
     const JoxV2 top = {p->plan_low.x, p->plan_low.y + (float)rows * grid->cell};
-    const JoxCells cells = {place_in_panel(d, panel, top),
+    const JoxCells cells = {jox_draw_plan_pixels(d, panel, top),
                             grid->cell * d->scale,
                             columns,
                             rows,

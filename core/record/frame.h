@@ -8,6 +8,7 @@
 
 #include "base/format/colour.h"
 #include "base/vec.h"
+#include "geom/lifts.h"
 #include "geom/objects.h"
 #include "geom/storeys.h"
 #include "geom/walls.h"
@@ -54,6 +55,9 @@ typedef struct JoxFrame {
     /* Storeys and stairs: x and y, walls and objects are positions on their sheets. NULL: one
        plane. */
     const JoxStoreys *storeys;
+    const JoxLift *lifts;   /* laid out */
+    const JoxCarLook *cars; /* one for each lift */
+    uint32_t lift_count;
 } JoxFrame;
 
 /* Returns the radius of person i, m, or `unknown` where the frame has no radii. */

@@ -158,6 +158,8 @@ static bool write_frame(JoxRecorder *r, const JoxRecorderFrame *f) {
         if (!jox_recorder_execute(r, r->body))
             return false;
     }
+    if (!jox_recorder_write_cars(r, f))
+        return false;
     return jox_clock_wall() - r->committed < COMMITTED || commit_frames(r);
 }
 
@@ -217,13 +219,15 @@ static bool start_recording(JoxRecorder *r, double fps, const char *wkt) {
 
 /* Deletes everything recorded after frame `last`, and reads the bounds of the rest. */
 static bool resume_recording(JoxRecorder *r, uint32_t last) {
-    static const char *const TABLES[] = {"jostle_row", "jostle_body", "jostle_part", "jostle_wall",
-                                         "frame_data"};
+    static const char *const TABLES[] = {"jostle_row",  "jostle_body", "jostle_part",
+                                         "jostle_wall", "frame_data",  "jostle_car"};
     static const char *const BOUNDS[] = {"MIN(pos_x)", "MAX(pos_x)", "MIN(pos_y)", "MAX(pos_y)"};
     double *const to[] = {&r->low_x, &r->high_x, &r->low_y, &r->high_y};
     char sql[400];
     bool good = execute_sql(r, "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN");
-    for (size_t t = 0; good && t < sizeof TABLES / sizeof *TABLES; t++) {
+    /* the last table is one of recordings with storeys */
+    const size_t tables = sizeof TABLES / sizeof *TABLES - (r->storeys.storey_count ? 0 : 1);
+    for (size_t t = 0; good && t < tables; t++) {
         snprintf(sql, sizeof sql, "DELETE FROM %s WHERE frame > %u", TABLES[t], last);
         good = execute_sql(r, sql);
     }
@@ -257,7 +261,9 @@ static bool prepare_inserts(JoxRecorder *r) {
                r, &r->body,
                storeys ? "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"
                        : "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
-           jox_recorder_prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
+           jox_recorder_prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)") &&
+           (!storeys ||
+            jox_recorder_prepare(r, &r->car, "INSERT INTO jostle_car VALUES(?, ?, ?, ?, ?, ?, ?)"));
 }
 
 static void free_recorder(JoxRecorder *r) {
@@ -268,6 +274,7 @@ static void free_recorder(JoxRecorder *r) {
     for (int i = 0; i < JOX_RECORDER_FRAMES; i++) {
         jox_free(r->frames[i].rows);
         jox_free(r->frames[i].bodies);
+        jox_free(r->frames[i].cars);
     }
     jox_storeys_free(&r->storeys);
     pthread_mutex_destroy(&r->lock);
@@ -370,8 +377,18 @@ JoxRecordRow *jox_recorder_begin_frame(JoxRecorder *r, uint32_t rows, uint32_t b
     JOX_RESERVE(f->bodies, f->body_capacity, bodies + 1);
     f->row_count = rows;
     f->body_count = bodies;
+    f->car_count = 0;
     *body_rows = f->bodies;
     return f->rows;
+}
+
+JoxRecordCar *jox_recorder_add_cars(JoxRecorder *r, uint32_t count) {
+    pthread_mutex_lock(&r->lock);
+    JoxRecorderFrame *f = &r->frames[(r->first + r->count) % JOX_RECORDER_FRAMES];
+    pthread_mutex_unlock(&r->lock);
+    JOX_RESERVE(f->cars, f->car_capacity, count + 1);
+    f->car_count = count;
+    return f->cars;
 }
 
 bool jox_recorder_submit_frame(JoxRecorder *r, uint32_t frame, JoxText *error) {

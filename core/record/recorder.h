@@ -13,7 +13,7 @@
 #include "base/format/colour.h"
 #include "base/text.h"
 #include "body/body.h"
-#include "geom/storeys.h"
+#include "geom/lifts.h"
 #include "geom/walls.h"
 
 typedef struct JoxRecorder JoxRecorder;
@@ -41,6 +41,12 @@ typedef struct JoxRecordBody {
     float qx, qy, qz, qw; /* rotation as a quaternion */
 } JoxRecordBody;
 
+/* A lift's car as it is from a frame on. */
+typedef struct JoxRecordCar {
+    uint32_t lift, storey; /* storey: that of the stop in `look` */
+    JoxCarLook look;
+} JoxRecordCar;
+
 /* Creates a recording; an earlier recording at that path is replaced, any other file is refused.
    `wkt` is the walkable area, `storeys` NULL for one plane. Returns NULL with a sentence in `error`
    on failure. */
@@ -50,6 +56,8 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt,
    within `low` to `high`, m in plan. */
 void jox_recorder_describe_storeys(JoxRecorder *recorder, const JoxWalls *walls, JoxV2 low,
                                    JoxV2 high);
+/* Describes the lifts of a new recording, after its storeys. */
+void jox_recorder_describe_lifts(JoxRecorder *recorder, const JoxLift *lifts, uint32_t count);
 /* Continues one of our recordings after frame `last`; later frames are deleted. Returns NULL with a
    sentence in `error` on failure. */
 JoxRecorder *jox_recorder_continue(const char *path, uint32_t last, const JoxStoreys *storeys,
@@ -80,6 +88,9 @@ void jox_recorder_part(JoxRecorder *recorder, uint32_t frame, uint32_t body, uin
    dropped. */
 JoxRecordRow *jox_recorder_begin_frame(JoxRecorder *recorder, uint32_t rows, uint32_t bodies,
                                        JoxRecordBody **body_rows);
+/* Returns rows for the cars that have changed since the last frame, for the caller to fill, between
+   the last jox_recorder_begin_frame and jox_recorder_submit_frame. */
+JoxRecordCar *jox_recorder_add_cars(JoxRecorder *recorder, uint32_t count);
 /* Submits the rows of the last jox_recorder_begin_frame. Returns false with a sentence in `error`
    once writing has failed. */
 bool jox_recorder_submit_frame(JoxRecorder *recorder, uint32_t frame, JoxText *error);

@@ -16,8 +16,9 @@ typedef struct JoxRecorderFrame {
     uint32_t number;
     JoxRecordRow *rows;
     JoxRecordBody *bodies;
-    uint32_t row_count, body_count;
-    size_t row_capacity, body_capacity;
+    JoxRecordCar *cars;
+    uint32_t row_count, body_count, car_count;
+    size_t row_capacity, body_capacity, car_capacity;
 } JoxRecorderFrame;
 enum { JOX_RECORDER_FRAMES = 4 };
 
@@ -25,6 +26,7 @@ struct JoxRecorder {
     FILE *claimed; /* the same file, kept open and locked so that no other run writes to it */
     JoxDatabase *db;
     sqlite3_stmt *row, *batch, *body, *frame; /* inserts */
+    sqlite3_stmt *car;                        /* NULL without storeys */
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t filled, emptied;
@@ -49,6 +51,10 @@ void jox_recorder_return(JoxRecorder *recorder);
 bool jox_recorder_prepare(JoxRecorder *recorder, sqlite3_stmt **statement, const char *sql);
 /* Steps a statement that returns no rows and resets it for the next use. */
 bool jox_recorder_execute(JoxRecorder *recorder, sqlite3_stmt *statement);
+/* recorder_storeys.c: appends "x y, x y, ..." */
+void jox_recorder_write_points(JoxText *out, const JoxV2 *points, uint32_t count);
+/* recorder_lifts.c: writes the cars of a frame. */
+bool jox_recorder_write_cars(JoxRecorder *recorder, const JoxRecorderFrame *frame);
 bool jox_recorder_set_metadata(JoxRecorder *recorder, const char *key, const char *value);
 
 #endif

@@ -100,9 +100,9 @@ bool jox_recording_merge_log(JoxDatabase *database, JoxText *message) {
 }
 
 const char *const jox_recording_tables[] = {
-    "trajectory_data", "metadata",      "geometry",     "frame_data",  "jostle_row",
-    "jostle_agent",    "jostle_group",  "jostle_state", "jostle_body", "jostle_part",
-    "jostle_wall",     "jostle_storey", "jostle_stair", NULL};
+    "trajectory_data", "metadata",     "geometry",    "frame_data",  "jostle_row",  "jostle_agent",
+    "jostle_group",    "jostle_state", "jostle_body", "jostle_part", "jostle_wall", "jostle_storey",
+    "jostle_stair",    "jostle_lift",  "jostle_stop", "jostle_car",  NULL};
 
 /* SQLite stores small integers in one to four bytes and other numbers in eight. So jostle_row has
    positions, radii, breadths and depths in 0.1 mm, directions and angles in thousandths, and
@@ -143,4 +143,13 @@ const char jox_recording_storey_schema[] =
                                                  "KEY, name TEXT, kind INTEGER, way INTEGER,"
                                                  " lower INTEGER, upper INTEGER, path TEXT, width "
                                                  "REAL, landings TEXT, rise REAL, belt REAL,"
-                                                 " area TEXT);";
+                                                 " area TEXT);"
+                                                 "CREATE TABLE jostle_lift(number INTEGER PRIMARY "
+                                                 "KEY, name TEXT, capacity INTEGER, points TEXT);"
+                                                 "CREATE TABLE jostle_stop(lift INTEGER, storey "
+                                                 "INTEGER, door TEXT, PRIMARY KEY(lift, storey)) "
+                                                 "WITHOUT ROWID;"
+                                                 "CREATE TABLE jostle_car(frame INTEGER, lift "
+                                                 "INTEGER, height REAL, open REAL, storey INTEGER,"
+                                                 " people INTEGER, mode TEXT, PRIMARY KEY(frame, "
+                                                 "lift)) WITHOUT ROWID;";

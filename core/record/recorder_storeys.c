@@ -6,8 +6,7 @@
 #include "record/recorder_parts.h"
 #include "record/storey_tables.h"
 
-/* Appends "x y, x y, ..." */
-static void write_points(JoxText *out, const JoxV2 *points, uint32_t count) {
+void jox_recorder_write_points(JoxText *out, const JoxV2 *points, uint32_t count) {
     for (uint32_t k = 0; k < count; k++)
         jox_text_printf(out, "%s%.9g %.9g", k ? ", " : "", (double)points[k].x,
                         (double)points[k].y);
@@ -56,7 +55,7 @@ static void write_storey_area(JoxText *out, const JoxStoreys *storeys, uint32_t 
 /* Appends the outline of a stair. */
 static void write_stair_area(JoxText *out, const JoxStair *stair) {
     jox_text_add(out, "POLYGON ((");
-    write_points(out, stair->outline, 2 * stair->path_count);
+    jox_recorder_write_points(out, stair->outline, 2 * stair->path_count);
     jox_text_printf(out, ", %.9g %.9g))", (double)stair->outline[0].x, (double)stair->outline[0].y);
 }
 
@@ -81,7 +80,7 @@ static bool write_stair(JoxRecorder *r, uint32_t number) {
     if (!jox_recorder_prepare(
             r, &row, "INSERT INTO jostle_stair VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"))
         return false;
-    write_points(&path, stair->path, stair->path_count);
+    jox_recorder_write_points(&path, stair->path, stair->path_count);
     for (uint32_t k = 0; k < stair->landing_count; k++)
         jox_text_printf(&landings, "%s%.9g %.9g", k ? ", " : "", (double)stair->landings[k].from,
                         (double)stair->landings[k].to);

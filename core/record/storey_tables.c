@@ -16,9 +16,7 @@ static const double FARTHEST = 1e5; /* m: of heights, of where sheets begin, and
 const char *const jox_stair_kind_names[] = {"stairs", "ramp", "escalator"};
 const char *const jox_stair_way_names[] = {"both", "up", "down"};
 
-/* Reads "a b, a b, ..." into pairs, of which the caller frees the array. Returns their number; 0 if
-   the text has another form. */
-static uint32_t read_pairs(const char *text, JoxV2 **pairs) {
+uint32_t jox_storey_tables_points(const char *text, JoxV2 **pairs) {
     uint32_t count = 0;
     JoxV2 *read = jox_alloc(MOST_POINTS, sizeof *read);
     for (bool more = text != NULL && *text; more; text++) {
@@ -65,7 +63,8 @@ static bool read_storey_row(sqlite3_stmt *row, JoxStoreys *s, size_t *capacity) 
 static bool read_landings(sqlite3_stmt *row, int column, JoxStair *stair) {
     JoxV2 *pairs;
     bool sound = true;
-    stair->landing_count = read_pairs((const char *)sqlite3_column_text(row, column), &pairs);
+    stair->landing_count =
+        jox_storey_tables_points((const char *)sqlite3_column_text(row, column), &pairs);
     stair->landings = jox_alloc((size_t)stair->landing_count + 1, sizeof *stair->landings);
     for (uint32_t k = 0; k < stair->landing_count; k++) {
         stair->landings[k] = (JoxLanding){pairs[k].x, pairs[k].y};
@@ -94,7 +93,8 @@ static bool read_stair_row(sqlite3_stmt *row, JoxStoreys *s, size_t *capacity) {
         (JoxStairKind)find_name((const char *)sqlite3_column_text(row, 2), jox_stair_kind_names, 3);
     stair->way =
         (JoxStairWay)find_name((const char *)sqlite3_column_text(row, 3), jox_stair_way_names, 3);
-    stair->path_count = read_pairs((const char *)sqlite3_column_text(row, 6), &stair->path);
+    stair->path_count =
+        jox_storey_tables_points((const char *)sqlite3_column_text(row, 6), &stair->path);
     return read_landings(row, 8, stair) && jox_stair_is_sound(stair);
 }
 

@@ -11,6 +11,7 @@
 #include "base/format/diag.h"
 #include "geom/walls.h"
 #include "record/frame.h"
+#include "record/lift_history.h"
 #include "record/wall_history.h"
 
 typedef struct JoxTrajectoryOptions {
@@ -57,6 +58,7 @@ typedef struct JoxTrajectories {
     /* x and y, walls and the bounding box are positions on the sheets of storeys. Empty: one plane.
      */
     JoxStoreys storeys;
+    JoxLiftHistory *lifts; /* NULL: none are recorded */
 } JoxTrajectories;
 
 /* Reads a recording. Returns NULL with errors in `diagnostics`. Where the file has no velocities,

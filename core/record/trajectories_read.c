@@ -124,6 +124,8 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     t->last = r->last;
     build_recorded_state_names(t, r);
     jox_storeys_copy(&t->storeys, &r->outlines.storeys);
+    t->lifts = r->outlines.lifts;
+    r->outlines.lifts = NULL;
     bool good = read_all_frames(t, r, path, diagnostics);
     if (good) {
         jox_trajectories_read_walls(t, r->db);

@@ -53,7 +53,9 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .states = (const char *const *)t->states,
                       .state_count = t->state_count,
                       .state_colours = t->state_colours,
-                      .storeys = jox_has_storeys(&t->storeys) ? &t->storeys : NULL};
+                      .storeys = jox_has_storeys(&t->storeys) ? &t->storeys : NULL,
+                      .cars = jox_lift_history_cars(t->lifts, t->number[first])};
+    out->lifts = jox_lift_history_lifts(t->lifts, &out->lift_count);
     return true;
 }
 
@@ -115,5 +117,6 @@ void jox_trajectories_free(JoxTrajectories *t) {
     jox_walls_free(&t->walls);
     jox_wall_history_free(t->history);
     jox_storeys_free(&t->storeys);
+    jox_lift_history_free(t->lifts);
     jox_free(t);
 }

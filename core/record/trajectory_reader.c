@@ -15,6 +15,8 @@ static const float MOST_RADIUS = 100.0f; /* m: a plausible radius is below it */
 
 JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r) {
     const JoxTrajectories *t = r->in_memory ? r->in_memory : &r->outlines;
+    uint32_t lift_count;
+    const JoxLift *lifts = jox_lift_history_lifts(t->lifts, &lift_count);
     return (JoxTrajectoryReaderInfo){.fps = r->fps,
                                      .frames = r->frames,
                                      .bounded = r->bounded,
@@ -22,6 +24,8 @@ JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r)
                                      .high = r->high,
                                      .walls = &t->walls,
                                      .storeys = t->storeys.storey_count > 0 ? &t->storeys : NULL,
+                                     .lifts = lifts,
+                                     .lift_count = lift_count,
                                      .groups = (const char *const *)t->groups,
                                      .group_count = t->group_count,
                                      .group_colours = t->group_colours,
@@ -308,6 +312,10 @@ uint32_t jox_trajectory_reader_wall_changes(const JoxTrajectoryReader *r, uint32
                : 0;
 }
 
+const JoxCarLook *jox_trajectory_reader_cars(const JoxTrajectoryReader *r, uint32_t frame) {
+    return jox_lift_history_cars(r->outlines.lifts, r->in_memory ? 0 : r->number[frame]);
+}
+
 /* ---- shapes ---- */
 
 uint32_t jox_trajectory_reader_changes(const JoxTrajectoryReader *r, uint32_t frame) {
@@ -384,6 +392,7 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     jox_walls_free(&r->outlines.walls);
     jox_wall_history_free(r->outlines.history);
     jox_storeys_free(&r->outlines.storeys);
+    jox_lift_history_free(r->outlines.lifts);
     for (uint32_t s = 0; s < r->state_count; s++) {
         jox_free(r->states[s].machine);
         jox_free(r->states[s].name);

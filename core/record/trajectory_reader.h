@@ -39,6 +39,8 @@ typedef struct JoxTrajectoryReaderInfo {
     JoxV2 low, high;           /* m; valid if `bounded` */
     const JoxWalls *walls;     /* walls in the first frame */
     const JoxStoreys *storeys; /* NULL: none are recorded */
+    const JoxLift *lifts;      /* laid out; NULL: none are recorded */
+    uint32_t lift_count;
     const char *const *groups;
     uint32_t group_count;
     const JoxColour *group_colours;
@@ -74,6 +76,8 @@ bool jox_trajectory_reader_read(JoxTrajectoryReader *reader, uint32_t frame,
 const JoxWalls *jox_trajectory_reader_walls(const JoxTrajectoryReader *reader, uint32_t frame);
 const JoxWalls *jox_trajectory_reader_standing(const JoxTrajectoryReader *reader, uint32_t frame);
 uint32_t jox_trajectory_reader_wall_changes(const JoxTrajectoryReader *reader, uint32_t frame);
+/* Returns the cars of the lifts in a frame, valid until the next call; NULL: it has no lifts. */
+const JoxCarLook *jox_trajectory_reader_cars(const JoxTrajectoryReader *reader, uint32_t frame);
 /* Shapes of bodies: jox_trajectory_reader_changes returns how many times any shape had changed by a
    frame; jox_trajectory_reader_part sets `out` to a part of a body in that frame, valid until the
    next call, and returns false after the last part. */

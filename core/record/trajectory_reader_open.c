@@ -320,7 +320,12 @@ static bool read_properties(JoxTrajectoryReader *r, const char *path,
     const char *table;
     double found;
     JoxText why = {0};
-    if (!jox_storey_tables_read(r->db, &r->outlines.storeys, &why)) {
+    bool placed = jox_storey_tables_read(r->db, &r->outlines.storeys, &why);
+    if (placed) {
+        r->outlines.lifts = jox_lift_history_read(r->db, &r->outlines.storeys, &why);
+        placed = why.length == 0;
+    }
+    if (!placed) {
         add_open_error(diagnostics, path, NULL, why.data);
         jox_text_free(&why);
         return false;

@@ -341,6 +341,9 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
         p->face_x = r->crowd->face_x + r->crowd->first[r->at];
         p->face_y = r->crowd->face_y + r->crowd->first[r->at];
     }
+    p->lifts = r->frame.lifts;
+    p->cars = r->frame.cars;
+    p->lift_count = r->frame.lift_count;
     collect_drawn_bodies(r);
     p->trails = r->trails;
     p->trail_count = r->trail_count;

@@ -41,6 +41,8 @@ JoxPicture jox_maps_new_picture(const JoxSubject *s, const JoxFrame *frame) {
                         .body_count = bodies ? (uint32_t)bodies->count : 0,
                         .radius = 0.2f,
                         .storeys = s->storeys,
+                        .lifts = s->lifts,
+                        .lift_count = s->lift_count,
                         .low = {g->low.x, storeys ? s->storeys->low : g->low.y},
                         .high = {g->low.x + width, storeys ? s->storeys->high : g->low.y + height}};
 }

@@ -223,6 +223,8 @@ JoxSubject jox_report_subject(const JoxReport *r) {
                         .bodies = &r->story.moments[JOX_MOMENT_START].bodies,
                         .walls = jox_report_walls(r),
                         .storeys = first.storeys,
+                        .lifts = first.lifts,
+                        .lift_count = first.lift_count,
                         .places = r->spec ? r->spec->places : NULL,
                         .place_count = r->spec ? r->spec->place_count : 0,
                         .probes = (const JoxProbe *const *)r->probes,

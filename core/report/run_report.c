@@ -279,6 +279,8 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .storeys = jox_has_storeys(&scene->world->model.storeys)
                                        ? &scene->world->model.storeys
                                        : NULL,
+                        .lifts = scene->world->model.lifts,
+                        .lift_count = scene->world->model.lift_count,
                         .places = spec->places,
                         .place_count = spec->place_count,
                         .probes = probes,

@@ -88,6 +88,7 @@ static bool draw_moment(const JoxSubject *s, int kind, JoxText *error) {
     p.when = when;
     p.panel = true;
     p.walls = &walls;
+    p.cars = m->car_count == s->lift_count ? m->cars : NULL;
     p.bodies = m->bodies.items;
     p.body_count = (uint32_t)m->bodies.count;
     p.grid = s->grid;

@@ -45,6 +45,9 @@ static void store_moment(JoxMoment *m, const JoxStorySample *sample) {
     JOX_RESERVE(m->open, m->ring_capacity, walls->ring_count);
     for (m->rings = 0; m->rings < walls->ring_count; m->rings++)
         m->open[m->rings] = walls->rings[m->rings].open;
+    JOX_RESERVE(m->cars, m->car_capacity, frame->lift_count);
+    for (m->car_count = 0; m->car_count < frame->lift_count; m->car_count++)
+        m->cars[m->car_count] = frame->cars[m->car_count];
     copy_bodies(m, sample);
 }
 
@@ -78,6 +81,7 @@ void jox_story_sections(JoxStory *story, JoxSections *s) {
         JOX_SECTION_ARRAY(s, "field", m->field, m->cells, m->cell_capacity);
         JOX_SECTION_ARRAY(s, "open", m->open, m->rings, m->ring_capacity);
         JOX_SECTION_ARRAY(s, "bodies", m->bodies.items, m->bodies.count, m->bodies.capacity);
+        JOX_SECTION_ARRAY(s, "cars", m->cars, m->car_count, m->car_capacity);
     }
     JOX_SECTION(s, "most", story->most);
     JOX_SECTION(s, "half", story->half);
@@ -88,6 +92,7 @@ void jox_story_free(JoxStory *story) {
         jox_free(story->moments[k].people);
         jox_free(story->moments[k].field);
         jox_free(story->moments[k].open);
+        jox_free(story->moments[k].cars);
         jox_free(story->moments[k].bodies.items);
     }
 }

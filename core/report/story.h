@@ -33,6 +33,8 @@ typedef struct JoxMoment {
     uint8_t *open; /* per ring of the walls: the gate was open */
     size_t rings, ring_capacity;
     JoxDrawnBodies bodies; /* outlines without names */
+    JoxCarLook *cars;      /* of the lifts */
+    size_t car_count, car_capacity;
 } JoxMoment;
 
 typedef struct JoxStory {

@@ -18,6 +18,8 @@ typedef struct JoxSubject {
     const JoxStory *story;
     const JoxWalls *walls;
     const JoxStoreys *storeys; /* NULL: one plane */
+    const JoxLift *lifts;
+    uint32_t lift_count;
     const JoxPlace *places;
     uint32_t place_count;
     const JoxProbe *const *probes;

@@ -19,6 +19,8 @@ typedef struct JoxRunFrame {
     size_t state_colour_capacity;
     uint32_t *state, state_count;
     JoxTorsos torsos;
+    JoxCarLook *cars;
+    size_t car_capacity;
     uint64_t made;  /* 1 + the tick of the frame */
     uint32_t parts; /* bits of the columns that are filled */
 } JoxRunFrame;
@@ -83,6 +85,19 @@ static const JoxStoreys *find_storeys(const JoWorld *world) {
     return jox_has_storeys(&world->model.storeys) ? &world->model.storeys : NULL;
 }
 
+/* Fills in the lifts and their cars. */
+static void fill_cars(JoxRunFrame *f, const JoWorld *world) {
+    const uint32_t count = world->model.lift_count;
+    if (!count)
+        return;
+    JOX_RESERVE(f->cars, f->car_capacity, count);
+    for (uint32_t l = 0; l < count; l++)
+        f->cars[l] = jox_world_car_look(world, l);
+    f->frame.lifts = world->model.lifts;
+    f->frame.cars = f->cars;
+    f->frame.lift_count = count;
+}
+
 /* Starts the frame of a step with the columns that it shares with the world. */
 static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
     const JoWorld *world = scene->world;
@@ -120,6 +135,7 @@ static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
                           .walls = &world->scratch.walls,
                           .storeys = find_storeys(world)};
     f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
+    fill_cars(f, world);
 }
 
 const JoxFrame *jox_run_present_frame(JoScene *scene, uint32_t parts) {
@@ -155,6 +171,7 @@ void jox_run_free_frame(JoScene *scene) {
     jox_free(f->states);
     jox_free(f->state);
     jox_torsos_free(&f->torsos);
+    jox_free(f->cars);
     jox_free(f);
     scene->frame = NULL;
 }

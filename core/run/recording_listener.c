@@ -29,6 +29,9 @@ typedef struct Recording {
         uint32_t open, there;
     } * walls;
     size_t wall_capacity;
+    JoxCarLook *cars;   /* by lift: as recorded last */
+    uint32_t car_count; /* 0 before the first frame */
+    size_t car_capacity;
     /* By agent's slot: sums over the steps since the last recorded frame. */
     struct BorneForces {
         float compression, load;
@@ -182,8 +185,11 @@ static bool begin_recording(void *self, JoScene *scene, const void *options, JoE
         return jox_run_fill_error(error, &why);
     JoxV2 low, high;
     jox_run_find_plan_area(scene, &low, &high);
-    if (scene->world->model.storeys.storey_count)
+    if (scene->world->model.storeys.storey_count) {
         jox_recorder_describe_storeys(r->recorder, &scene->world->model.all_walls, low, high);
+        jox_recorder_describe_lifts(r->recorder, scene->world->model.lifts,
+                                    scene->world->model.lift_count);
+    }
     record_walls(r, &scene->world->model.all_walls,
                  (uint32_t)((scene->world->state.tick + r->every - 1) / r->every));
     const JoxMachineRun *machines = &scene->world->machines;
@@ -246,6 +252,25 @@ static void add_torso(const JoxAgents *a, uint32_t i, JoxRecordRow *row) {
     row->depth = 2.0f * torso.radius;
 }
 
+/* Adds the cars that have changed since the last frame. */
+static void record_cars(Recording *r, const JoxFrame *frame) {
+    const bool first = r->car_count < frame->lift_count;
+    uint32_t count = 0;
+    if (!frame->lift_count)
+        return;
+    JOX_RESERVE_ZEROED(r->cars, r->car_capacity, frame->lift_count);
+    r->car_count = frame->lift_count;
+    JoxRecordCar *rows = jox_recorder_add_cars(r->recorder, frame->lift_count);
+    for (uint32_t l = 0; l < frame->lift_count; l++) {
+        const JoxCarLook *look = &frame->cars[l];
+        if (!first && memcmp(look, &r->cars[l], sizeof *look) == 0)
+            continue;
+        r->cars[l] = *look;
+        rows[count++] = (JoxRecordCar){l, frame->lifts[l].stops[look->stop].storey, *look};
+    }
+    jox_recorder_add_cars(r->recorder, count);
+}
+
 static bool record_frame(void *self, JoScene *scene, JoError *error) {
     Recording *r = self;
     add_borne_forces(r, &scene->world->state.agents);
@@ -290,6 +315,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
                                           pose.position.z,     pose.turn[0],    pose.turn[1],
                                           pose.turn[2],        pose.turn[3]};
     }
+    record_cars(r, jox_run_present_frame(scene, 0));
     JoxText why = {0};
     return jox_recorder_submit_frame(r->recorder, frame, &why) || jox_run_fill_error(error, &why);
 }
@@ -313,6 +339,7 @@ static void free_recording(void *self) {
     jox_free(r->shapes);
     jox_free(r->walls);
     jox_free(r->borne);
+    jox_free(r->cars);
 }
 
 static bool settle_recording(void *self, JoError *error) {
@@ -332,6 +359,7 @@ static void list_recording_sections(void *self, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "shapes", r->shapes, shapes, r->shape_capacity);
     JOX_SECTION_ROOM(s, "walls", r->walls, r->wall_capacity);
     JOX_SECTION_ARRAY(s, "borne", r->borne, borne, r->borne_capacity);
+    JOX_SECTION_ARRAY(s, "cars", r->cars, r->car_count, r->car_capacity);
 }
 
 static const JoxListenerKind RECORDING = {.name = "recording",

@@ -1,9 +1,9 @@
 /* Reads lifts of a scene. Each adds its walls, and a place for each storey that it serves. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
 #include "scene/scene_draft.h"
 
 static const float ON_OUTLINE = 0.05f; /* m: ends of doors may be this far from the outline */
@@ -219,10 +219,9 @@ static void add_places(const JoxReader *r, const JoxYaml *node, JoxLift *lift, J
     for (uint32_t s = 0; s < lift->stop_count; s++) {
         JoxLiftStop *stop = &lift->stops[s];
         JoxPlace *place = &places[*count];
-        char name[256];
-        snprintf(name, sizeof name, "%.100s.%.100s", lift->name,
-                 storeys->storeys[stop->storey].name);
+        char *name = jox_lift_stop_name(lift->name, storeys->storeys[stop->storey].name);
         stop->name = jox_arena_text(r->arena, name);
+        jox_free(name);
         stop->place = (int32_t)(*count)++;
         *place =
             (JoxPlace){.name = stop->name,
@@ -234,10 +233,10 @@ static void add_places(const JoxReader *r, const JoxYaml *node, JoxLift *lift, J
         jox_place_make_area(place);
         jox_place_finish(place);
         const JoxYaml *own = jox_yaml_get(r->draft->root, "places");
-        if (own && own->kind == JOX_YAML_MAP && jox_yaml_get(own, name))
+        if (own && own->kind == JOX_YAML_MAP && jox_yaml_get(own, stop->name))
             jox_scene_error(r, node, "duplicate-name", "Give the place another name",
                             "the lift '%.60s' makes a place '%.100s', which `places` has too",
-                            lift->name, name);
+                            lift->name, stop->name);
     }
 }
 

@@ -61,6 +61,28 @@ void jox_world_run_lifts(JoWorld *w) {
     show_lifts(w);
 }
 
+/* Returns the share of a car's door that is open, 0 to 1. */
+static float compute_door_share(const JoxLift *lift, const JoxLiftCar *car) {
+    const float left = (float)car->left;
+    switch ((JoxLiftDoor)car->door) {
+    case JOX_DOOR_OPENING:
+        return jox_clampf(1.0f - left / jox_maxf(lift->opening, 1e-3f), 0.0f, 1.0f);
+    case JOX_DOOR_CLOSING:
+        return jox_clampf(left / jox_maxf(lift->closing, 1e-3f), 0.0f, 1.0f);
+    default:
+        return car->door == JOX_DOOR_OPEN ? 1.0f : 0.0f;
+    }
+}
+
+JoxCarLook jox_world_car_look(const JoWorld *w, uint32_t lift) {
+    const JoxLiftCar *car = &w->state.lifts.cars[lift];
+    return (JoxCarLook){.height = (float)car->height,
+                        .open = compute_door_share(&w->model.lifts[lift], car),
+                        .stop = car->stop,
+                        .people = car->people,
+                        .mode = car->mode};
+}
+
 int32_t jox_world_find_lift(const JoWorld *w, const char *name) {
     for (uint32_t l = 0; l < w->model.lift_count; l++)
         if (strcmp(w->model.lifts[l].name, name) == 0)

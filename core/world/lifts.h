@@ -59,6 +59,8 @@ void jox_world_set_lifts(JoWorld *world, const JoxLift *lifts, uint32_t count);
 void jox_world_run_lifts(JoWorld *world);
 /* Sets the mode of a lift; -1 for all lifts. */
 void jox_world_set_lift_mode(JoWorld *world, int32_t lift, JoxLiftMode mode);
+/* Returns how a lift's car is at present. */
+JoxCarLook jox_world_car_look(const JoWorld *world, uint32_t lift);
 /* Returns the index of a lift by its name, or -1. */
 int32_t jox_world_find_lift(const JoWorld *world, const char *name);
 /* Returns the number of agents that have called a lift and wait before a door. */

@@ -290,5 +290,5 @@ int main(void) {
         cmocka_unit_test(snapshot_in_the_middle_of_a_ride_continues_exactly),
         cmocka_unit_test(people_choose_the_lift_that_takes_least_time),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

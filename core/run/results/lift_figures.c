@@ -43,7 +43,6 @@ static double find_longest_waiting(const JoWorld *w, uint32_t lift) {
 }
 
 void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
-    static const char *const MODES[] = {"in_use", "out_of_use", "firemen"};
     const JoWorld *w = scene->world;
     if (!w->model.lift_count)
         return;
@@ -54,7 +53,7 @@ void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
         const JoxLiftCar *car = &w->state.lifts.cars[l];
         const Waits waits = sum_waits(f);
         jox_json_object(json, lift->name);
-        jox_json_string(json, "mode", MODES[car->mode]);
+        jox_json_string(json, "mode", jox_lift_mode_names[car->mode]);
         jox_json_string(json, "storey",
                         w->model.storeys.storeys[lift->stops[car->stop].storey].name);
         jox_json_whole(json, "carried", f->carried);

@@ -40,7 +40,7 @@ const LOST = {
     token: `The program at ${HERE} refuses this page, whose address is of an earlier start. Open the address that the program printed last.`,
     full: `The program at ${HERE} answers, but admits no further page: close another one. This page tries again by itself.`,
 };
-const PROTOCOL = 6; // of the messages, as the program counts it
+const PROTOCOL = 7; // of the messages, as the program counts it
 const MOVE = 0.08; // share of the distance to the target that an arrow key moves
 
 /** What people are coloured by at first: where the scene leaves it open, the outer states of machines with many states. */

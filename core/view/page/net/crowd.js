@@ -1,7 +1,7 @@
 // The last two frames as received, and access to their positions, states and bodies.
 
 const HEADER = 48; // bytes of a frame before its slots
-const BODY = 20;
+const BODY = 20, CAR = 8;
 export const PERSON = 4; // bytes of a slot in Crowd.person
 export const NOBODY = 255;
 export const FLAG = { parity: 1, failed: 2, player: 4 }; // higher bits: lean under pushes, or lying
@@ -21,6 +21,20 @@ export function readFrame(buffer) {
         words: new Uint16Array(buffer, HEADER, 4 * slots),
         poses: new DataView(buffer, HEADER + 8 * slots, BODY * bodies),
         chests: chest ? new Uint8Array(buffer, end, slots) : null, // 256ths of a turn; null: all are discs
+        cars: new DataView(buffer, end + chest * slots), // of lifts, CAR bytes each: readCar
+    };
+}
+
+/** Reads the car of the lift with this index in the scene message; null: the frame has none. */
+export function readCar(frame, lift) {
+    const at = CAR * lift, cars = frame.cars;
+    if (cars.byteLength < at + CAR) return null;
+    return {
+        height: cars.getFloat32(at, true), // m
+        open: cars.getUint8(at + 4) / 255, // share of the door
+        stop: cars.getUint8(at + 5), // on whose storey its riders are
+        people: cars.getUint8(at + 6),
+        mode: cars.getUint8(at + 7), // 0 in use, 1 out of use, 2 firemen
     };
 }
 
