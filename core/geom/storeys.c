@@ -445,3 +445,11 @@ bool jox_plan_offset(const JoxStoreys *s, JoxV2 from, JoxV2 to, JoxV2 *offset) {
         offset->y -= seam->shift;
     return seam != NULL;
 }
+
+float jox_distance_between(const JoxStoreys *s, JoxV2 from, JoxV2 to) {
+    if (!jox_has_storeys(s) || jox_sheet_of(s, from.y) == jox_sheet_of(s, to.y))
+        return jox_length(jox_sub(to, from));
+    const JoxV2 away = jox_sub(jox_in_plan(s, to), jox_in_plan(s, from));
+    return jox_length(
+        jox_v2(jox_length(away), jox_floor_height(s, to) - jox_floor_height(s, from)));
+}

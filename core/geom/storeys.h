@@ -174,5 +174,8 @@ bool jox_leads_off_sheet(const JoxStoreys *storeys, JoxV2 from, JoxV2 to);
 /* Sets *offset to the way from one position to another, m in plan: straight on one sheet, else over
    a seam through which they see each other. Returns false if there is none. */
 bool jox_plan_offset(const JoxStoreys *storeys, JoxV2 from, JoxV2 to, JoxV2 *offset);
+/* Returns the distance between two positions, m: straight, through floors if they are on different
+   storeys. */
+float jox_distance_between(const JoxStoreys *storeys, JoxV2 from, JoxV2 to);
 
 #endif

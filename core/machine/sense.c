@@ -7,6 +7,7 @@
 #include "geom/polygon.h"
 #include "geom/walls.h"
 #include "machine/machine_parts.h"
+#include "machine/way_between.h"
 
 /* Orders signals by name, x, agent. */
 static bool is_signal_before(const JoxSignal *a, const JoxSignal *b) {
@@ -64,33 +65,44 @@ void jox_machines_listen(JoxMachineRun *run) {
     state->called_count = state->announced_count = 0;
 }
 
+/* Returns whether an agent hears a signal that was called at an x from `low` on, at most r m away
+   from where it is. */
+static bool is_heard_from(const JoxMachineRun *run, uint32_t i, uint32_t name, float low, float r) {
+    const JoxAgents *a = run->agents;
+    const JoxMachineScratch *heard = run->scratch;
+    const JoxSignal from = {.name = name, .x = low};
+    const JoxV2 at = {a->x[i], a->y[i]};
+    uint32_t first = 0, high = heard->heard_count;
+    while (first < high) {
+        const uint32_t middle = (first + high) / 2;
+        if (is_signal_before(&heard->heard[middle], &from))
+            first = middle + 1;
+        else
+            high = middle;
+    }
+    for (uint32_t n = first; n < heard->heard_count; n++) {
+        const JoxSignal *s = &heard->heard[n];
+        if (s->name != name || s->x > low + 2.0f * r)
+            return false;
+        const JoxV2 way = jox_way_to(a, at, jox_v2(s->x, s->y));
+        if (s->agent_id != a->id[i] && jox_length2(way) <= r * r &&
+            !jox_is_hidden(run, at, jox_add(at, way), false))
+            return true;
+    }
+    return false;
+}
+
 bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach) {
     const JoxAgents *a = run->agents;
     const JoxMachineScratch *heard = run->scratch;
     for (uint32_t n = 0; n < heard->everywhere_count; n++)
         if (heard->everywhere[n] == name)
             return true;
-    float r = jox_minf((float)reach, jox_param(a, JOX_PARAM_perception, i)), x = a->x[i],
-          y = a->y[i];
-    JoxSignal from = {.name = name, .x = x - r};
-    uint32_t low = 0, high = heard->heard_count;
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        if (is_signal_before(&heard->heard[middle], &from))
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    for (; low < heard->heard_count; low++) {
-        const JoxSignal *s = &heard->heard[low];
-        if (s->name != name || s->x > x + r)
-            return false;
-        float dx = s->x - x, dy = s->y - y;
-        if (s->agent_id != a->id[i] && dx * dx + dy * dy <= r * r &&
-            !jox_is_hidden(run, (JoxV2){x, y}, (JoxV2){s->x, s->y}, false))
-            return true;
-    }
-    return false;
+    const float r = jox_minf((float)reach, jox_param(a, JOX_PARAM_perception, i));
+    const float low = a->x[i] - r, period = a->period.x;
+    return is_heard_from(run, i, name, low, r) ||
+           (period > 0.0f && (is_heard_from(run, i, name, low - period, r) ||
+                              is_heard_from(run, i, name, low + period, r)));
 }
 
 static const float AT_PLACE = 0.5f; /* m: a gate belongs to a place within this distance */
@@ -105,9 +117,8 @@ static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint
         const JoxV2 a = walls->vertices[v].point,
                     b = walls->vertices[walls->vertices[v].next].point;
         const JoxV2 middle = jox_scale(jox_add(a, b), 0.5f);
-        const JoxV2 away = jox_sub(agent, middle), near = jox_wrap(run->agents, away);
-        /* The agent's image next to the edge, if edges of the world are joined. */
-        const JoxV2 at = jox_add(agent, jox_sub(near, away));
+        /* The agent's image next to the edge, over joined edges of the world and stairs. */
+        const JoxV2 at = jox_sub(middle, jox_way_to(run->agents, agent, middle));
         if (jox_length(jox_sub(jox_segment_nearest(a, b, at), at)) <= perception &&
             jox_place_distance(run->places, place, middle) <= AT_PLACE &&
             !jox_is_hidden_by(run, gate, at, middle, false))

@@ -303,13 +303,24 @@ bool jox_target_means(const JoxMachineRun *run, uint32_t i, int32_t index, int32
            jox_target_named_who(run, target, i) == JOX_WHO_BODY + object->id;
 }
 
+/* Returns the distance to a place, m: straight, through floors if it is on another storey. */
+static float find_place_distance(const JoxMachineRun *run, uint32_t place, JoxV2 p) {
+    const JoxStoreys *s = run->agents->storeys;
+    const JoxV2 nearest = s ? jox_place_nearest(run->places, place, p) : p;
+    if (!s || jox_sheet_of(s, nearest.y) == jox_sheet_of(s, p.y))
+        return jox_place_distance(run->places, place, p);
+    const JoxV2 above = jox_on_sheet(s, jox_sheet_of(s, nearest.y), jox_in_plan(s, p));
+    return jox_distance_between(s, p, jox_place_nearest(run->places, place, above));
+}
+
 float jox_target_distance(const JoxMachineRun *run, uint32_t i, int32_t index) {
-    JoxV2 p = {run->agents->x[i], run->agents->y[i]};
-    int32_t place = jox_target_place(run, i, index);
+    const JoxV2 p = {run->agents->x[i], run->agents->y[i]};
+    const int32_t place = jox_target_place(run, i, index);
     if (place >= 0)
-        return jox_place_distance(run->places, (uint32_t)place, p);
-    JoxSpot spot = jox_target_find(run, i, index);
-    return spot.found ? jox_length((JoxV2){spot.x - p.x, spot.y - p.y}) : INFINITY;
+        return find_place_distance(run, (uint32_t)place, p);
+    const JoxSpot spot = jox_target_find(run, i, index);
+    return spot.found ? jox_distance_between(run->agents->storeys, p, jox_v2(spot.x, spot.y))
+                      : INFINITY;
 }
 
 /* Returns one measured quantity of an agent. */

@@ -3,6 +3,7 @@
 #include "machine/why_words.h"
 
 #include "geom/storey_text.h"
+#include "machine/way_between.h"
 
 /* ---- signals ---- */
 
@@ -15,10 +16,15 @@ typedef struct Call {
     JoxV2 at, own;       /* m */
 } Call;
 
+/* Returns whether walls hide a call's point from an agent. */
+static bool is_hidden(const JoxMachineRun *run, const Call *call, JoxV2 way) {
+    return jox_is_hidden(run, call->own, jox_add(call->own, way), false);
+}
+
 /* Returns whether an agent at `own` hears what is called at a point. */
 static bool is_heard(const JoxMachineRun *run, const Call *call, double reach) {
-    return jox_length(jox_sub(call->at, call->own)) <= reach &&
-           !jox_is_hidden(run, call->own, call->at, false);
+    const JoxV2 way = jox_way_to(run->agents, call->own, call->at);
+    return jox_length(way) <= reach && !is_hidden(run, call, way);
 }
 
 /* Finds the call that is heard in this step, else the nearest of those that are not, else the last
@@ -44,7 +50,8 @@ static Call find_call(const JoxMachineRun *run, uint32_t i, uint32_t name, doubl
             continue;
         const bool itself = best.agent_id == run->agents->id[i];
         const bool hears = is_heard(run, &one, reach), heard_best = is_heard(run, &best, reach);
-        const bool nearer = jox_length2(jox_sub(one.at, own)) < jox_length2(jox_sub(best.at, own));
+        const bool nearer = jox_length2(jox_way_to(run->agents, own, one.at)) <
+                            jox_length2(jox_way_to(run->agents, own, best.at));
         if (!best.found || itself || (hears && !heard_best) || (hears == heard_best && nearer))
             best = one;
     }
@@ -86,13 +93,12 @@ void jox_why_add_call(const JoxMachineRun *run, uint32_t i, uint32_t name, doubl
     } else {
         const JoxStoreys *storeys = run->agents->storeys;
         const JoxV2 at = jox_in_plan(storeys, call.at);
-        JoxV2 way;
-        const bool joined = jox_plan_offset(storeys, call.own, call.at, &way);
-        const double distance = joined ? (double)jox_length(way) : INFINITY;
+        const JoxV2 way = jox_way_to(run->agents, call.own, call.at);
+        const double distance = (double)jox_length(way);
         jox_text_printf(out, "agent %u called it at %.2f s at (%.2f, %.2f)", call.agent_id,
                         call.time, (double)at.x, (double)at.y);
         jox_text_storey(out, storeys, call.at);
-        if (!joined) {
+        if (distance >= (double)JOX_OUT_OF_SIGHT) {
             jox_text_add(out, ", out of sight on another storey");
             return;
         }
@@ -100,7 +106,7 @@ void jox_why_add_call(const JoxMachineRun *run, uint32_t i, uint32_t name, doubl
                         call.present ? "away"
                         : call.then  ? "away from where it was then"
                                      : "from where it is now",
-                        jox_is_hidden(run, call.own, call.at, false) ? ", behind a wall" : "");
+                        is_hidden(run, &call, way) ? ", behind a wall" : "");
         if (distance > wide)
             jox_text_printf(out, "; it hears as far as %.3g m (%s)", wide,
                             reach < perception ? "as asked for" : "its perception");

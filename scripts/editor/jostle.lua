@@ -625,7 +625,7 @@ function queued(queue) end
 ---@return jostle.Number
 function left(place) end
 
---- `distance(target)` in m: distance to the target; 0 in a place, infinite if there is no such target
+--- `distance(target)` in m: distance to the target; 0 in a place, infinite if there is no such target. Straight, also through floors: the way there may be longer
 ---@param target jostle.AnyTarget
 ---@return jostle.Number
 function distance(target) end

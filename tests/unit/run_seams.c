@@ -175,6 +175,54 @@ static void behaviours_know_their_storey(void **state) {
     jo_scene_free(scene);
 }
 
+/* Returns the name of an agent's state. */
+static const char *find_state(const JoScene *scene, uint32_t id) {
+    const JoxAgents *a = &scene->world->state.agents;
+    return scene->world->model.machines.items[0]->states[a->state[jox_agents_find(a, id)]].name;
+}
+
+static void signals_are_heard_over_a_seam_and_not_through_a_floor(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_pair(false,
+                  "groups: {caller: {at: [[11.5, 5]], behaviour: own.lua}, "
+                  "stair: {at: [[12.5, 5], [17.5, 5]], behaviour: own.lua, storey: way}, "
+                  "above: {at: [[11.5, 7]], behaviour: own.lua, storey: high}}\n",
+                  "return machine { name = 's', version = 1, start = 'Waits',\n"
+                  "  states = { Waits = { steer = hold,\n"
+                  "      { to = 'Calls', when = now.x:below(12) & now.storey:is(0) },\n"
+                  "      { to = 'Hears', when = heard('go', 3) } },\n"
+                  "    Calls = { steer = hold, signal = 'go' },\n"
+                  "    Hears = { steer = hold } } }\n");
+    step_scene(scene, 4);
+    assert_string_equal(find_state(scene, 0), "Calls");
+    assert_string_equal(find_state(scene, 1), "Hears");
+    assert_string_equal(find_state(scene, 2), "Waits"); /* 6 m away */
+    assert_string_equal(find_state(scene, 3), "Waits"); /* 2 m away, behind a floor */
+    assert_null(scene_messages.data);
+    jo_scene_free(scene);
+}
+
+static void distances_lead_through_floors(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_text(
+        "jostle: 1\nstoreys: {low: {height: 0}, high: {height: 4}}\n"
+        "places: {above: {polygon: [[2, 4], [8, 4], [8, 8], [2, 8]], storey: high}}\n"
+        "groups: {one: {at: [[5, 5]], behaviour: own.lua}, "
+        "two: {at: [[11, 5]], behaviour: own.lua}}\n",
+        "return machine { name = 's', version = 1, start = 'A',\n"
+        "  states = { A = { steer = hold,\n"
+        "      { to = 'Below', when = distance('above'):above(3.99) & "
+        "distance('above'):below(4.01) },\n"
+        "      { to = 'Aside', when = distance('above'):above(4.99) & "
+        "distance('above'):below(5.01) } },\n"
+        "    Below = { steer = hold }, Aside = { steer = hold } } }\n");
+    step_scene(scene, 2);
+    assert_string_equal(find_state(scene, 0), "Below");
+    assert_string_equal(find_state(scene, 1), "Aside");
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(who_goes_up_and_down_ten_times_loses_nothing),
@@ -182,6 +230,8 @@ int main(void) {
         cmocka_unit_test(a_storey_empties_as_fast_as_the_same_plan_laid_flat),
         cmocka_unit_test(people_on_storeys_above_each_other_pass_unnoticed),
         cmocka_unit_test(behaviours_know_their_storey),
+        cmocka_unit_test(signals_are_heard_over_a_seam_and_not_through_a_floor),
+        cmocka_unit_test(distances_lead_through_floors),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

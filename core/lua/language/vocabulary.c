@@ -95,7 +95,7 @@ const JoxWord jox_words[] = {
     {"left", "p", NUMBER, JOX_OP_LEFT, 0, "left(place)", "",
      "number of people who have left the world from this place, the smallest one in which they stood", "left \"post\""},
     {"distance", "t", NUMBER, JOX_OP_DISTANCE, 0, "distance(target)", "m",
-     "distance to the target; 0 in a place, infinite if there is no such target", "distance \"post\""},
+     "distance to the target; 0 in a place, infinite if there is no such target. Straight, also through floors: the way there may be longer", "distance \"post\""},
     {"neighbours", "g", NUMBER, JOX_OP_NEIGHBOURS, 0, "neighbours(tag)", "",
      "number of agents that the agent sees and that bear the tag, or are \"anyone\", "
      "\"teammates\" or \"opponents\". Seen are its `neighbours` nearest, and in a crowd of at "

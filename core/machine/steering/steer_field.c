@@ -43,14 +43,6 @@ static void store_bound_place(const Asking *q, uint32_t k, const JoxField *field
     a->way_left[i] = way;
 }
 
-/* Returns whether an agent is on another sheet than the place: there is no straight way. */
-static bool is_on_another_sheet(const Asking *q, uint32_t i) {
-    const JoxStoreys *s = q->run->agents->storeys;
-    const JoxPlace *place = &q->run->places[q->place];
-    return place->count == 0 ||
-           jox_sheet_of(s, place->centre.y) != jox_sheet_of(s, q->run->agents->y[i]);
-}
-
 /* Returns the direction straight to the place, (0, 0) in it. */
 static JoxV2 find_straight_way(const Asking *q, uint32_t i) {
     const JoxV2 at = {q->run->agents->x[i], q->run->agents->y[i]};
@@ -61,8 +53,10 @@ static JoxV2 find_straight_way(const Asking *q, uint32_t i) {
 static void write_way(const Asking *q, uint32_t k, JoxV2 direction) {
     JoxSteer *s = q->s;
     const uint32_t n = q->number[k];
+    const JoxAgents *a = q->run->agents;
+    const JoxV2 at = {a->x[s->index[n]], a->y[s->index[n]]};
     if (!(jox_length2(direction) > 0.0f) &&
-        !(q->run->agents->storeys && is_on_another_sheet(q, s->index[n])))
+        !(a->storeys && jox_is_place_elsewhere(q->run, q->place, at)))
         direction = q->term->kind == JOX_STEER_RIDE
                         ? find_straight_way(q, s->index[n])
                         : jox_steer_seek(q->run, s->index[n], q->term->target);

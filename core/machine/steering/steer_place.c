@@ -43,13 +43,10 @@ static void steer_along(const JoxMachineRun *run, const int32_t *places, JoxStee
     }
 }
 
-/* Returns whether the straight way to a place leads off the storey, or the stair, where a point is.
- */
-static bool leads_elsewhere(const JoxMachineRun *run, int32_t index, JoxV2 at) {
+bool jox_is_place_elsewhere(const JoxMachineRun *run, uint32_t index, JoxV2 at) {
     const JoxPlace *place = &run->places[index];
     return (place->count == 0 && place->member_count == 0) ||
-           jox_leads_off_sheet(run->agents->storeys, at,
-                               jox_place_nearest(run->places, (uint32_t)index, at));
+           jox_leads_off_sheet(run->agents->storeys, at, jox_place_nearest(run->places, index, at));
 }
 
 /* Directs the agents of a batch straight to their targets; those whose place is `away` keep the way
@@ -91,7 +88,7 @@ void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const 
     bool any = false;
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxV2 at = {run->agents->x[s->index[n]], run->agents->y[s->index[n]]};
-        const bool is_away = places[n] >= 0 && leads_elsewhere(run, places[n], at);
+        const bool is_away = places[n] >= 0 && jox_is_place_elsewhere(run, (uint32_t)places[n], at);
         away[n] = is_away ? places[n] : -1;
         any |= is_away;
     }
