@@ -43,9 +43,6 @@ JOX_ISAS(X)
    counts. Points are left to the kernel `arrive`. */
 void jox_steer_place(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                      JoxSteer *steer);
-/* Returns whether the straight way from a point to a place leads off the storey, or the stair,
-   where the point is. Only in a world of storeys. */
-bool jox_is_place_elsewhere(const JoxMachineRun *run, uint32_t place, JoxV2 at);
 
 /* steering/steer_field.c: computes `way` of a term field for agents whose weight counts, and sets
    the places that they are bound for. */
@@ -55,6 +52,9 @@ void jox_steer_field(const JoxMachineRun *run, const JoxMachine *machine, const 
 /* Does the same for places that are given for each agent, -1: none. */
 void jox_steer_to_places(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *steer,
                          const int32_t *places);
+/* Returns whether the straight way from a point to a place leads off the storey, or the stair,
+   where the point is. Only in a world of storeys. */
+bool jox_is_place_elsewhere(const JoxMachineRun *run, uint32_t place, JoxV2 at);
 /* steering/ride.c: computes `way` of a term ride. */
 void jox_steer_ride(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                     JoxSteer *steer);

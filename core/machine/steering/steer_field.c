@@ -43,6 +43,12 @@ static void store_bound_place(const Asking *q, uint32_t k, const JoxField *field
     a->way_left[i] = way;
 }
 
+bool jox_is_place_elsewhere(const JoxMachineRun *run, uint32_t index, JoxV2 at) {
+    const JoxPlace *place = &run->places[index];
+    return (place->count == 0 && place->member_count == 0) ||
+           jox_leads_off_sheet(run->agents->storeys, at, jox_place_nearest(run->places, index, at));
+}
+
 /* Returns the direction straight to the place, (0, 0) in it. */
 static JoxV2 find_straight_way(const Asking *q, uint32_t i) {
     const JoxV2 at = {q->run->agents->x[i], q->run->agents->y[i]};

@@ -43,12 +43,6 @@ static void steer_along(const JoxMachineRun *run, const int32_t *places, JoxStee
     }
 }
 
-bool jox_is_place_elsewhere(const JoxMachineRun *run, uint32_t index, JoxV2 at) {
-    const JoxPlace *place = &run->places[index];
-    return (place->count == 0 && place->member_count == 0) ||
-           jox_leads_off_sheet(run->agents->storeys, at, jox_place_nearest(run->places, index, at));
-}
-
 /* Directs the agents of a batch straight to their targets; those whose place is `away` keep the way
    that they have. `away` is NULL in a world of one sheet. */
 static void steer_straight(const JoxMachineRun *run, const int32_t *places, const int32_t *away,
