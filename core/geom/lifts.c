@@ -133,7 +133,8 @@ static uint32_t find_edge(const JoxLift *lift, JoxV2 at) {
 /* Adds the outline on a storey except for the door, from one end of the door round to the other. */
 static void add_shaft_with_door(const JoxLift *lift, const JoxLiftStop *stop,
                                 const JoxStoreys *storeys, JoxWalls *walls) {
-    const uint32_t n = lift->point_count, edge = find_edge(lift, stop->middle);
+    const JoxV2 middle = jox_scale(jox_add(stop->door[0], stop->door[1]), 0.5f);
+    const uint32_t n = lift->point_count, edge = find_edge(lift, middle);
     JoxV2 *points = jox_alloc((size_t)n + 2, sizeof *points), door[2];
     const JoxV2 towards = jox_sub(lift->outline[(edge + 1) % n], lift->outline[edge]);
     const bool ahead = jox_dot(jox_sub(stop->door[1], stop->door[0]), towards) > 0.0f;

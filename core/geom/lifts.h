@@ -65,7 +65,7 @@ enum { JOX_LIFT_MODES = 3 };
 /* Lays a lift out for storeys that are laid out: doors, heights and spots, at least as many as the
    capacity. Call it once all members above "Laid out" are set. */
 void jox_lift_lay_out(JoxLift *lift, const JoxStoreys *storeys);
-/* Appends its walls: the shaft's on each storey from the lowest to the highest stop, and a closed
+/* Appends the walls of a lift, laid out or not: the shaft's on each storey from the lowest to the highest stop, and a closed
    gate for each door. */
 void jox_lift_add_walls(const JoxLift *lift, const JoxStoreys *storeys, JoxWalls *walls);
 /* Returns whether a point of the plan is in the shaft. */

@@ -178,6 +178,32 @@ static void gate_of_a_lift_cannot_be_opened_by_hand(void **state) {
     jo_scene_free(scene);
 }
 
+/* Doors on all four sides, given from either end, with a side of their own on one storey. */
+static void doors_may_be_on_any_side(void **state) {
+    (void)state;
+    static const char *const DOORS[] = {"[[10.35, 5], [11.25, 5]]", "[[11.25, 5], [10.35, 5]]",
+                                        "[[11.6, 5.4], [11.6, 6.4]]", "[[10, 5.4], [10, 6.4]]",
+                                        "[[10.35, 6.8], [11.25, 6.8]]"};
+    for (size_t k = 0; k < sizeof DOORS / sizeof *DOORS; k++) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 "jostle: 1\n"
+                 "storeys: {ground: {height: 0}, first: {height: 4}}\n"
+                 "lifts:\n"
+                 "  east: {area: [[10, 5], [11.6, 6.8]], door: %s, doors: {ground: [[10.35, 5], "
+                 "[11.25, 5]]}}\n"
+                 "walls: [{line: [[0, 0], [16, 0], [16, 12], [0, 12]], closed: true, storey: "
+                 "[ground, first]}]\n"
+                 "places: {low: {polygon: [[1, 1], [7, 1], [7, 7], [1, 7]]}}\n"
+                 "groups: {people: {behaviour: own.lua, at: [[8, 3], [13, 9]], storey: first}}\n",
+                 DOORS[k]);
+        JoScene *scene = load_scene_text(text, RIDER("east.ground"));
+        step_scene_seconds(scene, 60);
+        assert_int_equal(count_on_storey(scene, 0), 2);
+        jo_scene_free(scene);
+    }
+}
+
 /* ---- modes ---- */
 
 static void lift_out_of_use_lets_riders_out_and_takes_nobody(void **state) {
@@ -284,6 +310,7 @@ int main(void) {
         cmocka_unit_test(car_travels_for_the_time_of_its_speed),
         cmocka_unit_test(calls_are_served_in_the_direction_of_travel),
         cmocka_unit_test(door_does_not_shut_on_somebody),
+        cmocka_unit_test(doors_may_be_on_any_side),
         cmocka_unit_test(gate_of_a_lift_cannot_be_opened_by_hand),
         cmocka_unit_test(lift_out_of_use_lets_riders_out_and_takes_nobody),
         cmocka_unit_test(firemen_fetch_storey_by_storey),
