@@ -21,7 +21,7 @@ static const struct Standard {
 } STANDARDS[] = {
     {'R', "rimea", "RiMEA 4.1.1", "none"},
     {'I', "imo", "IMO MSC.1/Circ.1533", "7 (a table of men of 30 to 50)"},
-    {'N', "nist", "NIST TN 1822", "2.5 and 2.6 (smoke), 2.7 (lifts), 5.1"},
+    {'N', "nist", "NIST TN 1822", "2.5 and 2.6 (smoke), 5.1"},
     {'O', "iso", "ISO 20414:2020, where it differs from the others",
      "18 and 19 (smoke and dose); 14, 15 and 16 are 2.9, 3.2 and 3.3 of NIST"},
 };
