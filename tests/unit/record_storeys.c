@@ -1,6 +1,7 @@
 /* Frames of worlds with storeys: positions on sheets in, figures as of one plane out. */
 #include "record_storeys.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "record/danger/danger.h"
@@ -258,7 +259,10 @@ static void stairs_have_figures_in_the_summary(void **state) {
     jox_json_end(&json);
     const char *stairs = strstr(text.data, "\"stairs\"");
     assert_non_null(stairs);
-    assert_non_null(strstr(stairs, "\"north\": {\"up\": 2, \"down\": 1, \"people_max\": 4"));
+    assert_non_null(strstr(stairs, "\"north\": {\"up\": 2, \"down\": 1, \"people_max\": 4, "
+                                   "\"width\": 2, \"used_s\": 0.5, \"first_s\": 0, "
+                                   "\"last_s\": 0.5, \"flow_max\": null"));
+    assert_non_null(strstr(stairs, "\"by_lift\": {\"up\": 0, \"down\": 0}"));
     /* Places are in plan, with the name of the storey or stair. */
     assert_non_null(strstr(text.data, "\"density_max_storey\": \"north\""));
     const char *y = strstr(text.data, "\"density_max_y\": ");
@@ -269,6 +273,112 @@ static void stairs_have_figures_in_the_summary(void **state) {
     free_plan(p);
 }
 
+enum { STAIR_STEP_MS = 500, STAIR_CROWD = 60 };
+
+/* Shows danger a frame of people who follow each other up the stair at 1 m/s, one in each half
+   second from 0 on, the first `count` of them. */
+static void show_procession(JoxDanger *danger, const Plan *p, uint32_t step, uint32_t count) {
+    float x[STAIR_CROWD], y[STAIR_CROWD], still[STAIR_CROWD] = {0};
+    uint32_t key[STAIR_CROWD], present = 0;
+    const float time = 0.001f * STAIR_STEP_MS * (float)step;
+    for (uint32_t i = 0; i < count; i++) {
+        const float way = time - 0.001f * STAIR_STEP_MS * (float)i;
+        if (way < 0.0f || way > 9.0f)
+            continue;
+        const JoxV2 at = put_on_sheet(p, 6.75f + way, 5.0f);
+        x[present] = at.x;
+        y[present] = at.y;
+        key[present++] = i;
+    }
+    const JoxFrame frame = {.time = (double)time,
+                            .count = present,
+                            .keys = STAIR_CROWD,
+                            .key = key,
+                            .x = x,
+                            .y = y,
+                            .vx = still,
+                            .vy = still,
+                            .walls = &p->sheet_walls,
+                            .storeys = &p->storeys};
+    jox_danger_frame(danger, &frame, NULL);
+}
+
+static double read_stair_figure(const JoxDanger *danger, const char *name) {
+    JoxText text = {0};
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_json_object(&json, NULL);
+    jox_danger_json(danger, &json);
+    jox_json_end(&json);
+    char key[64];
+    snprintf(key, sizeof key, "\"%s\": ", name);
+    const char *at = strstr(strstr(text.data, "\"north\": {"), key);
+    assert_non_null(at);
+    at += strlen(key);
+    const double value = strncmp(at, "null", 4) == 0 ? NAN : strtod(at, NULL);
+    jox_text_free(&text);
+    return value;
+}
+
+static void flow_level_and_mean_density_of_a_stair_are_judged_if_enough_pass(void **state) {
+    (void)state;
+    for (int few = 0; few < 2; few++) {
+        Plan *p = make_plan(0.0f);
+        JoxDanger *danger = jox_danger_create(jox_v2(-1, -1), jox_v2(21, 11), &p->storeys);
+        for (uint32_t step = 0; step <= 90; step++)
+            show_procession(danger, p, step, few ? 9 : STAIR_CROWD);
+        assert_near(read_stair_figure(danger, "up"), few ? 9 : STAIR_CROWD, 0);
+        /* Two a second over 2 m, in the ten seconds before; Fruin's level F from 0.93 on. */
+        const double flow = read_stair_figure(danger, "flow_max");
+        const double at_f = read_stair_figure(danger, "F");
+        if (few) {
+            assert_true(isnan(flow) && isnan(at_f));
+        } else {
+            assert_near(flow, 1.0, 1e-9);
+            assert_true(at_f > 15.0 && at_f < 30.0);
+        }
+        /* On the stair, 6 m long, from 1.5 s after the first one begins to 7 s after the last. */
+        assert_near(read_stair_figure(danger, "first_s"), 1.5, 1e-6);
+        assert_near(read_stair_figure(danger, "last_s"), few ? 11.0 : 36.5, 1e-6);
+        assert_near(read_stair_figure(danger, "used_s"), few ? 10.0 : 35.5, 1e-6);
+        const double mean = read_stair_figure(danger, "density_mean_max");
+        assert_true(mean > 0.5 && mean <= read_stair_figure(danger, "density_max"));
+        assert_near(read_stair_figure(danger, "over_limit_s"), 0.0, 0);
+        jox_danger_free(danger);
+        free_plan(p);
+    }
+}
+
+static void danger_of_stairs_goes_on_after_a_checkpoint(void **state) {
+    (void)state;
+    Plan *p = make_plan(0.0f);
+    JoxDanger *whole = jox_danger_create(jox_v2(-1, -1), jox_v2(21, 11), &p->storeys);
+    JoxDanger *resumed = jox_danger_create(jox_v2(-1, -1), jox_v2(21, 11), &p->storeys);
+    JoxText saved = {0};
+    for (uint32_t step = 0; step <= 90; step++) {
+        if (step == 50) {
+            JoxSections save = jox_sections_save(&saved);
+            jox_danger_sections(whole, &save);
+            assert_true(jox_sections_end(&save));
+            JoxSections restore = jox_sections_restore(saved.data, saved.length);
+            jox_danger_sections(resumed, &restore);
+            assert_true(jox_sections_end(&restore));
+        }
+        show_procession(whole, p, step, STAIR_CROWD);
+        if (step >= 50)
+            show_procession(resumed, p, step, STAIR_CROWD);
+    }
+    static const char *const FIGURES[] = {"up",       "people_max", "used_s",
+                                          "flow_max", "flow_max_s", "last_s",
+                                          "first_s",  "F",          "density_mean_max"};
+    for (size_t f = 0; f < sizeof FIGURES / sizeof *FIGURES; f++)
+        assert_near(read_stair_figure(resumed, FIGURES[f]), read_stair_figure(whole, FIGURES[f]),
+                    0);
+    jox_text_free(&saved);
+    jox_danger_free(whole);
+    jox_danger_free(resumed);
+    free_plan(p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agent_over_a_seam_walks_on_and_crosses_each_line_once),
@@ -276,6 +386,8 @@ int main(void) {
         cmocka_unit_test(rows_of_a_density_leave_out_what_is_not_floor),
         cmocka_unit_test(voronoi_cells_over_seams_are_those_of_one_plane),
         cmocka_unit_test(stairs_have_figures_in_the_summary),
+        cmocka_unit_test(flow_level_and_mean_density_of_a_stair_are_judged_if_enough_pass),
+        cmocka_unit_test(danger_of_stairs_goes_on_after_a_checkpoint),
         cmocka_unit_test(measured_squares_beside_a_seam_are_those_of_one_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

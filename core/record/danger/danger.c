@@ -38,6 +38,7 @@ JoxDanger *jox_danger_create_on(JoxLocal *local) {
         *least = fmin(*least, jox_danger_limits[l].value);
         d->counts[l].first = NAN;
     }
+    d->stairs = jox_danger_stairs_create(d->least[JOX_DANGER_DENSITY]);
     d->last_frame = d->last_sample = NAN;
     return d;
 }
@@ -290,7 +291,7 @@ static void sample_danger(JoxDanger *d, const JoxFrame *frame, const JoxExits *e
     jox_congestion_sample(&d->congestion, d->local->grid, frame->time, duration);
     jox_danger_lines_sample(&d->lines, frame, d->gaussian_density, duration);
     jox_danger_areas_sample(&d->areas, frame, d->gaussian_density, duration);
-    jox_danger_stairs_sample(&d->stairs, frame, d->gaussian_density);
+    jox_danger_stairs_sample(&d->stairs, frame, d->gaussian_density, duration);
 }
 
 void jox_danger_add_line(JoxDanger *d, const char *name, JoxV2 a, JoxV2 b) {

@@ -1,5 +1,5 @@
 /* Levels of service A to F: Fruin, Pedestrian planning and design, 1971. For queues by the area per
-   person; for walkways by flow over a line and area. */
+   person; for walkways and stairs by flow and area. */
 #ifndef JOX_RECORD_DANGER_LEVELS_H
 #define JOX_RECORD_DANGER_LEVELS_H
 
@@ -10,7 +10,8 @@ typedef struct JoxLevel {
     double walk_area;  /* m2 per person: least area of the level on a walkway */
     /* 1/(m min): greatest flow of the level on a walkway; INFINITY for the last */
     double walk_flow;
-    const char *what; /* description, for queues */
+    double stair_area, stair_flow; /* the same on stairs */
+    const char *what;              /* description, for queues */
 } JoxLevel;
 extern const JoxLevel jox_levels[JOX_LEVELS];
 extern const char jox_levels_source[];
@@ -21,5 +22,7 @@ int jox_level_of_queue(double density);
    alone, 1/m2: a low flow because nobody can move is not good. NAN for the density if there is
    nobody. */
 int jox_level_of_walkway(double flow, double density);
+/* Returns the level of a stair in the same way. */
+int jox_level_of_stair(double flow, double density);
 
 #endif
