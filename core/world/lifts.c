@@ -42,6 +42,15 @@ void jox_world_set_lifts(JoWorld *w, const JoxLift *lifts, uint32_t count) {
     show_lifts(w);
 }
 
+/* Keeps the longest queue before the doors of a lift, and when it stood there. */
+static void measure_queue(const JoxLiftTurn *t) {
+    const uint32_t waiting = jox_world_lift_waiting(t->world, t->number);
+    if (waiting <= t->figures->queue_most)
+        return;
+    t->figures->queue_most = waiting;
+    t->figures->queue_tick = (uint32_t)t->world->state.tick;
+}
+
 void jox_world_run_lifts(JoWorld *w) {
     if (!w->model.lift_count)
         return;
@@ -57,6 +66,7 @@ void jox_world_run_lifts(JoWorld *w) {
         jox_lift_update_riders(&turn);
         jox_lift_run_car(&turn);
         jox_lift_place_riders(&turn);
+        measure_queue(&turn);
     }
     show_lifts(w);
 }
@@ -163,6 +173,8 @@ void jox_lift_figures_sections(JoWorld *w, JoxSections *s) {
         JOX_SECTION(s, "filled", f->filled);
         JOX_SECTION(s, "ride_s", f->ride_s);
         JOX_SECTION(s, "metres", f->metres);
+        JOX_SECTION(s, "queue_most", f->queue_most);
+        JOX_SECTION(s, "queue_tick", f->queue_tick);
         JOX_SECTION_ARRAY(s, "waits", f->waits, f->wait_count, f->wait_capacity);
     }
 }

@@ -21,6 +21,8 @@ typedef struct JoxLiftFigures {
     double filled;        /* sum over trips: share of the capacity */
     double ride_s;        /* sum over people let out: time in the car */
     double metres;        /* way of the car */
+    uint32_t queue_most;  /* most people who waited before its doors at a time */
+    uint32_t queue_tick;  /* tick of that */
     float *waits;         /* s: of each person who came in, from the call to the way in */
     uint32_t wait_count;
     size_t wait_capacity;

@@ -2,6 +2,8 @@
  * travel, modes, checkpoints in the middle of a ride, and figures. */
 #include <math.h>
 
+#include "run/results/lift_figures.h"
+#include "unit/assert_near.h"
 #include "unit/scene_loader.h"
 
 /* Three storeys of 16 x 8 m with a lift whose car holds eight. */
@@ -255,6 +257,34 @@ static void firemen_fetch_storey_by_storey(void **state) {
     }
 }
 
+/* ---- figures ---- */
+
+static void longest_queue_is_the_most_who_wait_in_any_step(void **state) {
+    (void)state;
+    uint32_t most = 0;
+    double at = 0.0;
+    JoScene *scene =
+        load_scene_text(TOWER("", "groups: {people: {behaviour: own.lua, count: 20, in: high}}\n"),
+                        RIDER("east.ground"));
+    for (int n = 0; n < 2400; n++) {
+        const double before = jo_world_time(scene->world);
+        step_scene(scene, 1);
+        const uint32_t waiting = jox_world_lift_waiting(scene->world, 0);
+        if (waiting > most) {
+            most = waiting;
+            at = before;
+        }
+    }
+    const JoxLiftResult result = jox_run_lift_result(scene->world, 0);
+    assert_in_range(most, 12, 20);
+    assert_int_equal(result.count.queue_most, most);
+    assert_near(result.queue_most_time, at, 1e-9);
+    assert_int_equal(result.count.carried, 20);
+    assert_true(result.wait_mean > 0.0 && result.wait_mean < result.wait_most);
+    assert_int_equal(result.waiting, 0);
+    jo_scene_free(scene);
+}
+
 /* ---- state ---- */
 
 static void snapshot_in_the_middle_of_a_ride_continues_exactly(void **state) {
@@ -314,6 +344,7 @@ int main(void) {
         cmocka_unit_test(gate_of_a_lift_cannot_be_opened_by_hand),
         cmocka_unit_test(lift_out_of_use_lets_riders_out_and_takes_nobody),
         cmocka_unit_test(firemen_fetch_storey_by_storey),
+        cmocka_unit_test(longest_queue_is_the_most_who_wait_in_any_step),
         cmocka_unit_test(snapshot_in_the_middle_of_a_ride_continues_exactly),
         cmocka_unit_test(people_choose_the_lift_that_takes_least_time),
     };

@@ -6,28 +6,6 @@
 #include "base/mem.h"
 #include "base/sort.h"
 
-/* Waits of a lift, s; NAN where nobody came in. */
-typedef struct Waits {
-    double mean, p90, most;
-} Waits;
-
-static Waits sum_waits(const JoxLiftFigures *f) {
-    Waits waits = {NAN, NAN, NAN};
-    if (!f->wait_count)
-        return waits;
-    double *sorted = jox_alloc(f->wait_count, sizeof *sorted), sum = 0.0;
-    for (uint32_t k = 0; k < f->wait_count; k++) {
-        sorted[k] = (double)f->waits[k];
-        sum += sorted[k];
-    }
-    jox_sort_doubles(sorted, f->wait_count);
-    waits.mean = sum / f->wait_count;
-    waits.p90 = sorted[(uint32_t)ceil(0.9 * f->wait_count) - 1];
-    waits.most = sorted[f->wait_count - 1];
-    jox_free(sorted);
-    return waits;
-}
-
 /* Returns for how long the one waits who still waits longest, s; 0: nobody does. */
 static double find_longest_waiting(const JoWorld *w, uint32_t lift) {
     double longest = 0.0;
@@ -42,6 +20,41 @@ static double find_longest_waiting(const JoWorld *w, uint32_t lift) {
     return longest;
 }
 
+/* Sets the mean, the value that 90 % stay below, and the greatest of the waits. */
+static void set_waits(JoxLiftResult *r) {
+    const uint32_t count = r->count.wait_count;
+    if (!count)
+        return;
+    double *sorted = jox_alloc(count, sizeof *sorted), sum = 0.0;
+    for (uint32_t k = 0; k < count; k++) {
+        sorted[k] = (double)r->count.waits[k];
+        sum += sorted[k];
+    }
+    jox_sort_doubles(sorted, count);
+    r->wait_mean = sum / count;
+    r->wait_p90 = sorted[(uint32_t)ceil(0.9 * count) - 1];
+    r->wait_most = sorted[count - 1];
+    jox_free(sorted);
+}
+
+JoxLiftResult jox_run_lift_result(const JoWorld *w, uint32_t lift) {
+    const JoxLiftFigures *f = &w->state.lifts.figures[lift];
+    JoxLiftResult r = {.name = w->model.lifts[lift].name,
+                       .capacity = w->model.lifts[lift].capacity,
+                       .count = *f,
+                       .wait_mean = NAN,
+                       .wait_p90 = NAN,
+                       .wait_most = NAN,
+                       .ride_mean = f->let_out ? f->ride_s / (double)f->let_out : NAN,
+                       .filled = f->trips ? f->filled / (double)f->trips : 0.0,
+                       .queue_most_time =
+                           f->queue_most ? (double)f->queue_tick * w->model.def.dt : NAN,
+                       .waiting = jox_world_lift_waiting(w, lift),
+                       .waiting_longest = find_longest_waiting(w, lift)};
+    set_waits(&r);
+    return r;
+}
+
 void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
     const JoWorld *w = scene->world;
     if (!w->model.lift_count)
@@ -49,28 +62,29 @@ void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
     jox_json_object(json, "lifts");
     for (uint32_t l = 0; l < w->model.lift_count; l++) {
         const JoxLift *lift = &w->model.lifts[l];
-        const JoxLiftFigures *f = &w->state.lifts.figures[l];
         const JoxLiftCar *car = &w->state.lifts.cars[l];
-        const Waits waits = sum_waits(f);
-        jox_json_object(json, lift->name);
+        const JoxLiftResult r = jox_run_lift_result(w, l);
+        jox_json_object(json, r.name);
         jox_json_string(json, "mode", jox_lift_mode_names[car->mode]);
         jox_json_string(json, "storey",
                         w->model.storeys.storeys[lift->stops[car->stop].storey].name);
-        jox_json_whole(json, "carried", f->carried);
-        jox_json_whole(json, "let_out", f->let_out);
-        jox_json_whole(json, "trips", f->trips);
-        jox_json_whole(json, "full_trips", f->full_trips);
-        jox_json_number(json, "filled", f->trips ? f->filled / (double)f->trips : 0.0);
-        jox_json_number(json, "wait_mean_s", waits.mean);
-        jox_json_number(json, "wait_p90_s", waits.p90);
-        jox_json_number(json, "wait_max_s", waits.most);
-        jox_json_number(json, "ride_mean_s", f->let_out ? f->ride_s / (double)f->let_out : NAN);
-        jox_json_whole(json, "left_behind", f->left_behind);
-        jox_json_whole(json, "turned_away", f->turned_away);
-        jox_json_whole(json, "reopened", f->reopened);
-        jox_json_whole(json, "waiting", jox_world_lift_waiting(w, l));
-        jox_json_number(json, "waiting_longest_s", find_longest_waiting(w, l));
-        jox_json_number(json, "metres", f->metres);
+        jox_json_whole(json, "carried", r.count.carried);
+        jox_json_whole(json, "let_out", r.count.let_out);
+        jox_json_whole(json, "trips", r.count.trips);
+        jox_json_whole(json, "full_trips", r.count.full_trips);
+        jox_json_number(json, "filled", r.filled);
+        jox_json_number(json, "wait_mean_s", r.wait_mean);
+        jox_json_number(json, "wait_p90_s", r.wait_p90);
+        jox_json_number(json, "wait_max_s", r.wait_most);
+        jox_json_number(json, "ride_mean_s", r.ride_mean);
+        jox_json_whole(json, "left_behind", r.count.left_behind);
+        jox_json_whole(json, "turned_away", r.count.turned_away);
+        jox_json_whole(json, "reopened", r.count.reopened);
+        jox_json_whole(json, "queue_max", r.count.queue_most);
+        jox_json_number(json, "queue_max_s", r.queue_most_time);
+        jox_json_whole(json, "waiting", r.waiting);
+        jox_json_number(json, "waiting_longest_s", r.waiting_longest);
+        jox_json_number(json, "metres", r.count.metres);
         jox_json_end(json);
     }
     jox_json_end(json);
@@ -79,23 +93,21 @@ void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
 void jox_run_say_lifts(const JoScene *scene, JoxText *out) {
     const JoWorld *w = scene->world;
     for (uint32_t l = 0; l < w->model.lift_count; l++) {
-        const JoxLiftFigures *f = &w->state.lifts.figures[l];
-        const Waits waits = sum_waits(f);
-        const uint32_t waiting = jox_world_lift_waiting(w, l);
-        jox_text_printf(out, " Lift %.60s carried ", w->model.lifts[l].name);
-        jox_text_noun(out, f->carried, "person|people");
+        const JoxLiftResult r = jox_run_lift_result(w, l);
+        jox_text_printf(out, " Lift %.60s carried ", r.name);
+        jox_text_noun(out, r.count.carried, "person|people");
         jox_text_add(out, " in ");
-        jox_text_noun(out, f->trips, "trip|trips");
-        if (f->trips)
-            jox_text_printf(out, ", %.0f %% full", 100.0 * f->filled / (double)f->trips);
-        if (f->wait_count)
+        jox_text_noun(out, r.count.trips, "trip|trips");
+        if (r.count.trips)
+            jox_text_printf(out, ", %.0f %% full", 100.0 * r.filled);
+        if (r.count.wait_count)
             jox_text_printf(
                 out, "; they waited %.0f s on average, 90 %% of them up to %.0f s, at most %.0f s",
-                waits.mean, waits.p90, waits.most);
-        if (waiting) {
+                r.wait_mean, r.wait_p90, r.wait_most);
+        if (r.waiting) {
             jox_text_add(out, "; ");
-            jox_text_noun(out, waiting, "person waits|people wait");
-            jox_text_printf(out, " before it, for up to %.0f s", find_longest_waiting(w, l));
+            jox_text_noun(out, r.waiting, "person waits|people wait");
+            jox_text_printf(out, " before it, for up to %.0f s", r.waiting_longest);
         }
         jox_text_add(out, ".");
     }

@@ -5,6 +5,21 @@
 #include "base/format/json_writer.h"
 #include "run/run.h"
 
+/* Figures of a lift up to now. Times are in s; NAN where nobody came in, or was let out. */
+typedef struct JoxLiftResult {
+    const char *name; /* borrowed */
+    uint32_t capacity;
+    JoxLiftFigures count; /* as the world counts them; `waits` is borrowed */
+    double wait_mean, wait_p90, wait_most;
+    double ride_mean;
+    double filled;          /* mean share of the capacity that was filled on its trips; 0: none */
+    double queue_most_time; /* NAN: nobody waited */
+    uint32_t waiting;       /* people before its doors now */
+    double waiting_longest; /* for which the one of them waits who came first; 0: nobody does */
+} JoxLiftResult;
+
+/* Returns the figures of a lift, by its index. */
+JoxLiftResult jox_run_lift_result(const JoWorld *world, uint32_t lift);
 /* Adds them to the summary, as "lifts"; nothing without lifts. */
 void jox_run_add_lifts(const JoScene *scene, JoxJson *json);
 /* Appends them to the last lines of a run. */
