@@ -4,8 +4,10 @@
 
 #include "base/format/quote.h"
 #include "base/mem.h"
+#include "picture/draw_parts.h"
 #include "picture/palette.h"
 #include "picture/plot.h"
+#include "record/storey_figures.h"
 
 JoxPaths *jox_paths_create(void) {
     return jox_alloc(1, sizeof(JoxPaths));
@@ -54,18 +56,31 @@ void jox_paths_free(JoxPaths *paths) {
     jox_free(paths);
 }
 
+/* Writes a point of a path, with a blank line before it where the path goes on in another panel. */
+static void write_path_point(FILE *data, const JoxPanels *panels, const JoxWalkedPath *path,
+                             uint32_t i, bool first) {
+    const JoxPathPoint *point = &path->points[i];
+    JoxV2 at = {point->x, point->y};
+    if (panels->storeys) {
+        const uint32_t panel = jox_draw_panel_of(panels, at);
+        if (!first && panel != jox_draw_panel_of(panels, (JoxV2){point[-1].x, point[-1].y}))
+            fputs("\n", data);
+        at = jox_draw_in_panels(panels, at);
+    }
+    fprintf(data, "%u,%.2f,%.3f,%.3f\n", path->id, point->t, at.x, at.y);
+}
+
 /* Writes the points of all paths of a series as a data set of gnuplot. `part` 0: all points, a
    blank line after each path; 1: first points; 2: last points. */
-static void write_path_series(FILE *data, const JoxPaths *paths, uint32_t series, bool body,
-                              int part) {
+static void write_path_series(FILE *data, const JoxPaths *paths, const JoxPanels *panels,
+                              uint32_t series, bool body, int part) {
     for (uint32_t p = 0; p < paths->count; p++) {
         const JoxWalkedPath *path = &paths->items[p];
         if (path->body != body || path->series != series || path->count == 0)
             continue;
         uint32_t first = part == 2 ? path->count - 1 : 0, last = part == 1 ? 1 : path->count;
         for (uint32_t i = first; i < last; i++)
-            fprintf(data, "%u,%.2f,%.3f,%.3f\n", path->id, path->points[i].t, path->points[i].x,
-                    path->points[i].y);
+            write_path_point(data, panels, path, i, i == first);
         if (part == 0)
             fputs("\n", data);
     }
@@ -96,8 +111,8 @@ static void append_series_plot(JoxText *plot, uint32_t set, const char *colour, 
 /* Writes the data sets of all series and appends their plot elements to `plot`. Groups have the
    same colours as in pictures and on the live page. */
 static void write_path_data(FILE *data, JoxText *plot, const JoxPaths *paths,
-                            const char *const *names, const JoxColour *colours,
-                            uint32_t name_count) {
+                            const JoxPanels *panels, const char *const *names,
+                            const JoxColour *colours, uint32_t name_count) {
     uint32_t set = 0;
     JoxInk *inks = jox_alloc(name_count + 1, sizeof *inks);
     jox_palette_classes(colours, name_count, inks);
@@ -107,7 +122,7 @@ static void write_path_data(FILE *data, JoxText *plot, const JoxPaths *paths,
         if (!has_path_series(paths, body ? 0 : s, body))
             continue;
         for (int part = 0; part < 3; part++)
-            write_path_series(data, paths, body ? 0 : s, body, part);
+            write_path_series(data, paths, panels, body ? 0 : s, body, part);
         jox_colour_write(jox_palette_colour(inks[s]), colour);
         append_series_plot(plot, set, body ? "#606060" : colour, body ? "1.2 dt 2" : "1.6",
                            body ? "bodies" : names[s]);
@@ -117,48 +132,74 @@ static void write_path_data(FILE *data, JoxText *plot, const JoxPaths *paths,
 }
 
 /* Writes paths.csv: a row for each point, by group and id; bodies last. */
-static bool write_path_table(const char *folder, const JoxPaths *paths, const char *const *names,
-                             uint32_t name_count, JoxText *error) {
+static bool write_path_table(const char *folder, const JoxPaths *paths, const JoxStoreys *storeys,
+                             const char *const *names, uint32_t name_count, JoxText *error) {
     FILE *out = jox_plot_open(folder, "paths.csv", error);
     if (!out)
         return false;
-    fputs("group,id,time [s],x [m],y [m]\n", out);
+    fputs("group,id,time [s],x [m],y [m]", out);
+    jox_csv_put_storey_title(out, storeys);
+    fputc('\n', out);
     for (uint32_t s = 0; s <= name_count; s++)
         for (uint32_t p = 0; p < paths->count; p++) {
             const JoxWalkedPath *path = &paths->items[p];
             if (s < name_count ? path->body || path->series != s : !path->body)
                 continue;
             for (uint32_t i = 0; i < path->count; i++) {
+                const JoxV2 at = {path->points[i].x, path->points[i].y};
+                const JoxV2 plan = jox_in_plan(storeys, at);
                 jox_quote_put(out, jox_quote_csv, path->body ? "bodies" : names[s]);
-                fprintf(out, ",%u,%.2f,%.3f,%.3f\n", path->id, path->points[i].t, path->points[i].x,
-                        path->points[i].y);
+                fprintf(out, ",%u,%.2f,%.3f,%.3f", path->id, path->points[i].t, plan.x, plan.y);
+                jox_csv_put_storey(out, storeys, at, true);
+                fputc('\n', out);
             }
         }
     return jox_plot_close(out, "paths.csv", error);
 }
 
+/* Writes the axes: of the area, or without numbers of the panels, with the names of storeys. */
+static void write_path_axes(FILE *script, const JoxPanels *panels) {
+    fprintf(script, "set xrange [%g:%g]\nset yrange [%g:%g]\n", panels->low.x, panels->high.x,
+            panels->low.y, panels->high.y);
+    if (!panels->storeys) {
+        fputs("set xlabel 'x (m)'\nset ylabel 'y (m)'\n", script);
+        return;
+    }
+    fputs("unset xtics\nunset ytics\n", script);
+    for (uint32_t k = 0; k < panels->storeys->storey_count; k++) {
+        const JoxV2 at =
+            jox_draw_in_panel(panels, k, jox_v2(panels->plan_low.x, panels->plan_high.y));
+        fputs("set label ", script);
+        jox_quote_put(script, jox_quote_gnuplot, panels->storeys->storeys[k].name);
+        fprintf(script, " at %g,%g left offset 0,0.6 noenhanced\n", at.x, at.y);
+    }
+}
+
 bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
-                    const JoxColour *colours, uint32_t name_count, const JoxWalls *walls, JoxV2 low,
-                    JoxV2 high, const char *title, JoxText *error) {
+                    const JoxColour *colours, uint32_t name_count, const JoxWalls *walls,
+                    const JoxStoreys *storeys, JoxV2 low, JoxV2 high, const char *title,
+                    JoxText *error) {
+    const JoxPicture shown = {.low = low, .high = high, .storeys = storeys};
+    const JoxPanels panels = jox_draw_lay_panels(&shown);
     FILE *data = jox_plot_open(folder, "paths.dat", error), *script;
     JoxText plot = {0};
     if (!data)
         return false;
-    write_path_data(data, &plot, paths, names, colours, name_count);
+    write_path_data(data, &plot, paths, &panels, names, colours, name_count);
     bool written = jox_plot_close(data, "paths.dat", error) &&
-                   write_path_table(folder, paths, names, name_count, error) &&
-                   jox_plot_walls(folder, walls, error);
+                   write_path_table(folder, paths, storeys, names, name_count, error) &&
+                   jox_plot_walls(folder, walls, &panels, error);
     script = written ? jox_plot_open(folder, "paths.plt", error) : NULL;
     if (script) {
-        float tall = jox_clampf((high.y - low.y) / (high.x - low.x), 0.3f, 1.6f);
+        const JoxV2 size = jox_sub(panels.high, panels.low);
+        float tall = jox_clampf(size.y / size.x, 0.3f, 1.6f);
         jox_plot_begin(script, "paths", false, 1100, (int)(1000.0f * tall) + 140);
         jox_plot_title(script, title);
+        write_path_axes(script, &panels);
         fprintf(
             script,
-            "set datafile separator comma\nset size ratio -1\nset xlabel 'x (m)'\n"
-            "set ylabel 'y (m)'\nset xrange [%g:%g]\nset yrange [%g:%g]\nset key below noenhanced\n"
-            "plot %s",
-            low.x, high.x, low.y, high.y, plot.length ? plot.data : "NaN notitle");
+            "set datafile separator comma\nset size ratio -1\nset key below noenhanced\nplot %s",
+            plot.length ? plot.data : "NaN notitle");
         jox_plot_wall_lines(script, walls, "2");
     }
     jox_text_free(&plot);

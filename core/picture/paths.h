@@ -9,6 +9,7 @@
 #include "base/format/colour.h"
 #include "base/sections.h"
 #include "base/text.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 
 enum { JOX_MOST_PATHS = 200 };
@@ -41,10 +42,12 @@ void jox_paths_add(JoxPaths *paths, uint32_t id, bool body, uint32_t series, flo
 void jox_paths_sections(JoxPaths *paths, JoxSections *sections);
 /* Writes paths.csv, paths.plt and paths.png: per path a line, a dot at its start, a circle at
    its end. `names` and `colours` (NULL: none given) are of the agents' groups, indexed by
-   `series`; `low` and `high` are the area shown, m. Returns false with a sentence in `error`. */
+   `series`; `low` and `high` are the area shown, m, in plan. With storeys each is drawn in a panel
+   of its own, as on maps. Returns false with a sentence in `error`. */
 bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
-                    const JoxColour *colours, uint32_t name_count, const JoxWalls *walls, JoxV2 low,
-                    JoxV2 high, const char *title, JoxText *error);
+                    const JoxColour *colours, uint32_t name_count, const JoxWalls *walls,
+                    const JoxStoreys *storeys, JoxV2 low, JoxV2 high, const char *title,
+                    JoxText *error);
 void jox_paths_free(JoxPaths *paths);
 
 #endif

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/format/quote.h"
+#include "picture/draw_parts.h"
 #include "picture/palette.h"
 
 extern char **environ;
@@ -165,7 +166,8 @@ void jox_plot_title(FILE *script, const char *title) {
 }
 
 /* Writes the open or the other wall rings, a blank line after each, and returns their number. */
-static uint32_t write_wall_rings(FILE *data, const JoxWalls *walls, bool open) {
+static uint32_t write_wall_rings(FILE *data, const JoxWalls *walls, const JoxPanels *panels,
+                                 bool open) {
     uint32_t count = 0;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         if (walls->rings[r].open != open)
@@ -173,6 +175,8 @@ static uint32_t write_wall_rings(FILE *data, const JoxWalls *walls, bool open) {
         count++;
         for (uint32_t i = 0; i <= walls->rings[r].count; i++) {
             JoxV2 p = walls->vertices[walls->rings[r].first + i % walls->rings[r].count].point;
+            if (panels && panels->storeys)
+                p = jox_draw_in_panels(panels, p);
             fprintf(data, "%g,%g\n", p.x, p.y);
         }
         fputs("\n", data);
@@ -180,14 +184,15 @@ static uint32_t write_wall_rings(FILE *data, const JoxWalls *walls, bool open) {
     return count;
 }
 
-bool jox_plot_walls(const char *folder, const JoxWalls *walls, JoxText *error) {
+bool jox_plot_walls(const char *folder, const JoxWalls *walls, const JoxPanels *panels,
+                    JoxText *error) {
     FILE *data = jox_plot_open(folder, "walls.dat", error);
     if (!data)
         return false;
-    if (write_wall_rings(data, walls, false) == 0)
+    if (write_wall_rings(data, walls, panels, false) == 0)
         fputs("0,NaN\n\n", data);
     fputs("\n", data); /* a second blank line begins the next data set */
-    write_wall_rings(data, walls, true);
+    write_wall_rings(data, walls, panels, true);
     return jox_plot_close(data, "walls.dat", error);
 }
 

@@ -38,9 +38,11 @@ void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int hei
 void jox_plot_title(FILE *script, const char *title);
 /* Writes STEM.ENDING as a quoted file name. */
 void jox_plot_file(FILE *script, const char *stem, const char *ending);
-/* Write walls.dat, and the elements that draw it at the end of a plot command; open gates are
-   dashed. */
-bool jox_plot_walls(const char *folder, const JoxWalls *walls, JoxText *error);
+/* Write walls.dat, where the panels of storeys are (NULL: as positions), and the elements that draw
+   it at the end of a plot command; open gates are dashed. */
+struct JoxPanels;
+bool jox_plot_walls(const char *folder, const JoxWalls *walls, const struct JoxPanels *panels,
+                    JoxText *error);
 void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width);
 
 #endif

@@ -53,7 +53,7 @@ bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *wall
     if (!title)
         return true;
     bool drawn = walls && walls->ring_count > 0;
-    if (drawn && !jox_plot_walls(folder, walls, error))
+    if (drawn && !jox_plot_walls(folder, walls, NULL, error))
         return false;
     snprintf(name, sizeof name, "%s.plt", stem);
     snprintf(heading, sizeof heading, "%.200s: %.100s", title, jox_probe_def(p)->name);

@@ -8,9 +8,9 @@
 /* Writes into an existing folder danger.csv (over time), danger-map.csv (by cell),
    danger-limits.csv, danger-levels.csv (levels of service), danger-congestion.csv,
    danger-areas.csv (levels by area and time), danger-leaving.csv, danger-people.csv (people with
-   high loads), danger-lines.csv and danger-walls.csv; tables of unknown quantities are left out.
-   With a title, also plots danger, leaving and levels as PNG and SVG. Returns false with a
-   sentence in `error`. */
+   high loads), danger-lines.csv, danger-stairs.csv and danger-walls.csv; tables of unknown
+   quantities are left out. With a title, also plots danger, leaving, levels and stairs as PNG and
+   SVG. Returns false with a sentence in `error`. */
 bool jox_danger_write(const JoxDanger *danger, const char *folder, const char *title,
                       JoxText *error);
 
@@ -22,5 +22,9 @@ int jox_danger_count_strips(const JoxDanger *danger);
    no plot, as at most one level occurred. */
 int jox_danger_count_level_strips(const JoxDanger *danger);
 int jox_danger_level_strip_height(const JoxDanger *danger);
+/* Returns the number of strips of the plot of stairs: one for each stair that people were on, at
+   most JOX_MOST_STAIR_STRIPS, those with the most people. */
+enum { JOX_MOST_STAIR_STRIPS = 20 };
+int jox_danger_count_stair_strips(const JoxDanger *danger);
 
 #endif

@@ -9,8 +9,6 @@
 #include "picture/plot.h"
 #include "report/danger_output_parts.h"
 
-static const int LEFT = 10, RIGHT = 34; /* margins in characters, equal in all strips */
-
 /* Returns whether a measure has a strip: compression only in older recordings, which have it
    instead of load; crowd pressure only if it was measured (the page says so in words). */
 static bool has_measure_strip(const JoxDanger *d, int measure) {
@@ -56,27 +54,12 @@ int jox_danger_level_strip_height(const JoxDanger *d) {
     return height < LEAST ? LEAST : height > MOST ? MOST : height;
 }
 
-/* Begins a script: size and output file for PNG or SVG, separator, and the variable `heading`, with
-   which the title of the first strip begins. */
-static void begin_danger_script(FILE *script, const char *name, bool svg, int width, int height,
-                                const char *title) {
-    jox_plot_begin(script, name, svg, width, height);
-    fputs("set datafile separator comma\nheading = ", script);
-    jox_quote_put(script, jox_quote_gnuplot, title);
-    fputc('\n', script);
-}
-
 /* Writes the title of a limit without its kernel, which the strip's title names, for the margin. */
 static const char *short_limit_title(int limit, char out[64]) {
     const char *title = jox_danger_limits[limit].title;
     const char *kernel = strstr(title, " (");
     snprintf(out, 64, "%.*s", kernel ? (int)(kernel - title) : 63, title);
     return out;
-}
-
-/* Writes the title of a strip; that of the first one begins with the scene's. */
-static void set_strip_title(FILE *script, const char *title) {
-    fprintf(script, "set title heading.'%s' noenhanced\nheading = ''\n", title);
 }
 
 /* Writes the strip of a measure: its greatest value over time, and its limits as labelled lines. */
@@ -91,7 +74,7 @@ static void write_measure_strip(const JoxDanger *d, JoxDangerMeasure measure, FI
     for (uint32_t r = 0; r < d->row_count; r++)
         top = fmax(top, (double)d->rows[r].most[measure]);
     fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\n", UNITS[measure]);
-    set_strip_title(script, TITLES[measure]);
+    jox_strips_set_title(script, TITLES[measure]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         double limit = jox_danger_limits[l].value;
         if (jox_danger_limits[l].measure != measure || limit > 2.0 * fmax(top, limit / 2.1))
@@ -120,8 +103,9 @@ static void write_count_strip(const JoxDanger *d, FILE *script) {
     fputs("unset arrow\nunset label\nset yrange [0:*]\nset ylabel 'people'\nset key at graph "
           "1.01,1 left top Left reverse\n",
           script);
-    set_strip_title(script, "People over a limit of density (Gaussian R = 1 m, or Voronoi), crowd "
-                            "pressure or load");
+    jox_strips_set_title(script,
+                         "People over a limit of density (Gaussian R = 1 m, or Voronoi), crowd "
+                         "pressure or load");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         if (d->counts[l].people > 0) {
             fprintf(script,
@@ -138,12 +122,13 @@ static bool has_leavers(const JoxDanger *d) {
 }
 
 /* Writes the strip of people inside and people who have left, in all and by exit. */
-static void write_leaving_strip(const JoxDanger *d, FILE *script) {
+static void write_leaving_strip(const void *danger, FILE *script) {
+    const JoxDanger *d = danger;
     const int column = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS + JOX_LEVELS + 1;
     fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1 left top Left "
           "reverse\n",
           script);
-    set_strip_title(script, "People who have left, and who are inside");
+    jox_strips_set_title(script, "People who have left, and who are inside");
     fputs("plot 'danger.csv' skip 1 using 1:2 with lines lw 2 lc '#999999' dt 2 title 'inside', '' "
           "skip 1 using 1:",
           script);
@@ -165,7 +150,7 @@ static void write_flow_strip(const JoxDanger *d, FILE *script) {
     double top = JOX_STOP_FLOW;
     for (uint32_t l = 0; l < d->lines.count; l++)
         top = fmax(top, d->lines.items[l].flow_most);
-    set_strip_title(script, "Flow over lines in ten seconds; crosses: stop-and-go");
+    jox_strips_set_title(script, "Flow over lines in ten seconds; crosses: stop-and-go");
     fprintf(
         script,
         "unset arrow\nunset label\nset yrange [0:%g]\nset ylabel 'per m and s'\nset key at "
@@ -192,41 +177,9 @@ static void write_flow_strip(const JoxDanger *d, FILE *script) {
 
 /* ---- plots ---- */
 
-/* Begins a plot of strips over time. The axis of a run begins at 0 although its first sample is
-   one step later; that of a recording begins anywhere. */
-static void begin_strip_plot(const JoxDanger *d, const char *name, bool svg, int strips, int height,
-                             const char *title, FILE *script) {
-    const double begun = d->begun > 1.0 ? d->begun : 0.0;
-    begin_danger_script(script, name, svg, JOX_DANGER_STRIPS_WIDE, strips * height, title);
-    fprintf(script,
-            "set multiplot layout %d,1\nset grid\n"
-            "set lmargin %d\nset rmargin %d\nset xlabel 'time (s)'\nset xrange [%g:%g]\n",
-            strips, LEFT, RIGHT, begun,
-            d->row_count ? fmax(d->rows[d->row_count - 1].time, begun + 1.0) : begun + 1.0);
-}
-
-/* Writes NAME.plt, which draws the same strips as PNG and SVG, and runs it. `write_strips`
-   writes their commands. */
-static bool draw_strips(const JoxDanger *d, const char *folder, const char *name, const char *title,
-                        int strips, int height,
-                        void (*write_strips)(const JoxDanger *d, FILE *script), JoxText *error) {
-    char file[40];
-    if (strips == 0)
-        return true;
-    snprintf(file, sizeof file, "%s.plt", name);
-    FILE *script = jox_plot_open(folder, file, error);
-    if (!script)
-        return false;
-    for (int svg = 0; svg < 2; svg++) {
-        begin_strip_plot(d, name, svg, strips, height, title, script);
-        write_strips(d, script);
-        fputs("unset multiplot\nset output\n", script);
-    }
-    return jox_plot_close(script, file, error) && jox_plot_draw(folder, file, error);
-}
-
 /* Writes the strips of danger.plt: measures, people over limits, and flows if there are lines. */
-static void write_time_strips(const JoxDanger *d, FILE *script) {
+static void write_time_strips(const void *danger, FILE *script) {
+    const JoxDanger *d = danger;
     for (int m = 0; m < JOX_DANGER_MAPPED; m++)
         if (has_measure_strip(d, m))
             write_measure_strip(d, (JoxDangerMeasure)m, script);
@@ -244,12 +197,13 @@ static void write_level_colour(int level, FILE *script) {
 
 /* Writes two strips: the number of people at each level, stacked, and the level of each area
    over time. */
-static void write_level_strips(const JoxDanger *d, FILE *script) {
+static void write_level_strips(const void *danger, FILE *script) {
+    const JoxDanger *d = danger;
     const int first = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS;
     fputs("set yrange [0:*]\nset ylabel 'people'\nset key at graph 1.01,1.05 left top Left reverse "
           "invert maxcols 1 spacing 0.9 font ',10'\nset style fill solid 1 noborder\n",
           script);
-    set_strip_title(script, "People at each level of service (A: most room, F: least)");
+    jox_strips_set_title(script, "People at each level of service (A: most room, F: least)");
     fputs("plot ", script);
     /* stacked: the sum of all levels first, smaller sums over it */
     for (int k = JOX_LEVELS - 1; k >= 0; k--) {
@@ -265,7 +219,7 @@ static void write_level_strips(const JoxDanger *d, FILE *script) {
         return;
     fprintf(script, "set yrange [%u.5:-0.5]\nunset ylabel\nset key noinvert\nset grid noytics\n",
             d->areas.count - 1);
-    set_strip_title(script, "Level of service of each area (blank: nobody is there)");
+    jox_strips_set_title(script, "Level of service of each area (blank: nobody is there)");
     fputs("set ytics (", script);
     for (uint32_t a = 0; a < d->areas.count; a++) {
         fputs(a ? ", " : "", script);
@@ -307,17 +261,21 @@ static bool write_level_stretches(const JoxDanger *d, const char *folder, JoxTex
 }
 
 bool jox_danger_write(const JoxDanger *d, const char *folder, const char *title, JoxText *error) {
-    char heading[400];
+    char heading[JOX_STRIP_TITLE];
     if (!jox_danger_write_tables(d, folder, error))
         return false;
     if (!title || d->row_count == 0)
         return true;
-    snprintf(heading, sizeof heading, "%.200s: ", title);
-    return draw_strips(d, folder, "danger", heading, jox_danger_count_strips(d), JOX_DANGER_STRIP,
-                       write_time_strips, error) &&
-           draw_strips(d, folder, "leaving", heading, has_leavers(d), JOX_DANGER_STRIP,
-                       write_leaving_strip, error) &&
-           write_level_stretches(d, folder, error) &&
-           draw_strips(d, folder, "levels", heading, jox_danger_count_level_strips(d),
-                       jox_danger_level_strip_height(d), write_level_strips, error);
+    jox_strips_title(title, heading);
+    const JoxStripPlot plots[] = {
+        {"danger", heading, jox_danger_count_strips(d), JOX_DANGER_STRIP, write_time_strips, d},
+        {"leaving", heading, has_leavers(d), JOX_DANGER_STRIP, write_leaving_strip, d},
+        {"levels", heading, jox_danger_count_level_strips(d), jox_danger_level_strip_height(d),
+         write_level_strips, d},
+        {"stairs", heading, jox_danger_count_stair_strips(d), JOX_DANGER_STRIP,
+         jox_danger_write_stair_strips, d}};
+    bool good = write_level_stretches(d, folder, error);
+    for (size_t p = 0; p < sizeof plots / sizeof *plots && good; p++)
+        good = jox_danger_draw_strips(d, folder, &plots[p], error);
+    return good;
 }

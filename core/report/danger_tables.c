@@ -1,5 +1,5 @@
 /* The tables danger.csv and danger-*.csv: over time, by cell, by limit, person, level, line,
-   wall and area. */
+   stair, wall and area. */
 #include <math.h>
 #include <stdio.h>
 
@@ -232,22 +232,46 @@ static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) 
     return jox_plot_close(out, "danger-lines.csv", error);
 }
 
+/* Writes danger-stairs.csv: a row per stair between storeys and sample. */
+static bool write_stairs(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-stairs.csv", error);
+    if (!out)
+        return false;
+    fputs("stair,time [s],up,down,people,flow [1/(m s)],density [1/m2],level\n", out);
+    for (uint32_t k = 0; k < d->stairs.count; k++)
+        for (uint32_t r = 0; r < d->stairs.items[k].row_count; r++) {
+            const JoxDangerStairRow *row = &d->stairs.items[k].rows[r];
+            jox_quote_put(out, jox_quote_csv, d->stairs.storeys->stairs[k].name);
+            fprintf(out, ",%.9g,%u,%u,%u", row->time, row->up, row->down, row->people);
+            put_csv_value(out, row->flow);
+            put_csv_value(out, row->density);
+            fprintf(out, ",%s\n", row->level < 0 ? "" : jox_levels[row->level].name);
+        }
+    return jox_plot_close(out, "danger-stairs.csv", error);
+}
+
 /* Writes danger-walls.csv: a row per piece of a side of a wall. */
 static bool write_danger_walls(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-walls.csv", error);
     if (!out)
         return false;
+    const JoxStoreys *storeys = jox_density_storeys_of(d->local->grid);
     fputs("x0 [m],y0 [m],x1 [m],y1 [m],load [N],load_max [N],load_max [N/m],at [s],over_rail_4500 "
-          "[s],first [s]\n",
+          "[s],first [s]",
           out);
+    jox_csv_put_storey_title(out, storeys);
+    fputc('\n', out);
     for (uint32_t p = 0; p < d->walls.count; p++) {
         const JoxDangerPiece *piece = &d->walls.items[p];
-        fprintf(out, "%.4f,%.4f,%.4f,%.4f,%.9g,%.9g", (double)piece->from.x, (double)piece->from.y,
-                (double)piece->to.x, (double)piece->to.y, (double)piece->load, (double)piece->most);
+        const JoxV2 from = jox_danger_piece_in_plan(storeys, piece, piece->from),
+                    to = jox_danger_piece_in_plan(storeys, piece, piece->to);
+        fprintf(out, "%.4f,%.4f,%.4f,%.4f,%.9g,%.9g", (double)from.x, (double)from.y, (double)to.x,
+                (double)to.y, (double)piece->load, (double)piece->most);
         put_csv_value(out, jox_danger_piece_line_load(piece));
         put_csv_value(out, piece->most_time);
         put_csv_value(out, piece->seconds);
         put_csv_value(out, piece->first);
+        jox_csv_put_storey(out, storeys, jox_danger_piece_middle(piece), true);
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-walls.csv", error);
@@ -284,6 +308,7 @@ bool jox_danger_write_tables(const JoxDanger *d, const char *folder, JoxText *er
            (d->areas.count == 0 || write_areas(d, folder, error)) &&
            (d->leaving.count == 0 || write_leaving(d, folder, error)) &&
            (d->lines.count == 0 || write_lines(d, folder, error)) &&
+           (jox_danger_stairs_joining(&d->stairs) == 0 || write_stairs(d, folder, error)) &&
            (!d->walls.known || write_danger_walls(d, folder, error)) &&
            (!d->has_load || write_people(d, folder, error));
 }

@@ -58,6 +58,7 @@ void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
     }
     add_congestion_figures(f, danger);
     add_line_figures(f, danger);
+    jox_page_add_stairs(f, danger);
     jox_page_add_figure(f, "N", danger->walls.known ? greatest_wall_load(danger) : NAN,
                         "greatest load on a piece of a wall");
     f->group = "Levels of service";

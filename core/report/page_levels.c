@@ -2,6 +2,7 @@
    who left when. */
 #include <math.h>
 
+#include "geom/storey_text.h"
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
 #include "report/danger_outputs.h"
@@ -168,13 +169,16 @@ static void put_wall_section(FILE *out, const JoxSubject *s) {
         shown = jox_page_rank_greatest(danger, walls->count, greatest_load_of_piece, order);
     for (uint32_t k = 0; k < shown; k++) {
         const JoxDangerPiece *piece = &walls->items[order[k]];
-        char point[2][48];
-        snprintf(point[0], sizeof point[0], "(%.2f, %.2f)", (double)piece->from.x,
-                 (double)piece->from.y);
-        snprintf(point[1], sizeof point[1], "(%.2f, %.2f)", (double)piece->to.x,
-                 (double)piece->to.y);
-        jox_table_text(&table, point[0]);
-        jox_table_text(&table, point[1]);
+        const JoxV2 ends[2] = {jox_danger_piece_in_plan(s->storeys, piece, piece->from),
+                               jox_danger_piece_in_plan(s->storeys, piece, piece->to)};
+        for (int end = 0; end < 2; end++) {
+            JoxText point = {0};
+            jox_text_printf(&point, "(%.2f, %.2f)", (double)ends[end].x, (double)ends[end].y);
+            if (end == 0)
+                jox_text_storey(&point, s->storeys, jox_danger_piece_middle(piece));
+            jox_table_text(&table, point.data);
+            jox_text_free(&point);
+        }
         jox_table_number(&table, (double)piece->most);
         jox_table_number(&table, jox_danger_piece_line_load(piece));
         jox_table_number(&table, piece->most_time);
@@ -226,5 +230,7 @@ void jox_page_put_levels(FILE *out, const JoxSubject *s) {
     put_level_section(out, s);
     put_congestion_section(out, s);
     jox_page_put_lines(out, s);
+    jox_page_put_stairs(out, s);
+    jox_page_put_lifts(out, s);
     put_wall_section(out, s);
 }

@@ -34,6 +34,8 @@ void jox_page_add_figure(JoxPageFigures *f, const char *unit, double value, cons
 /* `inside` is the number of people still there at the end. */
 void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t inside);
 void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger);
+void jox_page_add_stairs(JoxPageFigures *f, const JoxDanger *danger);
+void jox_page_add_lifts(JoxPageFigures *f, const JoScene *scene);
 void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe);
 /* Writes a figure's value as a table cell. */
 void jox_page_put_value(FILE *out, const JoxPageFigure *figure);
@@ -66,12 +68,14 @@ void jox_page_put_criteria(FILE *out, const JoxSubject *subject, const JoxVerdic
 
 /* Write sections of the page. jox_page_put_crowd writes the plan, the other three, and the
    probes' figures; leaving: who left when; danger: limits, maps and moments; levels: levels of
-   service, congestion, lines (of its own: lines) and walls. */
+   service, congestion, lines (of its own: lines), walls, stairs and lifts. */
 void jox_page_put_crowd(FILE *out, const JoxSubject *subject);
 void jox_page_put_leaving(FILE *out, const JoxSubject *subject);
 void jox_page_put_danger(FILE *out, const JoxSubject *subject);
 void jox_page_put_levels(FILE *out, const JoxSubject *subject);
 void jox_page_put_lines(FILE *out, const JoxSubject *subject);
+void jox_page_put_stairs(FILE *out, const JoxSubject *subject);
+void jox_page_put_lifts(FILE *out, const JoxSubject *subject);
 /* Returns an empty table of a subject's page (page_table.h). */
 JoxPageTable jox_page_table(const JoxSubject *subject, const char *name, const char *heads);
 /* Appends how the densities of a subject's maps are made: kernel, walls, cells, sampling. */

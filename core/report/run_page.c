@@ -52,6 +52,7 @@ static JoxPageFigures collect_run_figures(const JoScene *scene) {
     jox_page_add_exits(&f, &scene->world->state.exits, scene->world->state.agents.count);
     add_demand_figures(&f, scene);
     jox_page_add_danger(&f, jox_run_danger(scene));
+    jox_page_add_lifts(&f, scene);
     const JoxRegions *regions = jox_run_regions(scene);
     char group[64] = "Regions";
     if (scene->spec->heatmap_from > 0.0)

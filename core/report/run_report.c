@@ -16,6 +16,7 @@
 #include "picture/probe_files.h"
 #include "report/danger_outputs.h"
 #include "report/drawn_values.h"
+#include "report/lift_times.h"
 #include "report/run_subject.h"
 #include "run/figure_listeners.h"
 #include "run/present_frame.h"
@@ -34,6 +35,7 @@ typedef struct RunReport {
     JoxPaths *paths;   /* NULL for jo_scene_data: CSV files only */
     JoxStory story;
     JoxDrawnValues drawn;
+    JoxLiftTimes lifts;
 } RunReport;
 
 static const JoxListenerKind REPORT;
@@ -85,6 +87,7 @@ static bool sample_run(void *self, JoScene *scene, JoError *error) {
     float time = (float)jo_world_time(world);
     (void)error;
     sample_story(r, scene);
+    jox_lift_times_add(&r->lifts, scene);
     jox_drawn_values_add(&r->drawn, world);
     if (!jox_run_is_sample_due(scene, PACE))
         return true;
@@ -113,15 +116,16 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
         names[g] = scene->spec->groups[g].name;
         colours[g] = scene->spec->groups[g].colour;
     }
-    jox_run_find_shown_area(scene, &low, &high);
+    const JoxStoreys *storeys = jox_run_find_plan_area(scene, &low, &high);
     for (uint32_t p = 0; p < r->paths->count; p++)
         for (uint32_t i = 0; i < r->paths->items[p].count; i++) {
             const JoxPathPoint *point = &r->paths->items[p].points[i];
-            low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
-            high = (JoxV2){jox_maxf(high.x, point->x + 1), jox_maxf(high.y, point->y + 1)};
+            const JoxV2 at = jox_in_plan(storeys, (JoxV2){point->x, point->y});
+            low = (JoxV2){jox_minf(low.x, at.x - 1), jox_minf(low.y, at.y - 1)};
+            high = (JoxV2){jox_maxf(high.x, at.x + 1), jox_maxf(high.y, at.y + 1)};
         }
     return jox_plot_paths(r->folder, r->paths, names, colours, count,
-                          &scene->world->model.all_walls, low, high, title, why);
+                          &scene->world->model.all_walls, storeys, low, high, title, why);
 }
 
 /* Writes danger-sources.csv, if the scene has sources: people due, arrived and waiting. */
@@ -151,7 +155,15 @@ static bool write_data_files(const RunReport *r, const JoScene *scene, const cha
     for (uint32_t p = 0; good && (probe = jox_run_probe(scene, p)); p++)
         good = jox_probe_write(probe, r->folder, &scene->world->model.all_walls, title, why);
     return good && jox_danger_write(jox_run_danger(scene), r->folder, title, why) &&
-           write_source_table(r->folder, scene, why);
+           write_source_table(r->folder, scene, why) &&
+           jox_lift_times_write(&r->lifts, scene, r->folder, title, why);
+}
+
+static bool sample_data_files(void *self, JoScene *scene, JoError *error) {
+    RunReport *r = self;
+    (void)error;
+    jox_lift_times_add(&r->lifts, scene);
+    return true;
 }
 
 static bool end_data_files(void *self, JoScene *scene, JoError *error) {
@@ -218,6 +230,7 @@ static void list_report_sections(void *self, JoxSections *s) {
     RunReport *r = self;
     JOX_SECTION(s, "swap_seconds", r->scene->swap_seconds);
     JOX_SECTION(s, "acted_on", r->scene->acted_on);
+    jox_lift_times_sections(&r->lifts, r->scene, s);
     if (r->paths)
         jox_paths_sections(r->paths, s);
     if (r->paths)
@@ -234,6 +247,7 @@ static void release_run_report(void *self) {
     jox_paths_free(r->paths);
     jox_story_free(&r->story);
     jox_free(r->drawn.items);
+    jox_free(r->lifts.rows);
 }
 
 static const JoxListenerKind REPORT = {.name = "report",
@@ -247,6 +261,7 @@ static const JoxListenerKind REPORT = {.name = "report",
 static const JoxListenerKind DATA = {.name = "data files",
                                      .size = sizeof(RunReport),
                                      .begin = begin_data_files,
+                                     .frame = sample_data_files,
                                      .sections = list_report_sections,
                                      .goes_on = true,
                                      .end = end_data_files,
@@ -267,6 +282,10 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
     const JoxProbe **probes = jox_alloc(spec->probe_count + 1, sizeof *probes);
     for (uint32_t p = 0; p < spec->probe_count; p++)
         probes[p] = jox_run_probe(scene, p);
+    const uint32_t lift_count = scene->world->model.lift_count;
+    JoxLiftResult *rides = jox_alloc((size_t)lift_count + 1, sizeof *rides);
+    for (uint32_t l = 0; l < lift_count; l++)
+        rides[l] = jox_run_lift_result(scene->world, l);
     return (JoxSubject){.title = spec->title ? spec->title : jox_path_name(spec->path),
                         .folder = folder,
                         .danger = jox_run_danger(scene),
@@ -285,6 +304,7 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .place_count = spec->place_count,
                         .probes = probes,
                         .probe_count = spec->probe_count,
+                        .rides = rides,
                         .inside = scene->world->state.agents.count,
                         .until = jo_world_time(scene->world),
                         .simulated = true,
@@ -294,7 +314,9 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
 
 void jox_run_subject_free(JoxSubject *s) {
     jox_free((void *)(uintptr_t)s->probes);
+    jox_free((void *)(uintptr_t)s->rides);
     s->probes = NULL;
+    s->rides = NULL;
 }
 
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {

@@ -7,6 +7,7 @@
 #include "record/danger/danger.h"
 #include "record/probes/probe.h"
 #include "report/story.h"
+#include "run/results/lift_figures.h"
 
 /* All pointers are borrowed from the run or recording. */
 typedef struct JoxSubject {
@@ -24,6 +25,7 @@ typedef struct JoxSubject {
     uint32_t place_count;
     const JoxProbe *const *probes;
     uint32_t probe_count;
+    const JoxLiftResult *rides;   /* figures of each lift; NULL: not known, as of recordings */
     const JoxDrawnBodies *bodies; /* at the start; NULL: not known */
     uint32_t inside;              /* people still inside at the end */
     double from, until;           /* s: time range measured */

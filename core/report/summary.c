@@ -278,6 +278,83 @@ static void put_line_summary(FILE *out, const JoxSubject *s) {
         put_summary_statement(out, "Doors and other lines.", &text);
 }
 
+/* ---- stairs and lifts ---- */
+
+/* Returns the stair with the greatest of a figure; -1: none was measured. Flows are compared where
+   enough people passed. */
+static int32_t find_greatest_stair(const JoxDangerStairs *s, bool by_flow) {
+    int32_t found = -1;
+    double most = 0.0;
+    for (uint32_t k = 0; k < s->count; k++) {
+        const JoxDangerStair *on = &s->items[k];
+        const double value = by_flow ? on->flow_most : on->mean_most;
+        if (!(value > most) || (by_flow && !jox_danger_stair_is_judged(on)))
+            continue;
+        most = value;
+        found = (int32_t)k;
+    }
+    return found;
+}
+
+/* Writes on which stair most people passed per metre, and on which it was densest. */
+static void put_stair_summary(FILE *out, const JoxSubject *s) {
+    const JoxDangerStairs *stairs = &s->danger->stairs;
+    const int32_t flow = find_greatest_stair(stairs, true),
+                  dense = find_greatest_stair(stairs, false);
+    JoxText text = {0};
+    if (!jox_danger_stairs_joining(stairs))
+        return;
+    if (dense < 0) {
+        jox_text_add(&text, "Nobody was on a stair.");
+    } else {
+        const JoxDangerStair *on = &stairs->items[dense];
+        jox_text_printf(&text,
+                        "The densest was %.60s: %.2g per m\xc2\xb2 about each of its people on "
+                        "average, at %.1f s",
+                        stairs->storeys->stairs[dense].name, on->mean_most, on->mean_most_time);
+        if (on->over > 0.0)
+            jox_text_printf(&text, ", for %.1f s at the limit of %g or over it.", on->over,
+                            stairs->limit);
+        else
+            jox_text_printf(&text, ", below the limit of %g.", stairs->limit);
+    }
+    if (flow >= 0) {
+        const JoxDangerStair *on = &stairs->items[flow];
+        jox_text_printf(&text, " The greatest flow was over %.60s: %.2f per m and s, at %.1f s; ",
+                        stairs->storeys->stairs[flow].name, on->flow_most, on->flow_most_time);
+        jox_text_noun(&text, (uint64_t)on->up + on->down, "person|people");
+        jox_text_add(&text, " passed it.");
+    } else if (dense >= 0) {
+        jox_text_printf(&text, " Fewer than %d people passed each: flows are not judged.",
+                        JOX_STAIR_FEW);
+    }
+    put_summary_statement(out, "Stairs.", &text);
+}
+
+/* Writes how long people waited for each lift. */
+static void put_lift_summary(FILE *out, const JoxSubject *s) {
+    JoxText text = {0};
+    for (uint32_t l = 0; s->rides && l < s->lift_count; l++) {
+        const JoxLiftResult *r = &s->rides[l];
+        jox_text_printf(&text, "%s%.60s carried ", l ? " " : "", r->name);
+        if (!r->count.queue_most && !r->count.carried) {
+            jox_text_add(&text, "nobody.");
+            continue;
+        }
+        jox_text_noun(&text, r->count.carried, "person|people");
+        if (r->count.carried)
+            jox_text_printf(&text, ", who waited %.0f s on average, at most %.0f s", r->wait_mean,
+                            r->wait_most);
+        jox_text_printf(&text, "; at most %u waited at a time", r->count.queue_most);
+        if (r->waiting)
+            jox_text_printf(&text, ", and %u still do, for up to %.0f s", r->waiting,
+                            r->waiting_longest);
+        jox_text_add(&text, ".");
+    }
+    if (text.length)
+        put_summary_statement(out, "Lifts.", &text);
+}
+
 /* ---- levels of service ---- */
 
 /* Returns the time of an area at levels E and F, s. */
@@ -348,6 +425,8 @@ void jox_summary_crowd(FILE *out, const JoxSubject *s) {
     put_pressure_summary(out, s);
     put_congestion_summary(out, s);
     put_line_summary(out, s);
+    put_stair_summary(out, s);
+    put_lift_summary(out, s);
     put_level_summary(out, s);
     put_trust_summary(out, s);
 }

@@ -146,7 +146,7 @@ static void path_plots_survive_hostile_names(void **state) {
         for (uint32_t i = 0; i < PEOPLE; i++)
             for (int f = 0; f < 2; f++)
                 jox_paths_add(all, i, false, i % 2, (float)f, X[f][i], Y[i]);
-        expect_success(jox_plot_paths(folder, all, names, NULL, 2, &walls, jox_v2(0, 0),
+        expect_success(jox_plot_paths(folder, all, names, NULL, 2, &walls, NULL, jox_v2(0, 0),
                                       jox_v2(8, 4), HOSTILE[h], &error),
                        &error);
         check_and_empty_folder(1);

@@ -80,10 +80,16 @@ double jox_danger_piece_line_load(const JoxDangerPiece *piece) {
     return length > 0.0 ? (double)piece->most / length : NAN;
 }
 
+JoxV2 jox_danger_piece_in_plan(const JoxStoreys *storeys, const JoxDangerPiece *piece,
+                               JoxV2 point) {
+    const JoxV2 middle = jox_danger_piece_middle(piece);
+    return jox_add(jox_in_plan(storeys, middle), jox_sub(point, middle));
+}
+
 static void write_piece_middle(JoxJson *json, const JoxStoreys *storeys,
                                const JoxDangerPiece *piece, const char *prefix) {
     const JoxV2 none = {0.0f, 0.0f};
-    const JoxV2 middle = piece ? jox_scale(jox_add(piece->from, piece->to), 0.5f) : none;
+    const JoxV2 middle = piece ? jox_danger_piece_middle(piece) : none;
     jox_json_add_position(json, prefix, storeys, middle, piece != NULL);
 }
 

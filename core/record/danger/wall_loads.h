@@ -38,6 +38,12 @@ void jox_danger_walls_frame(JoxDangerWalls *walls, const JoxFrame *frame, double
                             float share);
 /* Returns the greatest mean load of any piece at present, N; NAN if unknown. */
 double jox_danger_walls_greatest_load(const JoxDangerWalls *walls);
+/* Returns the middle of a piece, m. */
+static inline JoxV2 jox_danger_piece_middle(const JoxDangerPiece *piece) {
+    return jox_scale(jox_add(piece->from, piece->to), 0.5f);
+}
+/* Returns a point of a piece in plan, on the sheet of its middle. */
+JoxV2 jox_danger_piece_in_plan(const JoxStoreys *storeys, const JoxDangerPiece *piece, JoxV2 point);
 /* Returns the greatest load of a piece over its length, N/m. */
 double jox_danger_piece_line_load(const JoxDangerPiece *piece);
 /* Writes "walls": {...}, or null without wall loads. `end` is the time of the last frame, s. */

@@ -1,0 +1,80 @@
+# Stairs and lifts in reports: the same figures on the page, in its tables and plots, in the summary and from the recording;
+# too few people are not judged; positions in plan.
+. tests/scenes/lib.sh
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+cd "$work" || exit 1
+cat >tower.yaml <<'SCENE'
+jostle: 1
+title: Tower
+duration: 50
+storeys: {ground: {height: 0}, first: {height: 4}}
+lifts: {east: {area: [[10, 5], [11.6, 6.8]], door: [[10.35, 5], [11.25, 5]]}}
+stairs:
+  steps: {from: ground, to: first, path: [[8, 1.5], [14, 1.5]], width: 1.2}
+  spare: {from: ground, to: first, path: [[8, 10], [14, 10]], width: 1.2}
+walls: [{line: [[0, 0], [16, 0], [16, 12], [0, 12]], closed: true, storey: [ground, first]}]
+places:
+  low: {polygon: [[1, 1], [7, 1], [7, 7], [1, 7]]}
+  high: {polygon: [[1, 1], [7, 1], [7, 7], [1, 7]], storey: first}
+groups:
+  riders: {behaviour: ride.lua, count: 9, in: low}
+  walkers: {count: 30, in: low, journey: [{to: high, wait: 200}]}
+SCENE
+cat >ride.lua <<'LUA'
+return machine { name = "rider", version = 1, start = "Ride", defaults = { speed = 1.3 }, states = {
+  Ride = { steer = ride "east.first", { to = "Off", when = rode } },
+  Off = { steer = seek "high" } } }
+LUA
+
+# ---- a report ----
+expect "a scene with a stair and a lift has a report" 0 "report:" "$program" run tower.yaml --quiet --no-half-step --report page --summary run.json --record run.sqlite
+"$program" report run.sqlite --out again --summary again.json >/dev/null 2>&1
+verdict "  and its recording has one" $?
+python3 - >check 2>&1 <<'END'
+import csv, json
+run, again = json.load(open("run.json")), json.load(open("again.json"))
+stairs, lift = run["danger"]["stairs"], run["lifts"]["east"]
+steps, spare = stairs["steps"], stairs["spare"]
+assert steps["up"] + spare["up"] == 30 and steps["down"] + spare["down"] == 0, stairs
+assert steps["flow_max"] is not None and steps["up"] >= 10, steps
+def table(name): return {row[0]: row for row in csv.reader(open(f"page/table-{name}.csv"))}
+heads = next(csv.reader(open("page/table-stairs.csv")))
+def cell(stair, head): return table("stairs")[stair][heads.index(head)]
+for stair, figures in stairs.items():
+    for head, key in (("people up", "up"), ("most people on it at a time", "people_max"), ("greatest flow [1/(m s)]", "flow_max"),
+                      ("greatest mean density [1/m2]", "density_mean_max"), ("time of use [s]", "used_s")):
+        shown, known = cell(stair, head), figures[key]
+        assert (shown == "") == (known is None) and (known is None or abs(float(shown) - known) < 1e-6 * max(1, known)), (stair, head, shown, known)
+    assert (cell(stair, "worst level") == "not judged") == (figures["worst_level"] is None), (stair, figures)
+rows = [r for r in csv.DictReader(open("page/danger-stairs.csv")) if r["stair"] == "steps"]
+assert abs(max(float(r["flow [1/(m s)]"] or 0) for r in rows) - steps["flow_max"]) < 1e-6
+assert int(rows[-1]["up"]) == steps["up"]
+# recounted: at the moment of the greatest flow, people who came up within the ten seconds before, per metre
+at = steps["flow_max_s"]
+ups = {float(r["time [s]"]): int(r["up"]) + int(r["down"]) for r in rows}
+assert abs((ups[at] - ups[min(ups, key=lambda t: abs(t - (at - 10)))]) / 12 - steps["flow_max"]) < 1.01 / 12, (at, steps)
+lifts = next(csv.DictReader(open("page/table-lifts.csv")))
+for head, key in (("people carried", "carried"), ("trips", "trips"), ("mean wait [s]", "wait_mean_s"), ("longest wait [s]", "wait_max_s"),
+                  ("most people waiting at a time", "queue_max")):
+    assert abs(float(lifts[head]) - lift[key]) < 1e-6, (head, lifts, lift)
+assert lift["carried"] == 9 and run["danger"]["by_lift"] == {"up": 9, "down": 0}, (lift, run["danger"]["by_lift"])
+queue = max(int(r["waiting"]) for r in csv.DictReader(open("page/danger-lifts.csv")))
+assert lift["queue_max"] - 2 <= queue <= lift["queue_max"], (queue, lift)
+# from the recording, whose frames are tenths of a second
+other = again["danger"]["stairs"]["steps"]
+for key, within in (("up", 0), ("down", 0), ("people_max", 1), ("flow_max", 0.09), ("density_mean_max", 0.1), ("used_s", 1)):
+    assert abs(other[key] - steps[key]) <= within, (key, other[key], steps[key])
+assert again["danger"]["by_lift"] == run["danger"]["by_lift"]
+# positions in plan, with their storey
+for name in ("danger-walls", "paths"):
+    for row in csv.DictReader(open(f"page/{name}.csv")):
+        assert row["storey"] in ("ground", "first", "steps", "spare"), row
+        assert -0.5 <= float(row["y [m]" if name == "paths" else "y0 [m]"]) <= 12.5, row
+END
+[ ! -s check ]; verdict "summary, tables and recording have the same figures of stairs and lifts" $?
+cat check
+for file in stairs.png stairs.svg lifts.png lifts.svg; do [ -s "page/$file" ]; verdict "  the report's $file" $?; done
+for text in "<b>Stairs.</b> The densest was " "<b>Lifts.</b> east carried 9 people, who waited " "Flow and level are not judged where fewer than 10 people passed: " "Too few people for means, fewer than ten, rode: east."; do
+    grep -qF "$text" page/index.html; verdict "the page has: $text" $?
+done
+grep -qF "9 people went up and 0 people down without a stair, by lift. Waits are not measured" again/index.html; verdict "the page of a recording says that waits are not known" $?
