@@ -8,7 +8,7 @@
 #include "unit/effort.h"
 #include "unit/gate_ball_scene.h"
 
-enum { SCENES = 500 / EFFORT_EACH, MOST_PEOPLE = 512, MOST_RINGS = 256 };
+enum { SCENES = 250 / EFFORT_EACH, MOST_PEOPLE = 512, MOST_RINGS = 256 };
 
 /* A hall of 12 x 8 m, sealed at edges that are not joined; no walls at x < 3 m, except at joined
  * edges. */

@@ -58,17 +58,26 @@ static bool does_edge_hide(const JoxFieldEdge *e, JoxV2 p, JoxV2 q, float least)
 }
 
 bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
+    enum { KNOWN = 4 };
     const JoxField *f = w->f;
-    int steps = (int)ceilf(jox_length(jox_sub(q, p)) / f->size), before = -1;
-    for (int k = 0; k <= steps; k++) {
-        JoxV2 at = jox_add(p, jox_scale(jox_sub(q, p), steps ? (float)k / (float)steps : 0.0f));
-        int c = (int)jox_clampf((at.x - f->low.x) / f->size, 0.0f, (float)(f->columns - 1));
-        int r = (int)jox_clampf((at.y - f->low.y) / f->size, 0.0f, (float)(f->rows - 1));
-        int cell = r * f->columns + c;
-        for (uint32_t i = w->walled.first[cell]; cell != before && i < w->walled.first[cell + 1];
-             i++)
-            if (does_edge_hide(&f->edges[f->refs[i]], p, q, least))
+    const int steps = (int)ceilf(jox_length(jox_sub(q, p)) / f->size);
+    /* The edges examined last: a long one is in many cells one after the other. */
+    uint32_t known[KNOWN] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX}, examined = 0;
+    for (int k = 0, before = -1; k <= steps; k++) {
+        const JoxV2 at =
+            jox_add(p, jox_scale(jox_sub(q, p), steps ? (float)k / (float)steps : 0.0f));
+        const int c = (int)jox_clampf((at.x - f->low.x) / f->size, 0.0f, (float)(f->columns - 1));
+        const int r = (int)jox_clampf((at.y - f->low.y) / f->size, 0.0f, (float)(f->rows - 1));
+        const int cell = r * f->columns + c;
+        const uint32_t end = cell == before ? 0 : w->walled.first[cell + 1];
+        for (uint32_t i = w->walled.first[cell]; i < end; i++) {
+            const uint32_t e = f->refs[i];
+            if (e == known[0] || e == known[1] || e == known[2] || e == known[3])
+                continue;
+            if (does_edge_hide(&f->edges[e], p, q, least))
                 return false;
+            known[examined++ % KNOWN] = e;
+        }
         before = cell;
     }
     return true;
