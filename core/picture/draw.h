@@ -119,6 +119,7 @@ typedef struct JoxPicture {
     JoxShow colour, floor;
     float colour_most, floor_most; /* values at the upper ends of the colour bars */
     const char *field_legend;      /* heading of the field's legend; NULL: chosen by `floor` */
+    bool change; /* the field is a difference, from -floor_most (blue) to floor_most */
     /* drawn as one of several panels of a page: the legend is a strip below the map */
     bool panel;
     float radius;    /* m: of every person, used if the frame has no radii */

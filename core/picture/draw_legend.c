@@ -140,8 +140,10 @@ static void draw_colour_bar(Legend *l, float most, bool floor) {
         l->y += ROW * u;
         return;
     }
-    write_legend_text(l, l->x, JOX_ANCHOR_START, false, "0");
-    snprintf(text, sizeof text, "%.4g", (double)most / 2);
+    const bool change = floor && d->picture->change;
+    snprintf(text, sizeof text, change ? "\xe2\x89\xa4 %.4g" : "0", -(double)most);
+    write_legend_text(l, l->x, JOX_ANCHOR_START, false, text);
+    snprintf(text, sizeof text, "%.4g", change ? 0.0 : (double)most / 2);
     write_legend_text(l, l->x + 0.5f * l->bar * u, JOX_ANCHOR_MIDDLE, false, text);
     snprintf(text, sizeof text, "\xe2\x89\xa5 %.4g", (double)most);
     write_legend_text(l, l->x + l->bar * u, JOX_ANCHOR_END, false, text);
@@ -176,7 +178,7 @@ static void write_field_legend(Legend *l) {
                                 ? "Floor: density, 1/m\xc2\xb2 (Gaussian, R = 1 m)"
                                 : "Floor: pressure, 1/s\xc2\xb2");
     draw_colour_bar(l, p->floor_most, true);
-    if (p->floor == JOX_SHOW_DENSITY)
+    if (p->floor == JOX_SHOW_DENSITY && !p->change)
         write_service_levels(l, p->floor_most);
 }
 

@@ -25,6 +25,9 @@ JoxInk jox_draw_value_ink(const JoxPicture *p, uint32_t n) {
 JoxInk jox_draw_floor_ink(const JoxPicture *p, uint32_t n) {
     float share = ((float)n + 0.5f) / JOX_DRAW_BINS;
     uint8_t grey = (uint8_t)(235.0f - 195.0f * share);
+    if (p->change)
+        return share < 0.5f ? jox_palette_calm(1.0f - 2.0f * share)
+                            : jox_palette_value(2.0f * share - 1.0f);
     return p->colour == JOX_SHOW_NOTHING || jox_draw_is_class(p->colour)
                ? jox_palette_value(share)
                : (JoxInk){grey, grey, grey, 1.0f};
@@ -287,6 +290,17 @@ void jox_draw_people(JoxDrawing *d) {
     jox_free(order);
 }
 
+/* Returns 1 + the bin of a value of the field; 0 where there is nothing to draw: not measured
+   (NAN), or about 0. */
+static uint8_t find_field_level(const JoxPicture *p, float value) {
+    const float share = value / p->floor_most;
+    const float part = p->change ? 0.5f * (jox_clampf(share, -1.0f, 1.0f) + 1.0f) * JOX_DRAW_BINS
+                                 : jox_minf(share, 1.0f) * JOX_DRAW_BINS;
+    if (isnan(share) || !(p->change ? fabsf(share) * JOX_DRAW_BINS >= 1.0f : part >= 0.5f))
+        return 0;
+    return (uint8_t)(1 + (uint32_t)jox_minf(part, JOX_DRAW_BINS - 1));
+}
+
 void jox_draw_field(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     const JoxDensity *grid = p->grid;
@@ -300,10 +314,7 @@ void jox_draw_field(JoxDrawing *d) {
         for (uint32_t c = 0; c < grid->columns; c++) {
             const uint32_t row = d->panels.storeys ? r : grid->rows - 1 - r;
             float value = p->field[(size_t)row * grid->columns + c];
-            value = value > 0.0f ? value / p->floor_most : 0.0f; /* NAN (not measured) becomes 0 */
-            float part = jox_minf(value, 1.0f) * JOX_DRAW_BINS;
-            uint32_t bin = (uint32_t)jox_minf(part, JOX_DRAW_BINS - 1);
-            levels[(size_t)r * grid->columns + c] = part < 0.5f ? 0 : (uint8_t)(bin + 1);
+            levels[(size_t)r * grid->columns + c] = find_field_level(p, value);
         }
     JoxV2 top = {grid->low.x, grid->low.y + (float)grid->rows * grid->cell};
     jox_canvas_open(d->canvas, "field", jox_shown[p->floor].name, (JoxStyle){0});

@@ -71,8 +71,8 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
 bool jox_trajectories_frame(const JoxTrajectories *trajectories, uint32_t f, JoxFrame *out);
 /* Returns the walls in the f-th frame, open gates included, valid until the next call. */
 const JoxWalls *jox_trajectories_walls(const JoxTrajectories *trajectories, uint32_t f);
-/* Sets the bounding box of all rows, m: in plan if there are storeys, which are returned; else NULL
-   is. */
+/* Sets the bounding box of all rows, m; if there are storeys, which are returned, that of all rows
+   and walls, in plan. Without, returns NULL. */
 const JoxStoreys *jox_trajectories_plan_area(const JoxTrajectories *trajectories, JoxV2 *low,
                                              JoxV2 *high);
 void jox_trajectories_free(JoxTrajectories *trajectories);

@@ -76,6 +76,11 @@ const JoxStoreys *jox_trajectories_plan_area(const JoxTrajectories *t, JoxV2 *lo
         low->y = jox_minf(low->y, y);
         high->y = jox_maxf(high->y, y);
     }
+    for (uint32_t k = 0; k < t->walls.count; k++) {
+        const JoxV2 at = jox_in_plan(&t->storeys, t->walls.vertices[k].point);
+        *low = (JoxV2){jox_minf(low->x, at.x), jox_minf(low->y, at.y)};
+        *high = (JoxV2){jox_maxf(high->x, at.x), jox_maxf(high->y, at.y)};
+    }
     return &t->storeys;
 }
 

@@ -200,6 +200,7 @@ bool jox_maps_draw_field(const JoxSubject *s, const JoxMapField *map, JoxText *e
     p.field_legend = map->legend;
     p.floor = map->show;
     p.floor_most = jox_maps_scale_end(map->most);
+    p.change = map->change;
     p.wall_loads = map->wall_loads;
     p.wall_load_count = map->wall_load_count;
     return jox_maps_write_picture(s, &p, map->file, error);

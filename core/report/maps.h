@@ -26,6 +26,7 @@ typedef struct JoxMapField {
     JoxShow show;
     const float *values; /* per cell; NAN: not known */
     double most;         /* greatest value; the scale ends at the next round number */
+    bool change;         /* values are differences, from -most to most */
     const JoxDrawnLoad *wall_loads;
     uint32_t wall_load_count;
 } JoxMapField;

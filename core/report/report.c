@@ -123,6 +123,15 @@ static bool check_storeys(JoxReport *r) {
     return false;
 }
 
+/* Sets how far maps show each storey: as far as people and walls were. */
+static void set_shown_extent(JoxReport *r) {
+    JoxV2 low, high;
+    if (!jox_trajectories_plan_area(r->crowd, &low, &high))
+        return;
+    r->crowd->storeys.low = low.y - EDGE;
+    r->crowd->storeys.high = high.y + EDGE;
+}
+
 /* Loads the scene and the recording that the def names and creates the probes. Returns false
    with errors. */
 static bool load_report(JoxReport *r) {
@@ -137,6 +146,7 @@ static bool load_report(JoxReport *r) {
     }
     if (!(r->crowd = jox_trajectories_read(def->recording, &options, &r->diagnostics)))
         return false;
+    set_shown_extent(r);
     r->probes = jox_alloc((r->spec ? r->spec->probe_count : 0) + 2 + r->crowd->storeys.storey_count,
                           sizeof(JoxProbe *));
     if (jox_is_sqlite(def->recording))
