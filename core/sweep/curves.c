@@ -164,22 +164,54 @@ static float reduce_block(const Collected *c, const JoxDensity *grid, uint32_t s
     return area > 0 ? (mean ? (float)(sum / area) : most) : NAN;
 }
 
-static void put_density_field(const Collected *c, const JoxDensity *grid, const char *name,
-                              bool mean, JoxText *pieces) {
+/* Reduces a density of storeys to a coarser one of the same storeys: each cell to that in which its
+   middle lies. */
+static void reduce_on_storeys(const Collected *c, const JoxDensity *grid, const JoxDensity *coarse,
+                              bool mean, float *values) {
+    const size_t cells = (size_t)coarse->columns * coarse->rows;
+    double *area = jox_alloc(2 * cells, sizeof *area), *sum = area + cells;
+    for (size_t k = 0; k < (size_t)grid->columns * grid->rows; k++) {
+        const JoxV2 at = jox_density_middle(grid, k);
+        const double floor_m2 = (double)jox_density_area(grid, k);
+        size_t to;
+        if (!isfinite(at.y) || !(floor_m2 > 0) || !jox_density_cell_of(coarse, at.x, at.y, &to))
+            continue;
+        const uint32_t row = (uint32_t)(k / grid->columns), column = (uint32_t)(k % grid->columns);
+        area[to] += floor_m2;
+        sum[to] += floor_m2 * jox_density_mean(grid, column, row);
+        values[to] = jox_maxf(values[to], c->most[k]);
+    }
+    for (size_t k = 0; k < cells; k++)
+        values[k] = area[k] > 0 ? (mean ? (float)(sum[k] / area[k]) : values[k]) : NAN;
+    jox_free(area);
+}
+
+static void put_density_field(const Collected *c, const JoScene *scene, const char *name, bool mean,
+                              JoxText *pieces) {
+    const JoxDensity *grid = jox_run_local_densities(scene)->grid;
     const double cells = (double)grid->columns * grid->rows;
     const uint32_t size = (uint32_t)ceil(sqrt(fmax(1.0, cells / JOX_SWEEP_CELLS)));
+    JoxV2 low, high;
+    const JoxStoreys *storeys = jox_run_find_plan_area(scene, &low, &high);
+    JoxDensity *coarse = storeys
+                             ? jox_density_create_on_storeys(low, high, grid->cell * (float)size,
+                                                             JOX_DENSITY_KERNEL, storeys)
+                             : NULL;
     JoxSweepField field = {.name = jox_strdup(name),
                            .unit = jox_strdup("1/m2"),
                            .low_x = (double)grid->low.x,
                            .low_y = (double)grid->low.y,
-                           .cell = (double)grid->cell * size,
-                           .columns = (grid->columns + size - 1) / size,
-                           .rows = (grid->rows + size - 1) / size};
+                           .cell = coarse ? (double)coarse->cell : (double)grid->cell * size,
+                           .columns = coarse ? coarse->columns : (grid->columns + size - 1) / size,
+                           .rows = coarse ? coarse->rows : (grid->rows + size - 1) / size};
     field.values = jox_alloc((size_t)field.columns * field.rows, sizeof *field.values);
-    for (uint32_t row = 0; row < field.rows; row++)
+    if (coarse)
+        reduce_on_storeys(c, grid, coarse, mean, field.values);
+    for (uint32_t row = 0; !coarse && row < field.rows; row++)
         for (uint32_t column = 0; column < field.columns; column++)
             field.values[(size_t)row * field.columns + column] =
                 reduce_block(c, grid, size, column, row, mean);
+    jox_density_free(coarse);
     jox_sweep_put_field(pieces, &field);
     jox_sweep_free_field(&field);
 }
@@ -189,6 +221,6 @@ void jox_sweep_put_collected(const JoScene *scene, JoxText *pieces) {
     JOX_ASSERT(c);
     for (uint32_t k = 0; k < c->count; k++)
         jox_sweep_put_curve(pieces, &c->curves[k]);
-    put_density_field(c, jox_run_local_densities(scene)->grid, "greatest density", false, pieces);
-    put_density_field(c, jox_run_local_densities(scene)->grid, "mean density", true, pieces);
+    put_density_field(c, scene, "greatest density", false, pieces);
+    put_density_field(c, scene, "mean density", true, pieces);
 }

@@ -37,6 +37,42 @@ void jox_sweep_put_walls(JoxJson *json, const JoxWalls *walls) {
     jox_json_end(json);
 }
 
+void jox_sweep_put_storeys(JoxJson *json, const JoxStoreys *storeys) {
+    if (!jox_has_storeys(storeys))
+        return;
+    jox_json_numbers_of(json, "sheets",
+                        (const double[]){(double)storeys->origin, (double)storeys->pitch}, 2, 9);
+    jox_json_array(json, "storeys");
+    for (uint32_t k = 0; k < storeys->storey_count; k++) {
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", storeys->storeys[k].name);
+        jox_json_digits(json, "height", (double)storeys->storeys[k].height, 9);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+    jox_json_array(json, "stairs");
+    for (uint32_t k = 0; k < storeys->stair_count; k++) {
+        const JoxStair *stair = &storeys->stairs[k];
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", stair->name);
+        jox_json_whole(json, "form", stair->kind);
+        jox_json_whole(json, "way", stair->way);
+        jox_json_whole(json, "lower", stair->lower);
+        jox_json_whole(json, "upper", stair->upper);
+        jox_json_digits(json, "width", (double)stair->width, 9);
+        jox_json_digits(json, "rise", (double)stair->rise, 9);
+        put_points(json, stair->path, stair->path_count);
+        jox_json_array(json, "landings");
+        for (uint32_t l = 0; l < stair->landing_count; l++) {
+            jox_json_digits(json, NULL, (double)stair->landings[l].from, 9);
+            jox_json_digits(json, NULL, (double)stair->landings[l].to, 9);
+        }
+        jox_json_end(json);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
 static void put_plan_probes(JoxJson *json, const JoxSceneSpec *spec) {
     static const char *const KINDS[JOX_PROBE_KINDS] = {[JOX_PROBE_FLOW] = "flow",
                                                        [JOX_PROBE_MEASURE] = "measure",
@@ -94,13 +130,14 @@ void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     JoxV2 low, high;
     JoxJson json = jox_json_begin(out, 0);
-    jox_run_find_shown_area(scene, &low, &high);
+    const JoxStoreys *storeys = jox_run_find_plan_area(scene, &low, &high);
     jox_json_object(&json, NULL);
     jox_json_string(&json, "title", spec->title ? spec->title : jox_path_name(spec->path));
     put_plan_report(&json, &spec->report);
     jox_json_numbers_of(
         &json, "area",
         (const double[]){(double)low.x, (double)low.y, (double)high.x, (double)high.y}, 4, 9);
+    jox_sweep_put_storeys(&json, storeys);
     jox_sweep_put_walls(&json, &scene->world->model.all_walls);
     jox_json_array(&json, "places");
     for (uint32_t p = 0; p < spec->place_count; p++) {

@@ -116,5 +116,7 @@ void jox_sweep_put_collected(const JoScene *scene, JoxText *pieces);
 void jox_sweep_write_plan(const JoScene *scene, JoxText *out);
 /* Writes the walls as a member "walls" of an open JSON object. */
 void jox_sweep_put_walls(JoxJson *json, const JoxWalls *walls);
+/* Writes storeys, stairs and where their sheets lie; nothing without storeys. */
+void jox_sweep_put_storeys(JoxJson *json, const JoxStoreys *storeys);
 
 #endif

@@ -1,5 +1,5 @@
 # Stairs and lifts in reports: the same figures on the page, in its tables and plots, in the summary and from the recording;
-# too few people are not judged; positions in plan.
+# too few people are not judged; positions in plan. Comparisons and sweeps of scenes with storeys.
 . tests/scenes/lib.sh
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
 cd "$work" || exit 1
@@ -78,3 +78,39 @@ for text in "<b>Stairs.</b> The densest was " "<b>Lifts.</b> east carried 9 peop
     grep -qF "$text" page/index.html; verdict "the page has: $text" $?
 done
 grep -qF "9 people went up and 0 people down without a stair, by lift. Waits are not measured" again/index.html; verdict "the page of a recording says that waits are not known" $?
+
+# ---- sweeps and comparisons ----
+"$program" sweep tower.yaml --set groups.walkers.count=6,40 --seeds 2 --for 25 --out walkers.sqlite --quiet >/dev/null 2>&1
+verdict "a scene with storeys is swept" $?
+expect "  and its variants are compared" 0 "greatest mean density on the stair steps" "$program" compare walkers.sqlite --all --out compared --json compared.json
+python3 - >check 2>&1 <<'END'
+import json, re, sqlite3, array, math
+d = json.load(open("compared.json"))
+for name in ("danger.stairs.steps.up", "danger.stairs.steps.flow_max", "lifts.east.carried", "lifts.east.queue_max"):
+    assert name in d["figures"], name
+assert d["figures"]["danger.stairs.steps.up"]["sides"][1]["difference"] > 0
+# each storey has a panel of its own, and the difference too
+for file in ("plan-2", "change-2"):
+    svg = open(f"compared/{file}.svg").read()
+    assert svg.count('class="storey"') == 2 and 'id="stairs"' in svg and 'id="field"' in svg, file
+assert not __import__("os").path.exists("compared/change-1.svg")
+# the people whom a field holds are those who were there: integral of the mean density over the floor
+db = sqlite3.connect("walkers.sqlite")
+for variant, people in ((0, 15), (1, 49)):
+    key = db.execute("select distinct variant from field order by variant").fetchall()[variant][0]
+    cell, cells = db.execute("select cell, cells from field where variant = ? and name = 'mean density'", (key,)).fetchone()
+    held = sum(v for v in array.array("f", cells) if not math.isnan(v)) * cell * cell
+    assert abs(held - people) < 0.06 * people, (held, people)
+END
+[ ! -s check ]; verdict "figures, panels and differences of both storeys" $?
+cat check
+"$program" sweep tower.yaml --set groups.walkers.count=20 --seeds 2 --for 15 --out seeds.sqlite --quiet >/dev/null 2>&1
+"$program" report seeds.sqlite --out seeds >/dev/null 2>&1
+[ "$(grep -c 'class="storey"' seeds/density-greatest.svg)" = 2 ]; verdict "the page of many seeds has a panel for each storey" $?
+for n in 6 20; do "$program" run tower.yaml --quiet --for 15 --set groups.walkers.count=$n --record "w$n.sqlite" >/dev/null 2>&1; done
+"$program" compare w6.sqlite w20.sqlite --out recordings >/dev/null 2>&1
+[ "$(grep -c 'class="storey"' recordings/plan-2.svg)" = 2 ]; verdict "a comparison of recordings, too" $?
+mkdir mixed; cp w6.sqlite mixed/a.sqlite
+sed 's/\[0, 12\]\]/[0, 60]]/; s/\[16, 12\]/[16, 60]/' tower.yaml >deep.yaml
+"$program" run deep.yaml --quiet --for 2 --record mixed/b.sqlite >/dev/null 2>&1
+expect "recordings of two buildings are not one side" 3 "has other storeys than" "$program" compare w6.sqlite mixed --out mixed-page

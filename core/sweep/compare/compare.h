@@ -116,8 +116,9 @@ void jox_side_add_point(JoxSideCurve *curve, double time, double *values, size_t
    no plan. Call jox_side_draw_end even then. */
 typedef struct JoxSideDrawn {
     JoxSidePlan plan;
-    JoxDensity grid; /* geometry of the maps; its densities are not set */
-    JoxExits exits;  /* only the names are set */
+    JoxDensity *grid; /* geometry of the maps; its densities are not set */
+    bool fields;      /* the side's fields have that geometry */
+    JoxExits exits;   /* only the names are set */
     JoxSubject subject;
 } JoxSideDrawn;
 bool jox_side_draw_begin(JoxSideDrawn *drawn, const JoxSide *side, const char *folder);

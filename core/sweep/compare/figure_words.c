@@ -127,7 +127,6 @@ static const struct {
     {"danger.stairs.*.up", "people who went up the stair %s", "", false},
     {"danger.stairs.*.down", "people who went down the stair %s", "", false},
     {"danger.stairs.*.people_max", "most people at a time on the stair %s", "", false},
-    {"danger.stairs.*.width", "width of the stair %s", "m", false},
     {"danger.stairs.*.used_s", "time in which somebody was on the stair %s", "s", false},
     {"danger.stairs.*.first_s", "time at which the stair %s was first used", "s", false},
     {"danger.stairs.*.last_s", "time at which the stair %s was last used", "s", false},

@@ -39,11 +39,12 @@ static const char *const CURVE_NAMES[CURVES][2] = {
 /* Samples of all recordings of a side. */
 typedef struct Samples {
     JoxSide *side;
-    JoxV2 low, high; /* m: bounds of all people in all recordings, with a margin */
-    double length;   /* s: of the longest recording */
-    double *values;  /* [curve][time][run]; NAN: not measured */
-    JoxLocal *local; /* this and the next two: of the recording that is being read */
-    float *most;     /* 1/m2: greatest density of each cell so far */
+    JoxV2 low, high;    /* m: bounds of all people in all recordings, with a margin */
+    JoxStoreys storeys; /* of the first recording; empty: one plane. `low` and `high` are in plan */
+    double length;      /* s: of the longest recording */
+    double *values;     /* [curve][time][run]; NAN: not measured */
+    JoxLocal *local;    /* this and the next two: of the recording that is being read */
+    float *most;        /* 1/m2: greatest density of each cell so far */
     size_t cells;
 } Samples;
 
@@ -115,13 +116,15 @@ static void add_recording_curves(Samples *s) {
 }
 
 /* Returns the walls of a recording and the area as JSON that side_plan.c reads; to be freed. */
-static char *write_recording_plan(const JoxWalls *walls, JoxV2 low, JoxV2 high) {
+static char *write_recording_plan(const JoxWalls *walls, const JoxStoreys *storeys, JoxV2 low,
+                                  JoxV2 high) {
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
     jox_json_object(&json, NULL);
     jox_json_numbers_of(
         &json, "area",
         (const double[]){(double)low.x, (double)low.y, (double)high.x, (double)high.y}, 4, 9);
+    jox_sweep_put_storeys(&json, storeys);
     jox_sweep_put_walls(&json, walls);
     jox_json_end(&json);
     return out.data;
@@ -137,6 +140,11 @@ static JoxTrajectories *open_recording(const char *path, const JoCompareDef *def
     return t;
 }
 
+/* Returns whether positions of both lie on the same sheets. */
+static bool has_same_storeys(const JoxStoreys *a, const JoxStoreys *b) {
+    return a->sheet_count == b->sheet_count && a->pitch == b->pitch && a->origin == b->origin;
+}
+
 /* Finds the area and the longest duration over all recordings. */
 static bool measure_extent(Samples *s, const char *const *paths, const JoCompareDef *def,
                            JoError *error) {
@@ -144,14 +152,30 @@ static bool measure_extent(Samples *s, const char *const *paths, const JoCompare
         JoxTrajectories *t = open_recording(paths[run], def, error);
         if (!t)
             return false;
-        const JoxV2 low = jox_sub(t->low, (JoxV2){EDGE, EDGE}),
-                    high = jox_add(t->high, (JoxV2){EDGE, EDGE});
+        JoxV2 low, high;
+        const JoxStoreys *storeys = jox_trajectories_plan_area(t, &low, &high);
+        low = jox_sub(low, (JoxV2){EDGE, EDGE});
+        high = jox_add(high, (JoxV2){EDGE, EDGE});
+        if (run == 0 && storeys)
+            jox_storeys_copy(&s->storeys, storeys);
+        if (!has_same_storeys(&s->storeys, &t->storeys)) {
+            jox_error(error, JO_INPUT,
+                      "%.300s has other storeys than %.300s. Give recordings of one building, or "
+                      "each as a side of its own",
+                      paths[run], paths[0]);
+            jox_trajectories_free(t);
+            return false;
+        }
         s->low = run ? jox_v2(jox_minf(low.x, s->low.x), jox_minf(low.y, s->low.y)) : low;
         s->high = run ? jox_v2(jox_maxf(high.x, s->high.x), jox_maxf(high.y, s->high.y)) : high;
         s->length = fmax(s->length, (double)(t->last - t->number[0]) / t->fps);
         jox_trajectories_free(t);
     }
     return true;
+}
+
+static const JoxStoreys *get_storeys(const Samples *s) {
+    return jox_has_storeys(&s->storeys) ? &s->storeys : NULL;
 }
 
 /* Reads each recording again, samples it, and adds its field; the first one provides the plan. */
@@ -161,13 +185,13 @@ static bool sample_all(Samples *s, const char *const *paths, const JoCompareDef 
         JoxTrajectories *t = open_recording(paths[run], def, error);
         if (!t)
             return false;
-        s->local = jox_local_create(s->low, s->high, NULL);
+        s->local = jox_local_create(s->low, s->high, get_storeys(s));
         s->cells = (size_t)s->local->grid->columns * s->local->grid->rows;
         s->most = jox_alloc(s->cells, sizeof *s->most);
         sample_recording(s, t, run);
         add_recording_field(s);
         if (run == 0)
-            s->side->plan = write_recording_plan(&t->walls, s->low, s->high);
+            s->side->plan = write_recording_plan(&t->walls, get_storeys(s), s->low, s->high);
         jox_free(s->most);
         jox_local_free(s->local);
         jox_trajectories_free(t);
@@ -204,5 +228,6 @@ bool jox_sides_add_recordings(JoxSides *sides, const char *source, const char *c
     if (good)
         add_recording_curves(&s);
     jox_free(s.values);
+    jox_storeys_free(&s.storeys);
     return good && read_report_figures(side, paths, summaries, error);
 }

@@ -162,8 +162,8 @@ static const struct {
 enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
 
 /* Returns whether a map shows anything. */
-static bool has_map(const JoxSide *side, int map) {
-    return side->fields[MAPS[map].kind].values &&
+static bool has_map(const JoxSide *side, const JoxSideDrawn *drawn, int map) {
+    return drawn->fields && side->fields[MAPS[map].kind].values &&
            (MAPS[map].density || jox_side_field_max(side, MAPS[map].kind) > 0);
 }
 
@@ -174,7 +174,7 @@ bool jox_seeds_draw(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why
     char when[48];
     snprintf(when, sizeof when, "0 to %.4g s", drawn->subject.until);
     for (int m = 0; good && m < MAP_COUNT; m++)
-        if (has_map(side, m))
+        if (has_map(side, drawn, m))
             good = jox_maps_draw_field(
                 &drawn->subject,
                 &(JoxMapField){.file = MAPS[m].file,
@@ -192,7 +192,7 @@ bool jox_seeds_draw(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *why
 void jox_seeds_put_maps(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
     jox_maps_panels(out, &drawn->subject);
     for (int m = 0; m < MAP_COUNT; m++)
-        if (has_map(side, m))
+        if (has_map(side, drawn, m))
             jox_html_figure(out, drawn->subject.folder, MAPS[m].file, MAPS[m].caption, false);
     jox_html_panels_end(out);
 }

@@ -10,8 +10,9 @@
 
 enum { MOST_POINTS = 100000 };
 
-typedef enum PartOf { WALLS, PLACES, PROBES, BODIES, NOTHING } PartOf;
-static const char *const LISTS[NOTHING] = {"walls.", "places.", "probes.", "bodies."};
+typedef enum PartOf { WALLS, PLACES, PROBES, BODIES, STOREYS, STAIRS, NOTHING } PartOf;
+static const char *const LISTS[NOTHING] = {"walls.",  "places.",  "probes.",
+                                           "bodies.", "storeys.", "stairs."};
 
 /* The wall, place, probe or body that is being read. */
 typedef struct Part {
@@ -19,14 +20,17 @@ typedef struct Part {
     char *name, *kind;
     bool solid, closed, open, high;
     float radius;
-    float *numbers; /* coordinates, m: x, y, x, y, ... */
-    size_t count, capacity;
+    float height, width, rise;        /* m: of a storey, of a stair */
+    uint32_t form, way, lower, upper; /* of a stair */
+    float *numbers, *landings; /* coordinates, m: x, y, x, y, ...; of a stair: from, to, ... */
+    size_t count, capacity, landing_count, landing_capacity;
 } Part;
 
 typedef struct Reading {
     JoxSidePlan *plan;
-    float area[4];
-    uint32_t corners;
+    float area[4], sheets[2]; /* sheets: origin and pitch, m */
+    uint32_t corners, sheet_numbers;
+    size_t storey_capacity, stair_capacity;
     size_t place_capacity, probe_capacity, points; /* points: read so far, of all parts */
     Part part;
 } Reading;
@@ -103,29 +107,107 @@ static void add_plan_body(Reading *r, const JoxV2 *points, uint32_t count) {
     body->count = count > 1 ? count : 0;
 }
 
+static void add_plan_storey(Reading *r) {
+    JoxStoreys *s = &r->plan->storeys;
+    const Part *part = &r->part;
+    if (s->storey_count == JOX_MOST_STOREYS ||
+        (s->storey_count && !(part->height > s->storeys[s->storey_count - 1].height)))
+        return;
+    JOX_RESERVE(s->storeys, r->storey_capacity, s->storey_count + 1);
+    s->storeys[s->storey_count++] =
+        (JoxStorey){jox_strdup(part->name ? part->name : ""), part->height};
+}
+
+static void add_plan_stair(Reading *r, const JoxV2 *points, uint32_t count) {
+    JoxStoreys *s = &r->plan->storeys;
+    const Part *part = &r->part;
+    const uint32_t landings = (uint32_t)(part->landing_count / 2);
+    JoxStair stair = {.name = jox_strdup(part->name ? part->name : ""),
+                      .kind = (JoxStairKind)part->form,
+                      .way = (JoxStairWay)part->way,
+                      .lower = part->lower,
+                      .upper = part->upper,
+                      .width = part->width,
+                      .rise = part->rise,
+                      .path = jox_alloc(count, sizeof *stair.path),
+                      .path_count = count,
+                      .landings = jox_alloc((size_t)landings + 1, sizeof *stair.landings),
+                      .landing_count = landings};
+    memcpy(stair.path, points, sizeof *points * count);
+    for (uint32_t k = 0; k < landings; k++)
+        stair.landings[k] = (JoxLanding){part->landings[2 * k], part->landings[2 * k + 1]};
+    JOX_RESERVE(s->stairs, r->stair_capacity, s->stair_count + 1);
+    s->stairs[s->stair_count++] = stair;
+}
+
+/* Lays the storeys out that were read; leaves none if they make no sense. */
+static void lay_plan_storeys_out(Reading *r) {
+    JoxStoreys *s = &r->plan->storeys;
+    bool sound = r->sheet_numbers == 2 && r->sheets[1] > 1.0f && s->storey_count > 1;
+    for (uint32_t k = 0; k < s->stair_count; k++) {
+        const JoxStair *stair = &s->stairs[k];
+        sound = sound && stair->lower <= stair->upper && stair->upper < s->storey_count &&
+                stair->kind <= JOX_STAIR_ESCALATOR && stair->way <= JOX_STAIR_DOWN &&
+                jox_stair_is_sound(stair);
+    }
+    if (sound)
+        jox_storeys_lay_out_again(s, r->sheets[0], r->sheets[1]);
+    else
+        jox_storeys_free(s);
+}
+
 /* Adds the part that was read to the plan, and begins an empty one. */
 static void finish_part(Reading *r) {
-    static void (*const ADD[NOTHING])(Reading *, const JoxV2 *, uint32_t) = {
+    static void (*const ADD[STOREYS])(Reading *, const JoxV2 *, uint32_t) = {
         add_plan_wall, add_plan_place, add_plan_probe, add_plan_body};
     Part *part = &r->part;
     const uint32_t count = (uint32_t)(part->count / 2);
     JoxV2 *points = jox_alloc(count + 1, sizeof *points);
     for (uint32_t p = 0; p < count; p++)
         points[p] = (JoxV2){part->numbers[2 * p], part->numbers[2 * p + 1]};
-    if (count && part->of < NOTHING)
+    if (part->of == STOREYS)
+        add_plan_storey(r);
+    else if (part->of == STAIRS && count >= 2 && r->plan->storeys.stair_count < JOX_MOST_STAIRS)
+        add_plan_stair(r, points, count);
+    else if (count && part->of < STOREYS)
         ADD[part->of](r, points, count);
     jox_free(points);
     jox_free(part->name);
     jox_free(part->kind);
     jox_free(part->numbers);
+    jox_free(part->landings);
     *part = (Part){.of = NOTHING};
+}
+
+/* Reads a number of a storey or stair. */
+static void read_stair_number(Part *part, const char *key, double number) {
+    const struct {
+        const char *key;
+        float *length;
+        uint32_t *index;
+    } numbers[] = {{"height", &part->height, NULL}, {"width", &part->width, NULL},
+                   {"rise", &part->rise, NULL},     {"form", NULL, &part->form},
+                   {"way", NULL, &part->way},       {"lower", NULL, &part->lower},
+                   {"upper", NULL, &part->upper}};
+    for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
+        if (strcmp(key, numbers[n].key) != 0)
+            continue;
+        if (numbers[n].length)
+            *numbers[n].length = (float)number;
+        else
+            *numbers[n].index = number >= 0.0 ? (uint32_t)number : UINT32_MAX;
+    }
 }
 
 static void read_part(Reading *r, const JoxJsonItem *item) {
     Part *part = &r->part;
     const char *key = item->key;
     if (item->kind == JOX_JSON_NUMBER && !key && fabs(item->number) < 1e6 &&
-        r->points++ < MOST_POINTS) {
+        strstr(item->path, ".landings.") && r->points++ < MOST_POINTS) {
+        JOX_RESERVE(part->landings, part->landing_capacity, part->landing_count + 1);
+        part->landings[part->landing_count++] = (float)item->number;
+    } else if (item->kind == JOX_JSON_NUMBER && !key && fabs(item->number) < 1e6 &&
+               r->points++ < MOST_POINTS) {
         JOX_RESERVE(part->numbers, part->capacity, part->count + 1);
         part->numbers[part->count++] = (float)item->number;
     } else if (item->kind == JOX_JSON_TEXT && key && !strcmp(key, "name") && !part->name) {
@@ -134,6 +216,8 @@ static void read_part(Reading *r, const JoxJsonItem *item) {
         part->kind = jox_strdup(item->text);
     } else if (item->kind == JOX_JSON_NUMBER && key && !strcmp(key, "radius")) {
         part->radius = (float)item->number;
+    } else if (item->kind == JOX_JSON_NUMBER && key && fabs(item->number) < 1e6) {
+        read_stair_number(part, key, item->number);
     } else if (item->kind == JOX_JSON_BOOL && key) {
         const bool yes = item->number != 0;
         part->solid = !strcmp(key, "solid") ? yes : part->solid;
@@ -166,6 +250,9 @@ static bool read_item(void *context, const JoxJsonItem *item) {
     if (item->depth == 2 && item->kind == JOX_JSON_NUMBER && r->corners < 4 &&
         strncmp(item->path, "area.", 5) == 0)
         r->area[r->corners++] = (float)item->number;
+    if (item->depth == 2 && item->kind == JOX_JSON_NUMBER && r->sheet_numbers < 2 &&
+        strncmp(item->path, "sheets.", 7) == 0)
+        r->sheets[r->sheet_numbers++] = (float)item->number;
     if (item->depth == 2 && item->kind == JOX_JSON_TEXT && strncmp(item->path, "report.", 7) == 0)
         read_plan_report(&r->plan->report, item);
     if (item->depth == 2 && item->kind == JOX_JSON_OBJECT) {
@@ -184,8 +271,13 @@ bool jox_side_plan_read(JoxSidePlan *plan, const char *json) {
     *plan = (JoxSidePlan){0};
     const bool good = jox_json_read(json, jox_json_own_files, read_item, &r);
     finish_part(&r);
+    lay_plan_storeys_out(&r);
     plan->low = (JoxV2){r.area[0], r.area[1]};
     plan->high = (JoxV2){r.area[2], r.area[3]};
+    if (jox_has_storeys(&plan->storeys)) { /* as far as the picture of each shows it */
+        plan->storeys.low = plan->low.y;
+        plan->storeys.high = plan->high.y;
+    }
     return good && r.corners == 4 && plan->high.x > plan->low.x && plan->high.y > plan->low.y &&
            plan->high.x - plan->low.x < 1e5f && plan->high.y - plan->low.y < 1e5f;
 }
@@ -206,4 +298,5 @@ void jox_side_plan_free(JoxSidePlan *plan) {
     jox_free(plan->probes);
     jox_free(plan->bodies.items);
     jox_walls_free(&plan->walls);
+    jox_storeys_free(&plan->storeys);
 }

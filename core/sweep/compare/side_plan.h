@@ -8,7 +8,8 @@
 #include "scene/scene.h"
 
 typedef struct JoxSidePlan {
-    JoxV2 low, high; /* bounds of the picture, m */
+    JoxV2 low, high;    /* bounds of the picture, m; with storeys, in plan */
+    JoxStoreys storeys; /* of which all points are positions; empty: one plane */
     JoxWalls walls;
     JoxPlace *places;
     uint32_t place_count;
