@@ -8,6 +8,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "base/number/pi.h"
+#include "geom/storey_text.h"
 #include "jostle_tools.h"
 #include "run/mods/settings.h"
 #include "run/why/why.h"
@@ -20,6 +21,20 @@ static void add_rounded(JoxJson *json, const char *key, double number) {
 
 static void add_rounded_vector(JoxJson *json, const char *key, JoxV2 v) {
     jox_json_numbers_of(json, key, (double[]){(double)v.x, (double)v.y}, 2, DIGITS);
+}
+
+/* Adds where an agent is, m; with storeys in plan, the name of the storey or stair, and the height
+   of its floor, m. */
+static void add_place(const JoWorld *world, uint32_t i, JoxJson *json) {
+    const JoxStoreys *storeys = &world->model.storeys;
+    const JoxV2 at = {world->state.agents.x[i], world->state.agents.y[i]};
+    const JoxV2 plan = jox_in_plan(storeys, at);
+    add_rounded(json, "x", (double)plan.x);
+    add_rounded(json, "y", (double)plan.y);
+    if (!jox_has_storeys(storeys))
+        return;
+    jox_json_string(json, "storey", jox_storey_name_at(storeys, at));
+    add_rounded(json, "height", (double)jox_floor_height(storeys, at));
 }
 
 /* ---- state, parameters and memory ---- */
@@ -80,8 +95,7 @@ static void add_inspected_agent(const JoScene *scene, uint32_t i, JoxJson *json)
     jox_json_string(json, "machine", machine ? machine->name : "");
     jox_json_string(json, "state", machine ? machine->states[a->state[i]].name : "");
     add_rounded(json, "since", (double)since * world->model.def.dt);
-    add_rounded(json, "x", (double)a->x[i]);
-    add_rounded(json, "y", (double)a->y[i]);
+    add_place(world, i, json);
     add_rounded(json, "vx", (double)a->vx[i]);
     add_rounded(json, "vy", (double)a->vy[i]);
     add_rounded(json, "radius", (double)jox_param(a, JOX_PARAM_radius, i));

@@ -10,11 +10,12 @@
 #include "base/text.h"
 #include "base/vec.h"
 #include "geom/lifts.h"
+#include "geom/storeys.h"
 #include "geom/walls.h"
 #include "jostle_tools.h"
 
 /* Version of the messages: a page that was loaded with another version reloads itself. */
-enum { JOX_LIVE_PROTOCOL = 7 };
+enum { JOX_LIVE_PROTOCOL = 8 };
 
 /* A growing byte buffer; zero-initialise, set `length = 0` to reuse, free by jox_bytes_free. */
 typedef struct JoxBytes {
@@ -164,14 +165,16 @@ enum {
 };
 extern const float jox_live_leans[JOX_LIVE_LEANS];
 
-/* The rectangle that packed positions are fractions of; it only grows. */
+/* The rectangle that packed positions are fractions of; it only grows. With storeys it is in plan.
+ */
 typedef struct JoxLiveArea {
-    JoxV2 low, high; /* m */
-    JoxV2 steps;     /* units of a packed position per metre */
-    bool known;      /* false: empty, nothing was covered yet */
+    JoxV2 low, high;           /* m */
+    JoxV2 steps;               /* units of a packed position per metre */
+    bool known;                /* false: empty, nothing was covered yet */
+    const JoxStoreys *storeys; /* NULL: one plane */
 } JoxLiveArea;
-/* Extends the area to hold a box. A side that must move moves by at least a quarter of the size, so
-   that a spreading crowd does not move it in each frame. */
+/* Extends the area to hold a box of positions on one sheet. A side that must move moves by at least
+   a quarter of the size, so that a spreading crowd does not move it in each frame. */
 void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high);
 
 typedef struct JoxLiveHead {
@@ -196,8 +199,12 @@ typedef struct JoxLiveCrowd {
     const uint8_t *state, *flags; /* index in the scene message's "states"; JOX_LIVE_PARITY ... */
     JoxV2 period;                 /* m, size of a periodic world; 0 along an axis without edges */
     const JoxWalls *walls;        /* that stand (gates closed); or NULL */
+    const JoxStoreys *storeys;    /* NULL: one plane */
+    const JoxLift *lifts;         /* with `cars`, one for each */
+    const JoxCarLook *cars;
+    uint32_t lift_count;
 } JoxLiveCrowd;
-/* Sets the corners of the box of all people, m; false if there is nobody. */
+/* Sets the corners of the box of all people, m, in plan; false if there is nobody. */
 bool jox_live_find_crowd_box(const JoxLiveCrowd *crowd, JoxV2 *low, JoxV2 *high);
 /* Extends the area to hold all people. */
 void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd);
@@ -220,7 +227,7 @@ bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out);
    jox_live_free_grid. */
 typedef struct JoxLiveGrid {
     struct JoxDensity *grid;
-    JoxV2 low, high; /* m, the box that people may be in before the grid is made again */
+    JoxV2 low, high; /* m in plan, the box that people may be in before the grid is made again */
 } JoxLiveGrid;
 /* Extends the area to hold the crowd, and computes the crowd's density on a grid about the people:
    how far the area extends where nobody is does not change it. */
@@ -235,6 +242,19 @@ float jox_live_density_r(const JoxLiveGrid *grid);
 void jox_live_pack_field(const struct JoxDensity *grid, const float *values, JoxLiveField field,
                          JoxLiveScales *scales, JoxBytes *out);
 void jox_live_free_grid(JoxLiveGrid *grid);
+
+/* live_storeys.c: the number of the deck at a position, which is a storey, or that of all storeys
+   plus the index of a stair between them; and how high a person stands there, m: on the floor, or
+   in the car of a lift. */
+typedef struct JoxLiveStand {
+    uint16_t deck;
+    float height;
+} JoxLiveStand;
+JoxLiveStand jox_live_find_stand(const JoxLiveCrowd *crowd, JoxV2 at);
+/* Sets the least and the greatest height that a person can stand at, m. */
+void jox_live_find_heights(const JoxStoreys *storeys, float *low, float *high);
+/* Adds the member "storeys" of a scene message, null for one plane: storeys and stairs. */
+void jox_live_add_storeys(const JoxStoreys *storeys, JoxJson *json);
 
 /* Adds the member "walls" of a scene message, an array of chains. */
 void jox_live_add_walls(const JoxWalls *walls, JoxJson *json);

@@ -27,7 +27,7 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    JoxLiveArea all = {0};
+    JoxLiveArea all = {.storeys = area->storeys};
     if (spec->bounded)
         jox_live_cover(&all, spec->low, spec->high);
     for (uint32_t v = 0; v < world->model.all_walls.count; v++)
@@ -53,6 +53,7 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
 static bool begin_live_listener(void *self, JoScene *scene, const void *options, JoError *error) {
     JoxLive *live = self;
     (void)options, (void)error;
+    live->area.storeys = jox_live_storeys(scene);
     cover_scene(&live->area, scene);
     live->wall = jox_clock_wall();
     live->time = jo_world_time(scene->world);
@@ -90,6 +91,11 @@ static const JoxListenerKind LIVE = {.name = "live page",
 JoxLive *jox_live_attach(JoScene *scene) {
     JoxLive *live = jox_run_find_listener(scene, &LIVE);
     return live ? live : jox_run_attach_listener(scene, &LIVE, NULL, NULL);
+}
+
+const JoxStoreys *jox_live_storeys(const JoScene *scene) {
+    const JoxStoreys *storeys = &scene->world->model.storeys;
+    return jox_has_storeys(storeys) ? storeys : NULL;
 }
 
 uint32_t jox_live_player_id(const JoScene *scene) {
@@ -216,7 +222,8 @@ static const float *fill_forces(JoxLive *live, const JoxAgents *a) {
 
 /* Returns the scene's people as columns; states, flags, values and torsos are still NULL. */
 static JoxLiveCrowd list_scene_crowd(const JoScene *scene) {
-    const JoxAgents *a = &scene->world->state.agents;
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->state.agents;
     return (JoxLiveCrowd){.count = a->count,
                           .slots = a->slot_count,
                           .slot = a->slot,
@@ -230,7 +237,9 @@ static JoxLiveCrowd list_scene_crowd(const JoScene *scene) {
                           .one_radius = !a->param[JOX_PARAM_radius].mask,
                           .group = a->group,
                           .period = a->period,
-                          .walls = &scene->world->scratch.walls};
+                          .walls = &world->scratch.walls,
+                          .storeys = jox_live_storeys(scene),
+                          .lifts = world->model.lifts};
 }
 
 /* Adds the torsos of the scene's people, unless all are discs. */
@@ -264,9 +273,11 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxLiveScales *scales,
                               .bodies = jox_bodies_rows(world->state.bodies),
                               .area = &live->area,
                               .scales = scales};
+    const JoxFrame *frame = jox_run_present_frame(scene, 0);
+    crowd.cars = frame->cars;
+    crowd.lift_count = frame->lift_count;
     jox_live_pack_frame(&head, &crowd, colour, out);
     pack_scene_bodies(scene, a->slot_count, out);
-    const JoxFrame *frame = jox_run_present_frame(scene, 0);
     jox_live_add_cars(out, frame->cars, frame->lift_count);
 }
 

@@ -11,8 +11,9 @@
 #include "live/live.h"
 
 enum { STEPS = 65535, PEOPLE_HEAD = 16, FRAME = 1, PEOPLE = 2 };
-enum { PERSON = 2, PERSON_WITH_TORSO = 4, CHEST = 1 }; /* bytes of a slot */
-static const float RADIUS = 0.2f;                      /* m, for people whose radius is unknown */
+enum { PERSON = 2, PERSON_WITH_TORSO = 4, CHEST = 1, STAND = 4 }; /* bytes of a slot */
+enum { HEIGHTS = 8 };             /* bytes of the range of heights of a frame with storeys */
+static const float RADIUS = 0.2f; /* m, for people whose radius is unknown */
 
 const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT] = {
 #define X(name, most, least, unit) {#name, unit, most, least},
@@ -72,6 +73,8 @@ static void cover_axis(float *low, float *high, float from, float to, bool known
 void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high) {
     if (!(low.x <= high.x && low.y <= high.y))
         return; /* an empty box, or NAN */
+    low = jox_in_plan(area->storeys, low);
+    high = jox_in_plan(area->storeys, high);
     if (!area->known) {
         area->low = low;
         area->high = high;
@@ -88,8 +91,9 @@ bool jox_live_find_crowd_box(const JoxLiveCrowd *crowd, JoxV2 *low, JoxV2 *high)
     *low = (JoxV2){INFINITY, INFINITY};
     *high = (JoxV2){-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < crowd->count; i++) {
-        *low = jox_v2(jox_minf(low->x, crowd->x[i]), jox_minf(low->y, crowd->y[i]));
-        *high = jox_v2(jox_maxf(high->x, crowd->x[i]), jox_maxf(high->y, crowd->y[i]));
+        const JoxV2 at = jox_in_plan(crowd->storeys, jox_v2(crowd->x[i], crowd->y[i]));
+        *low = jox_v2(jox_minf(low->x, at.x), jox_minf(low->y, at.y));
+        *high = jox_v2(jox_maxf(high->x, at.x), jox_maxf(high->y, at.y));
     }
     return low->x <= high->x && low->y <= high->y;
 }
@@ -103,18 +107,18 @@ void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd) {
 /* ---- frames ---- */
 
 /* Writes the head, and marks all slots as empty. `most`: the value that byte 255 stands for.
-   `chest`: bytes of a slot's chest. */
+   `more`: bytes of a slot behind the bodies, CHEST and STAND. `room`: other bytes there. */
 static void write_frame_head(JoxBytes *out, const JoxLiveHead *head, uint32_t slots, float most,
-                             uint32_t chest) {
+                             uint32_t more, size_t room) {
     const JoxLiveArea *area = head->area;
-    const size_t people = (size_t)slots * (JOX_LIVE_SLOT + chest);
-    resize_bytes(out, JOX_LIVE_HEAD + people + (size_t)head->bodies * JOX_LIVE_BODY);
+    const size_t people = (size_t)slots * (JOX_LIVE_SLOT + more);
+    resize_bytes(out, JOX_LIVE_HEAD + people + (size_t)head->bodies * JOX_LIVE_BODY + room);
     uint8_t *at = put32(put32(out->data, FRAME), head->tick);
     at = put_double(at, head->time);
     at = put32(put32(at, slots), head->bodies);
     at = put_float(put_float(at, area->low.x), area->low.y);
     at = put_float(put_float(at, 1.0f / area->steps.x), 1.0f / area->steps.y);
-    at = put32(put_float(at, most), chest);
+    at = put32(put_float(at, most), more);
     static const uint8_t NOBODY[JOX_LIVE_SLOT] = {[5] = JOX_LIVE_NOBODY};
     for (uint32_t s = 0; s < slots; s++, at += JOX_LIVE_SLOT)
         memcpy(at, NOBODY, JOX_LIVE_SLOT);
@@ -176,27 +180,49 @@ static float choose_range(JoxLiveScales *scales, const JoxLiveCrowd *crowd, JoxL
     return scale->most;
 }
 
+/* Writes the range of heights, and for each slot its deck and its height as a share of that range.
+ */
+static void put_stands(uint8_t *at, const JoxLiveCrowd *crowd) {
+    float low, high;
+    jox_live_find_heights(crowd->storeys, &low, &high);
+    const float steps = STEPS / jox_maxf(high - low, 1.0f);
+    at = put_float(put_float(at, low), 1.0f / steps);
+    memset(at, 0, (size_t)STAND * crowd->slots);
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        const JoxLiveStand stand = jox_live_find_stand(crowd, (JoxV2){crowd->x[i], crowd->y[i]});
+        put16(put16(at + (size_t)STAND * crowd->slot[i], stand.deck),
+              encode_position(stand.height - low, steps));
+    }
+}
+
 void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, JoxLiveColour colour,
                          JoxBytes *out) {
     const JoxLiveArea *area = head->area;
     const float most = choose_range(head->scales, crowd, colour);
     const float scale = most > 0.0f ? 1.0f / most : 0.0f;
+    const bool stacked = jox_has_storeys(crowd->storeys);
     JOX_ASSERT(area->known && area->steps.x > 0.0f && area->steps.y > 0.0f);
-    write_frame_head(out, head, crowd->slots, most, crowd->axis_x ? CHEST : 0);
+    write_frame_head(out, head, crowd->slots, most,
+                     (crowd->axis_x ? CHEST : 0u) + (stacked ? STAND : 0u), stacked ? HEIGHTS : 0);
     for (uint32_t i = 0; i < crowd->count; i++) {
         JOX_ASSERT(crowd->slot[i] < crowd->slots && crowd->state[i] != JOX_LIVE_NOBODY);
         uint8_t *at = out->data + JOX_LIVE_HEAD + (size_t)crowd->slot[i] * JOX_LIVE_SLOT;
         const bool faces = crowd->face_x && (crowd->face_x[i] != 0.0f || crowd->face_y[i] != 0.0f);
         const float value = find_colour_value(crowd, i, colour) * scale;
-        at = put16(at, encode_position(crowd->x[i] - area->low.x, area->steps.x));
-        at = put16(at, encode_position(crowd->y[i] - area->low.y, area->steps.y));
+        const JoxV2 plan = jox_in_plan(crowd->storeys, (JoxV2){crowd->x[i], crowd->y[i]});
+        at = put16(at, encode_position(plan.x - area->low.x, area->steps.x));
+        at = put16(at, encode_position(plan.y - area->low.y, area->steps.y));
         at[0] = faces ? encode_heading(crowd->face_x[i], crowd->face_y[i])
                       : encode_heading(crowd->vx[i], crowd->vy[i]);
         at[1] = crowd->state[i];
         at[2] = (uint8_t)(jox_clampf(value, 0.0f, 1.0f) * 255.0f + 0.5f);
         at[3] = crowd->flags[i];
     }
-    uint8_t *chests = out->data + out->length - crowd->slots; /* behind the bodies */
+    if (stacked) /* behind the bodies */
+        put_stands(out->data + JOX_LIVE_HEAD + (size_t)crowd->slots * JOX_LIVE_SLOT +
+                       (size_t)head->bodies * JOX_LIVE_BODY,
+                   crowd);
+    uint8_t *chests = out->data + out->length - crowd->slots; /* last */
     for (uint32_t i = 0; crowd->axis_x && i < crowd->count; i++)
         chests[crowd->slot[i]] = encode_heading(crowd->axis_y[i], -crowd->axis_x[i]);
 }

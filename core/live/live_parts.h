@@ -65,6 +65,8 @@ void jox_live_add_rules(const JoScene *scene, JoxJson *json);
 void jox_live_add_match(const JoScene *scene, const JoxLiveMatch *match, JoxJson *json);
 /* Whether all rounds of the match are played, or one side can no longer be reached. */
 bool jox_live_is_match_over(const JoxGame *game, const JoxLiveMatch *match);
+/* Storeys of the scene; NULL: one plane. */
+const JoxStoreys *jox_live_storeys(const JoScene *scene);
 /* Id of the agent that the scene's player drives; JOX_NO_INDEX: none. */
 uint32_t jox_live_player_id(const JoScene *scene);
 /* Computes the density of the present crowd, once per tick. */

@@ -54,6 +54,7 @@ void jox_live_add_walls(const JoxWalls *walls, JoxJson *json) {
         jox_live_add_optional_name(json, ring->name);
         jox_json_bool(json, "solid", ring->solid);
         jox_json_bool(json, "open", ring->open);
+        jox_json_bool(json, "outline", ring->outline);
         jox_json_digits(json, "height",
                         (double)(ring->drawn > 0.0f       ? ring->drawn
                                  : isfinite(ring->height) ? ring->height
@@ -244,7 +245,7 @@ static void add_scene_tools(JoxJson *json, const JoScene *scene) {
     const char *walls[MOST_NAMES], *signals[MOST_NAMES];
     uint32_t wall_count = 0, signal_count = 0;
     for (uint32_t r = 0; r < world->model.all_walls.ring_count; r++)
-        if (world->model.all_walls.rings[r].name)
+        if (world->model.all_walls.rings[r].name && !world->model.all_walls.rings[r].is_lift_door)
             wall_count = add_unique(walls, wall_count, world->model.all_walls.rings[r].name);
     for (uint32_t m = 0; m < world->model.machines.count; m++)
         for (uint32_t n = 0; n < world->model.machines.items[m]->name_count; n++)
@@ -371,6 +372,7 @@ void jox_live_scene(JoScene *scene, bool restarts, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
+    jox_live_add_storeys(jox_live_storeys(scene), &json);
     jox_live_add_walls(&world->model.all_walls, &json);
     jox_live_add_places(world->model.places, scene->world->model.scene_places, &json);
     jox_live_add_lifts(world->model.lifts, world->model.lift_count, &json);

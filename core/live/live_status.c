@@ -33,7 +33,7 @@ static void add_machine_counts(JoxJson *json, JoxLive *live, const JoxMachineRun
 void jox_live_add_gates(const JoxWalls *walls, JoxJson *json) {
     jox_json_object(json, "walls");
     for (uint32_t r = 0; r < walls->ring_count; r++) {
-        bool known = !walls->rings[r].name;
+        bool known = !walls->rings[r].name || walls->rings[r].is_lift_door;
         for (uint32_t o = 0; o < r && !known; o++)
             known = walls->rings[o].name && !strcmp(walls->rings[o].name, walls->rings[r].name);
         if (!known)

@@ -80,7 +80,9 @@ static const JoxWalls *find_standing_walls(const JoxReplay *r) {
 /* Extends the area to hold the recording's bounds, walls and places. */
 static void cover_recording(JoxReplay *r) {
     const JoxWalls *walls = jox_replay_walls(r);
-    JoxLiveArea all = {0};
+    const JoxStoreys *storeys = jox_has_storeys(r->info.storeys) ? r->info.storeys : NULL;
+    JoxLiveArea all = {.storeys = storeys};
+    r->area.storeys = storeys;
     if (r->info.bounded)
         jox_live_cover(&all, r->info.low, r->info.high);
     for (uint32_t v = 0; v < walls->count; v++)
@@ -220,7 +222,11 @@ static JoxLiveCrowd list_recorded_crowd(const JoxReplay *r) {
                           .axis_y = r->frame.axis_y,
                           .contact_radius = r->frame.contact_radius,
                           .period = r->period,
-                          .walls = find_standing_walls(r)};
+                          .walls = find_standing_walls(r),
+                          .storeys = r->area.storeys,
+                          .lifts = r->info.lifts,
+                          .cars = jox_trajectory_reader_cars(r->reader, choose_shown_frame(r)),
+                          .lift_count = r->info.lift_count};
 }
 
 void jox_replay_spread(JoxReplay *r) {
@@ -312,9 +318,9 @@ static void sample_pressure(JoxReplay *r) {
                       .vx = r->vx,
                       .vy = r->vy,
                       .walls = find_standing_walls(r),
-                      .storeys = jox_has_storeys(r->info.storeys) ? r->info.storeys : NULL};
+                      .storeys = r->area.storeys};
     if (!r->local) {
-        r->local = jox_local_create(r->area.low, r->area.high, NULL);
+        r->local = jox_local_create(r->area.low, r->area.high, r->area.storeys);
         jox_local_enable_pressure(r->local);
     }
     if (r->shown == JOX_REPLAY_NOBODY || !jox_local_is_due(r->local, frame.time))

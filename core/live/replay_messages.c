@@ -126,6 +126,7 @@ void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
+    jox_live_add_storeys(r->info.storeys, &json);
     jox_live_add_walls(jox_replay_walls(r), &json);
     jox_live_add_places(look->places, look->place_count, &json);
     jox_live_add_lifts(r->info.lifts, r->info.lift_count, &json);

@@ -72,8 +72,8 @@ void jox_replay_give_slots(JoxReplay *r, const JoxTrajectoryReaderFrame *f, doub
         JOX_ASSERT(i == 0 || f->id[i] > f->id[i - 1]); /* ids ascend, each occurs once */
         bool moved = !fresh && spent > 0.0;
         bool round = fabsf(f->x[i] - r->last_x[s]) > 0.5f * period.x && period.x > 0.0f;
-        round |= fabsf(f->y[i] - r->last_y[s]) > 0.5f * period.y && period.y > 0.0f;
-        if (!fresh && round) /* crossed a periodic edge or a seam: no movement is drawn */
+        round |= fabsf(f->y[i] - r->last_y[s]) > 0.5f * r->period.y && r->period.y > 0.0f;
+        if (!fresh && round) /* crossed a periodic edge: no movement is drawn */
             r->parity[s] ^= JOX_LIVE_PARITY;
         r->vx[i] =
             moved ? wrap_displacement(f->x[i] - r->last_x[s], period.x) / (float)spent : 0.0f;

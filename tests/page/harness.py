@@ -12,6 +12,7 @@ import traceback
 
 from selenium import webdriver
 from selenium.common.exceptions import TimeoutException
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
@@ -203,6 +204,33 @@ class Browser:
 
     def close(self):
         self.driver.quit()
+
+
+def settle(browser, tool):
+    """Chooses a tool and waits until the page, which it lays out anew, has the picture in its place."""
+    browser.button(tool).click()
+    spot = last = None
+    while spot is None or spot != last:
+        time.sleep(0.3)
+        spot, last = browser.run("return page.view.project(0, 0, 0)"), spot
+
+
+def draw(browser, tool, start, end, hold):
+    """Presses at one place of the scene (x, y, z in m), draws to another, holds `hold` s or until the loop is left, lets go."""
+    browser.button(tool).click()
+    spots = [browser.run("return page.view.project(...arguments[0])", list(place)) for place in (start, end)]
+    box = browser.canvas().rect
+    (x0, y0), (x1, y1) = [(int(s[0] - box["width"] / 2), int(s[1] - box["height"] / 2)) for s in spots]
+    hand = ActionChains(browser.driver, duration=50)
+    hand.move_to_element_with_offset(browser.canvas(), x0, y0).click_and_hold()
+    hand.move_to_element_with_offset(browser.canvas(), x1, y1).perform()
+    until = time.monotonic() + hold
+    try:
+        while time.monotonic() < until:
+            yield
+            time.sleep(0.1)
+    finally:
+        ActionChains(browser.driver).release().perform()
 
 
 def served(*arguments):

@@ -7,6 +7,7 @@ import { amount } from "../../core/view/page/dom.js";
 import { roundDown } from "../../core/view/page/controls/compass.js";
 import { classColour, outerStates, valueColour, wayColour } from "../../core/view/page/draw/palette.js";
 import { elevationsSeen } from "../../core/view/page/draw/figure/levels.js";
+import { Storeys, cutFloor, hullOf } from "../../core/view/page/draw/storeys.js";
 import { ALONG, STANDING } from "../../core/view/page/draw/scenery_kinds.js";
 import { MOST_TRIANGLES, buildScenery } from "../../core/view/page/draw/scenery_mesh.js";
 import { endSentences } from "../../core/view/page/panels/end.js";
@@ -59,7 +60,97 @@ function leastDifference(colours, eye) {
 const page = (path) => readFileSync(new URL(`../../core/view/page/${path}`, import.meta.url), "utf8");
 const near = (a, b, by) => Math.abs(a - b) <= by;
 
+const areaOf = (ring) => ring.reduce((sum, [x, y], i) => sum + x * ring[(i + 1) % ring.length][1] - ring[(i + 1) % ring.length][0] * y, 0) / 2;
+
+/** Three storeys of 20 x 10 m: a dog-leg from the first to the second with a half landing, and a ramp over it from the second to the third. */
+const DOG_LEG = { name: "dog-leg", kind: "stairs", way: "both", lower: 0, upper: 1, sheet: 3, width: 1, outline: [[1.5, 2], [1.5, 6.5], [3.5, 6.5], [3.5, 2], [2.5, 2], [2.5, 5.5], [2.5, 5.5], [2.5, 2]],
+    path: [[2, 2], [2, 6], [3, 6], [3, 2]], flights: [{ from: [2, 2], along: [0, 1], run: 3.5, low: 0, slope: 0.5 }, { from: [3, 5.5], along: [0, -1], run: 3.5, low: 1.75, slope: 0.5 }] };
+const RAMP = { name: "ramp", kind: "ramp", way: "both", lower: 1, upper: 2, sheet: 4, width: 2, outline: [[8, 4], [16, 4], [16, 6], [8, 6]], path: [[8, 5], [16, 5]], flights: [{ from: [8, 5], along: [1, 0], run: 8, low: 3.5, slope: 0.5 }] };
+const BUILDING = { pitch: 45, origin: -10, list: [{ name: "ground", height: 0 }, { name: "first", height: 3.5 }, { name: "second", height: 7.5 }], stairs: [DOG_LEG, RAMP], lifts: [] };
+const WALLS = [0, 1, 2].map((k) => ({ points: [[0, 45 * k], [20, 45 * k], [20, 45 * k + 10], [0, 45 * k + 10]], height: 2 }));
+
+function makeBuilding(changes = {}) {
+    const storeys = Object.assign(new Storeys(BUILDING), changes);
+    storeys.measure(storeys.unfold({ walls: WALLS, places: [], area: [[0, 0], [20, 10]] }));
+    return storeys;
+}
+
 const TESTS = {
+    "points of sheets go to the plan and back, on storeys and stairs": () => {
+        const storeys = makeBuilding();
+        for (const [plane, deck, plan] of [[[5, 7], 0, [5, 7]], [[5, 52], 1, [5, 7]], [[19, 99], 2, [19, 9]], [[2, 3 * 45 + 4], 3, [2, 4]], [[10, 4 * 45 + 5], 4, [10, 5]]]) {
+            assert.equal(storeys.deckAt(plane), deck);
+            assert.deepEqual(storeys.toPlan(deck, plane), plan);
+            assert.deepEqual(storeys.toPlane(deck, plan), plane);
+        }
+    },
+    "floors of stairs rise along flights and are level on landings": () => {
+        const storeys = makeBuilding(), heights = [[2, 1], [2, 2], [2, 4], [2, 6], [2.5, 6.2], [3, 6], [3, 4], [3, 2], [3, 1]].map((p) => storeys.elevation(3, p));
+        assert.deepEqual(heights, [0, 0, 1, 1.75, 1.75, 1.75, 2.5, 3.5, 3.5]);
+        assert.deepEqual([[8, 5], [12, 5.9], [16, 4]].map((p) => storeys.elevation(4, p)), [3.5, 5.5, 7.5]);
+        assert.equal(storeys.elevation(1, [2, 4]), 3.5);
+    },
+    "stairs meet the storeys that they lead to however these are shown": () => {
+        for (const view of ["stacked", "exploded", "one"]) {
+            const storeys = makeBuilding({ view });
+            assert(near(storeys.heightAt(3, [2, 2]), storeys.heightAt(0, [2, 2]), 1e-9) && near(storeys.heightAt(3, [3, 2]), storeys.heightAt(1, [3, 2]), 1e-9), view);
+            assert(near(storeys.heightAt(4, [16, 5]), storeys.heightAt(2, [16, 5]), 1e-9), view);
+        }
+        assert.deepEqual(makeBuilding({ view: "stacked" }).at, [0, 3.5, 7.5]);
+        const spread = makeBuilding({ view: "exploded" }).at;
+        assert(spread[1] - spread[0] > 6 && spread[2] - spread[1] > 6, `${spread}`);
+    },
+    "a line from the eye finds the floor that is shown, with the point of its sheet": () => {
+        const aim = (storeys, from, to) => storeys.hit(from, to.map((v, k) => v - from[k])), eye = [12, -30, 40];
+        for (const view of ["stacked", "exploded"]) {
+            const storeys = makeBuilding({ view }), [, , top] = storeys.at;
+            const hit = aim(storeys, eye, [18, 8, top]);
+            assert.equal(hit.deck, 2, view);
+            assert(near(hit.at[0], 18, 1e-6) && near(hit.at[1], 8, 1e-6) && near(hit.z, top, 1e-6), view);
+            assert.deepEqual(storeys.toPlane(2, [18, 8]), [18, 98]);
+        }
+        const cut = makeBuilding({ view: "stacked", chosen: 1 });
+        assert.equal(aim(cut, eye, [18, 8, 3.5]).deck, 1);
+        assert.equal(aim(cut, [12, 5, 40], [12, 5, 0]).deck, 4); // the ramp, which is over the floor
+        assert.equal(aim(makeBuilding({ view: "one", chosen: 0 }), eye, [18, 8, 0]).deck, 0);
+        const stairs = makeBuilding({ view: "stacked", chosen: 0 }), flight = aim(stairs, [2, -20, 30], [2, 4, 1]), landing = aim(stairs, [2, -20, 30], [2, 6.2, 1.75]);
+        assert.deepEqual([flight.deck, landing.deck], [3, 3]);
+        assert(near(flight.z, 1, 1e-6) && near(flight.at[1], 4, 1e-6) && near(landing.z, 1.75, 1e-6));
+    },
+    "floors hide what is under them, but not through the hole of a stair": () => {
+        const storeys = makeBuilding({ view: "stacked" }), above = [12, 5, 40];
+        assert(storeys.hides([18, 8, 0.9], [18, 8, 40]) && storeys.hides([18, 8, 4.4], [18, 8, 40]) && !storeys.hides([18, 8, 8.4], [18, 8, 40]));
+        assert(!storeys.hides([12, 5, 5.9], above)); // on the ramp, under its hole
+        assert(!makeBuilding({ view: "one", chosen: 1 }).hides([18, 8, 4.4], [18, 8, 40]));
+    },
+    "one storey is shown with the stairs that lead to it, others are not": () => {
+        const shown = (changes) => makeBuilding(changes).drawnDecks.map((deck) => deck.shown);
+        assert.deepEqual(shown({ view: "one", chosen: 0 }), [true, false, false, true, false]);
+        assert.deepEqual(shown({ view: "one", chosen: 1 }), [false, true, false, true, true]);
+        assert.deepEqual(shown({ view: "stacked", chosen: 1 }), [true, true, false, true, true]);
+        assert.deepEqual(shown({ view: "exploded", chosen: 0 }), [true, true, true, true, true]);
+    },
+    "people get the height of their floor, and none where it is not shown": () => {
+        const frame = () => ({ slots: 3, stands: new Uint16Array([0, 0, 3, 32768, 2, 65535]), z0: 0, sz: 7.5 / 65535 });
+        const lifted = (changes) => {
+            const of = frame();
+            makeBuilding(changes).lift(of);
+            return [...of.floors];
+        };
+        const stacked = lifted({ view: "stacked" });
+        assert(near(stacked[0], 0, 1e-6) && near(stacked[2], 7.5, 1e-6));
+        assert.deepEqual(lifted({ view: "one", chosen: 2 }).map(Number.isNaN), [true, true, false]);
+        const plain = { slots: 1 };
+        new Storeys().lift(plain);
+        assert.equal(plain.floors, undefined);
+    },
+    "floors are cut around holes, which may overlap": () => {
+        const square = (x0, y0, x1, y1) => [[x0, y0], [x1, y0], [x1, y1], [x0, y1]], area = (...of) => cutFloor(...of).reduce((sum, quad) => sum + areaOf(quad), 0);
+        assert(near(area([square(0, 0, 10, 8)], []), 80, 1e-9));
+        assert(near(area([square(0, 0, 10, 8)], [square(1, 1, 3, 3), square(2, 2, 4, 4), square(2, 2, 4, 4), square(9, 7, 12, 9)]), 80 - 7 - 1, 1e-9));
+        assert(near(area([[[0, 0], [4, 0], [0, 4]], square(3, 0, 6, 1)], [[[1, 0], [2, 1], [1, 2], [0, 1]]]), 8 + 3 - 0.5 - 2, 1e-9));
+        assert.deepEqual(hullOf([[0, 0], [2, 0], [1, 1], [2, 2], [0, 2], [1, 0]]), [[0, 0], [2, 0], [2, 2], [0, 2]]);
+    },
     "differences of colours are those that CIEDE2000 was published with": () => {
         const published = [[[50, 2.6772, -79.7751], [50, 0, -82.7485], 2.0425], [[50, 2.5, 0], [73, 25, -18], 27.1492],
             [[2.0776, 0.0795, -1.135], [0.9033, -0.0636, -0.5514], 0.9082], [[50, -1, 2], [50, 0, 0], 2.3669]];

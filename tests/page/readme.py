@@ -1,6 +1,6 @@
-"""Makes the pictures of the READMEs anew: a moving one of the Tawaf, and the page with an office, a person and a machine.
+"""Makes the pictures of the READMEs anew: a moving one of the Tawaf, and the page with an office, a person, a machine and storeys.
 
-    readme.py [NAME...]    tawaf, office, person, machine; without: all
+    readme.py [NAME...]    tawaf, office, person, machine, storeys; without: all
 
 Look at them before you commit them. Needs ffmpeg."""
 import os
@@ -83,7 +83,11 @@ def machine(browser):
     page(browser, "tawaf-few", 8, "machine", "page.panel.show('machine'); place([26, -46, 20], [2, 2, 2]);")
 
 
-ALL = {"tawaf": tawaf, "office": office, "person": person, "machine": machine}
+def storeys(browser):
+    page(browser, "office-tower", 55, "storeys", "")
+
+
+ALL = {"tawaf": tawaf, "office": office, "person": person, "machine": machine, "storeys": storeys}
 
 if __name__ == "__main__":
     made = Browser()

@@ -19,18 +19,19 @@ ROWS, CELL = 8, (360, 225)  # of a sheet: scenes; pixels of a picture
 
 # Moves the eye near the densest spot, to the side from which it is free, beginning where the eye was.
 APPROACH = """
-const view = page.view, people = page.crowd.everybody(), cells = new Map(), key = (x, y) => `${Math.floor(x)} ${Math.floor(y)}`;
+const view = page.view, {crowd} = page, slots = [...Array(crowd.next.slots).keys()].filter((s) => crowd.position(s, 1) && !Number.isNaN(crowd.floor(s, 1)));
+const people = slots.map((s) => [...crowd.position(s, 1), crowd.floor(s, 1)]), cells = new Map(), key = (x, y, z) => `${Math.floor(x)} ${Math.floor(y)} ${Math.round(z / 2)}`;
 if (!people.length) return false;
 for (const p of people) cells.set(key(...p), [...(cells.get(key(...p)) ?? []), p]);
-const around = ([x, y]) => [-1, 0, 1].flatMap((i) => [-1, 0, 1].flatMap((j) => cells.get(key(x + i, y + j)) ?? []));
+const around = ([x, y, z]) => [-1, 0, 1].flatMap((i) => [-1, 0, 1].flatMap((j) => cells.get(key(x + i, y + j, z)) ?? []));
 const count = (p) => around(p).filter((q) => Math.hypot(q[0] - p[0], q[1] - p[1]) < 1.5).length;
 let best = people[0], most = 0;
 for (const p of people.filter((_, i) => i % Math.ceil(people.length / 4000) === 0)) {
     const n = count(p);
     if (n > most) [best, most] = [p, n];
 }
-const eye = view.perspective.position, first = Math.atan2(eye.y - best[1], eye.x - best[0]), head = [...best, 1];
-const place = (turn) => [best[0] + 7 * Math.cos(turn), best[1] + 7 * Math.sin(turn), 3];
+const eye = view.perspective.position, first = Math.atan2(eye.y - best[1], eye.x - best[0]), head = [best[0], best[1], best[2] + 1];
+const place = (turn) => [best[0] + 7 * Math.cos(turn), best[1] + 7 * Math.sin(turn), best[2] + 3];
 const turns = Array.from({length: 16}, (_, i) => first + (i % 2 ? -1 : 1) * Math.ceil(i / 2) * Math.PI / 8);
 const turn = turns.find((t) => !view.ground.between(head, place(t)) && !view.bodies.between(head, place(t))) ?? first;
 view.perspective.position.set(...place(turn));

@@ -13,7 +13,8 @@ import nested
 import reach
 import sight
 import steady
-from harness import JOSTLE, Session, expect, read, run_all, served, temporary_copy, wait_for, write
+import storeys
+from harness import JOSTLE, Session, draw, expect, read, run_all, served, settle, temporary_copy, wait_for, write
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -55,7 +56,7 @@ def loads(browser):
     browser.picture("office")
     draws = browser.run("return page.view.renderer.info.render.calls")
     expect(0 < draws <= 25, f"{draws} draw calls")
-    dark = browser.run("""const u = page.view.ground.uniforms, [x0, y0, w, h] = u.shaded.value.toArray(), c = u.shade.value.image;
+    dark = browser.run("""const u = page.view.ground.decks[0].uniforms, [x0, y0, w, h] = u.shaded.value.toArray(), c = u.shade.value.image;
         const data = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
         const alpha = (x, y) => data[4 * (Math.floor(c.height * (1 - (y - y0) / h)) * c.width + Math.floor(c.width * (x - x0) / w)) + 3];
         const [a, b] = page.scene.walls[0].points, l = Math.hypot(b[0] - a[0], b[1] - a[1]), n = [(b[1] - a[1]) / l, (a[0] - b[0]) / l];
@@ -127,33 +128,6 @@ def start_stopped(browser):
     browser.wait("return page.bar.paused && page.crowd.next.tick < 20", "no start with the time stopped")
     time.sleep(0.3)
     expect(browser.run("return page.crowd.next.tick") == 0, "the time was not stopped at once")
-
-
-def settle(browser, tool):
-    """Chooses a tool and waits until the page, which it lays out anew, has the picture in its place."""
-    browser.button(tool).click()
-    spot = last = None
-    while spot is None or spot != last:
-        time.sleep(0.3)
-        spot, last = browser.run("return page.view.project(0, 0, 0)"), spot
-
-
-def draw(browser, tool, start, end, hold):
-    """Presses at one place of the scene (x, y, z in m), draws to another, holds `hold` s or until the loop is left, lets go."""
-    browser.button(tool).click()
-    spots = [browser.run("return page.view.project(...arguments[0])", list(place)) for place in (start, end)]
-    box = browser.canvas().rect
-    (x0, y0), (x1, y1) = [(int(s[0] - box["width"] / 2), int(s[1] - box["height"] / 2)) for s in spots]
-    hand = ActionChains(browser.driver, duration=50)
-    hand.move_to_element_with_offset(browser.canvas(), x0, y0).click_and_hold()
-    hand.move_to_element_with_offset(browser.canvas(), x1, y1).perform()
-    until = time.monotonic() + hold
-    try:
-        while time.monotonic() < until:
-            yield
-            time.sleep(0.1)
-    finally:
-        ActionChains(browser.driver).release().perform()
 
 
 @served("run", "scenes/office.yaml", "--view")
@@ -241,9 +215,9 @@ def check_dressed(browser):
         const {pile} = scenery.shape([train], [{name: null}, {name: "train"}]);
         return [[...new Set(pile.part.values().filter((_, i) => i % 3 === 2))], scenery.shape([train], [{name: null}]).pile.position.length]""")
     expect(rows == [1] and lost == 0, f"scenery of body 1 takes the poses of {rows}; without its body it has {lost} numbers")
-    meshes, triangles, material = browser.run("""const ground = page.view.ground;
-        const made = ground.group.children.filter((n) => [ground.scenery.material, ground.scenery.paintMaterial].includes(n.material));
-        return [made.length, made.reduce((sum, n) => sum + n.geometry.attributes.position.count / 3, 0), ground.floor.material.defines.MATERIAL]""")
+    meshes, triangles, material = browser.run("""const {scenery, decks: [deck]} = page.view.ground;
+        const made = deck.group.children.filter((n) => [scenery.material, deck.paintMaterial].includes(n.material));
+        return [made.length, made.reduce((sum, n) => sum + n.geometry.attributes.position.count / 3, 0), deck.floor.material.defines.MATERIAL]""")
     expect(meshes == 2 and 5000 < triangles < 300000 and material == 1, f"scenery: {meshes} meshes of {triangles} triangles on floor {material}")
 
 
@@ -807,7 +781,7 @@ criteria: {in time: {cleared: 3}}
         shutil.rmtree(folder)
 
 
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, *figures.TESTS, fallen, edits, settings, *nested.TESTS, given_colours, gates, reloads, plays, ball_games, replays, *following.TESTS, *reach.TESTS, *steady.TESTS]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, breaks, inspects, *figures.TESTS, fallen, edits, settings, *nested.TESTS, given_colours, gates, reloads, plays, ball_games, replays, *following.TESTS, *storeys.TESTS, *reach.TESTS, *steady.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

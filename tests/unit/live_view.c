@@ -14,7 +14,7 @@ static void new_page_gets_scene_errors_frames_and_status(void **state) {
     assert_non_null(message);
     assert_int_equal(kind, FRAME_TEXT); /* the scene message comes first */
     assert_non_null(
-        strstr(message, "{\"type\": \"scene\", \"protocol\": 7, \"session\": \"live\""));
+        strstr(message, "{\"type\": \"scene\", \"protocol\": 8, \"session\": \"live\""));
     free(message);
     wait_for_json("\"type\": \"errors\"", "\"errors\": []");
     uint32_t first = wait_for_tick();

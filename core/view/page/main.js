@@ -24,6 +24,7 @@ import { ParametersPage } from "./panels/parameters.js";
 import { savePicture } from "./draw/picture.js";
 import { Player } from "./controls/player.js";
 import { Replay } from "./controls/replay.js";
+import { StoreyPanel } from "./controls/storey_panel.js";
 import { ScenePage } from "./panels/scene.js";
 import { Tools, TOOLS } from "./controls/tools.js";
 import { Gamepads } from "./controls/gamepad.js";
@@ -40,7 +41,7 @@ const LOST = {
     token: `The program at ${HERE} refuses this page, whose address is of an earlier start. Open the address that the program printed last.`,
     full: `The program at ${HERE} answers, but admits no further page: close another one. This page tries again by itself.`,
 };
-const PROTOCOL = 7; // of the messages, as the program counts it
+const PROTOCOL = 8; // of the messages, as the program counts it
 const MOVE = 0.08; // share of the distance to the target that an arrow key moves
 
 /** What people are coloured by at first: where the scene leaves it open, the outer states of machines with many states. */
@@ -84,7 +85,8 @@ class Page {
         this.news = new News();
         this.about = new AboutCard();
         this.compass = new Compass(this.view, () => this.redraw());
-        this.overlay.covered = [this.compass.button, this.compass.bar, byId("score")];
+        this.storeys = new StoreyPanel({ view: this.view, show: (changes) => this.showStoreys(changes) });
+        this.overlay.covered = [this.compass.button, this.compass.bar, this.storeys.node, byId("score")];
         this.strip = new Bar(WORDS);
         this.bar = new TimeBar(send, this.strip);
         this.replay = new Replay(send);
@@ -118,7 +120,7 @@ class Page {
             this.panel.tabs.parameters.focus();
         });
         this.charts = new ChartsPage(pages.charts, pages.engine);
-        this.scenePage = new ScenePage(pages.scene, { tool: (name) => this.tool(name), show: (tab) => this.panel.show(tab) });
+        this.scenePage = new ScenePage(pages.scene, { tool: (name) => this.tool(name), show: (tab) => this.panel.show(tab), lifts: (counts) => this.view.ground.lifts.describe(this.crowd.next, counts) });
         this.act = new ActPage(pages.act, { connection: this.connection, player: this.player, playing: (on) => this.playing(on) });
     }
 
@@ -132,7 +134,7 @@ class Page {
         bindKeys({
             " ": () => (this.bar.toggle(), true), ".": () => (this.bar.stepOnce(), true),
             t: () => (this.top(), true), f: () => (this.follow(), true), h: () => (this.view.goHome(), true),
-            n: () => (this.names(), true), p: () => (savePicture(this.view, this.overlay, this.scene?.title ?? "Jostle"), true),
+            n: () => (this.names(), true), s: () => this.storeys.next(), PageUp: () => this.storeys.step(1), PageDown: () => this.storeys.step(-1), p: () => (savePicture(this.view, this.overlay, this.scene?.title ?? "Jostle"), true),
             c: () => (this.colourBy(next(COLOURS, this.colour)), true), d: () => (this.fieldOf(next(FIELDS, this.field)), true),
             a: () => (this.about.toggle(), true), "?": () => (this.help.toggle(), true), Escape: () => this.escape(),
             ArrowLeft: step(-1, 0), ArrowRight: step(1, 0), ArrowUp: step(0, 1), ArrowDown: step(0, -1),
@@ -224,7 +226,8 @@ class Page {
         say(byId("title"), scene.title || scene.file || "Jostle");
         byId("title").title = byId("title").textContent;
         document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
-        for (const part of [this.end, this.about, this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
+        for (const part of [this.end, this.about, this.bar, this.replay, this.view, this.storeys, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
+        this.overlay.set(this.view.shown);
         if (this.view.ground.scenery.left) this.messages.say(this.view.ground.scenery.left, "warning");
         this.enablePerson(this.slot !== null);
         this.panel.offer("act", this.act.set(scene));
@@ -351,12 +354,12 @@ class Page {
 
     /** What the frames of a recording tell of the chosen person. */
     seePerson() {
-        const { slot, crowd } = this, at = slot === null ? null : crowd.position(slot, 1);
+        const { slot, crowd } = this, { storeys } = this.view, at = slot === null ? null : crowd.position(slot, 1);
         if (slot === null) return;
         if (!at) return void this.takePerson({ agent: null });
         const from = crowd.position(slot, 0) ?? at, passed = crowd.next.time - crowd.previous.time;
         this.agentPage.takeSeen({
-            slot, time: crowd.next.time, x: at[0], y: at[1], radius: crowd.radius(slot), torso: crowd.torso(slot),
+            slot, time: crowd.next.time, x: at[0], y: at[1], ...(storeys.several ? { storey: storeys.decks[crowd.deck(slot)].name, height: crowd.elevation(slot) } : {}), radius: crowd.radius(slot), torso: crowd.torso(slot),
             speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
             state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.group(slot)]?.name,
         });
@@ -390,12 +393,31 @@ class Page {
 
     top() {
         this.view.setTop(!this.view.top);
+        this.overlay.place();
         this.toolBar.top.setAttribute("aria-pressed", String(this.view.top));
+    }
+
+    /** Shows storeys in another way: {view, chosen}. */
+    showStoreys(changes) {
+        this.view.showStoreys(changes);
+        this.storeys.mark();
+        this.overlay.place();
+    }
+
+    /** Shows the storey of the person who is followed, once they are on another. */
+    followStorey() {
+        const { storeys } = this.view, deck = this.crowd.deck(this.slot);
+        if (!storeys.several) return;
+        const { lower, upper } = storeys.decks[deck];
+        if (storeys.chosen < lower || storeys.chosen > upper) this.showStoreys({ chosen: storeys.isStorey(deck) ? deck : lower });
     }
 
     follow(on = !this.following) {
         this.following = on && this.slot !== null;
-        if (this.following) this.eye.begin();
+        if (this.following) {
+            this.followStorey();
+            this.eye.begin();
+        }
         if (on && this.slot === null) this.messages.say("Choose a person first: click one.");
         this.toolBar.follow.setAttribute("aria-pressed", String(this.following));
     }
@@ -432,14 +454,14 @@ class Page {
     /** Positions of the bodies that the game marks, m. */
     balls() {
         const { bodies, game } = this.scene;
-        return bodies.flatMap((body, row) => (game?.balls.includes(body.name) ? [this.crowd.bodyPosition(row)] : [])).filter(Boolean);
+        return bodies.flatMap((body, row) => (game?.balls.includes(body.name) ? [this.crowd.findBody(row)] : [])).filter(Boolean);
     }
 
     /** Keeps a game's camera behind the player. */
     keepUpWithPlayer(share, now) {
         const slot = this.overlay.players[0], at = slot === undefined ? null : this.crowd.position(slot, share);
         if (at) this.player.send(); // keys that are held mean the picture as it is turned now
-        if (at) this.playCamera.keepUp(at, () => [...Array(this.crowd.next.slots).keys()].filter((s) => s !== slot).map((s) => this.crowd.position(s, 1)).filter(Boolean), now);
+        if (at) this.playCamera.keepUp(at, this.crowd.floor(slot, 1) || 0, () => [...Array(this.crowd.next.slots).keys()].filter((s) => s !== slot).map((s) => this.crowd.position(s, 1)).filter(Boolean), now);
     }
 
     playing(on) {
@@ -473,7 +495,8 @@ class Page {
         const begun = performance.now();
         const share = this.crowd.share(begun);
         const at = this.following ? this.crowd.position(this.slot, share) : null;
-        if (at) this.eye.keepUp(at, begun);
+        if (at) this.followStorey();
+        if (at) this.eye.keepUp(at, this.crowd.floor(this.slot, share) || 0, begun);
         this.gamepads.poll();
         if (this.game.playing) this.keepUpWithPlayer(share, begun);
         if (this.view.draw(begun, this.drawn)) {

@@ -36,10 +36,10 @@ export class Compass {
 
     /** CSS pixels of a metre across the picture, at its middle; NaN if that is above the horizon. */
     pixelsOfMetre() {
-        const { view } = this, at = view.floorAt(view.wide / 2, view.high / 2);
+        const { view } = this, floor = view.controls.target.z, at = view.floorAt(view.wide / 2, view.high / 2, floor);
         if (!at) return NaN;
         const turn = this.turned(), across = [Math.cos(turn), Math.sin(turn)];
-        const [a, b] = [-0.5, 0.5].map((d) => view.project(at[0] + d * across[0], at[1] + d * across[1], 0));
+        const [a, b] = [-0.5, 0.5].map((d) => view.project(at[0] + d * across[0], at[1] + d * across[1], floor));
         return a && b ? Math.hypot(b[0] - a[0], b[1] - a[1]) : NaN;
     }
 

@@ -139,7 +139,7 @@ export function bindKeys(keys, player, typing) {
         const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
         // Buttons and tabs keep the keys that belong to them.
         const own = event.target instanceof HTMLElement && event.target.closest("button, [role=tab], [role=button], input");
-        if (own && /^( |Enter|Arrow\w+)$/.test(event.key)) return undefined;
+        if (own && /^( |Enter|Arrow\w+|Page\w+)$/.test(event.key)) return undefined;
         if (player.key(event, true)) return event.preventDefault();
         if (keys[name]?.(event) !== undefined) event.preventDefault();
         return undefined;

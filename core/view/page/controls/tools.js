@@ -77,20 +77,20 @@ export class Tools {
     begin(at) {
         const { view, crowd } = this.page;
         if (this.tool === "throw") {
-            const from = view.floorAt(...at);
-            this.gesture = from && { kind: "throw", from, to: from };
+            const from = view.groundAt(...at);
+            this.gesture = from && { kind: "throw", deck: from.deck, floor: from.z, from: from.at, to: from.at };
         } else if (this.tool === "drag") {
             const row = pickBody(view, crowd, view.bodies, ...at);
             if (row === null) return false;
-            const place = crowd.bodyPosition(row);
-            this.gesture = { kind: "drag", row, z: place[2], to: place.slice(0, 2) };
+            const { at: place, deck, high } = crowd.findBody(row), to = place.slice(0, 2);
+            this.gesture = { kind: "drag", row, deck, high, floor: place[2], to };
             view.bodies.uniforms.chosen.value = row;
-            this.page.connection.input("grab", row, ...place);
+            this.page.connection.input("grab", row, ...view.storeys.toPlane(deck, to), high);
         } else if (this.tool === "push") {
             const slot = pickPerson(view, crowd, ...at, this.page.share());
             if (slot === null) return false;
             this.page.inspect(slot);
-            this.gesture = { kind: "push", slot, to: crowd.position(slot, 1) };
+            this.gesture = { kind: "push", slot, floor: crowd.floor(slot, 1), to: crowd.position(slot, 1) };
         }
         this.gestureTimer = setInterval(() => this.repeat(), PERIOD);
         this.page.overlay.sketch = (pen, project) => this.sketch(pen, project);
@@ -104,7 +104,7 @@ export class Tools {
     }
 
     aim(at) {
-        const to = this.page.view.floorAt(...at, this.gesture.z ?? 0);
+        const to = this.page.view.floorAt(...at, this.gesture.floor);
         if (to) this.gesture.to = to;
         this.page.overlay.stale = true;
     }
@@ -113,7 +113,7 @@ export class Tools {
     repeat() {
         const g = this.gesture, { connection, crowd } = this.page;
         if (!g) return;
-        if (g.kind === "drag") connection.input("drag", g.row, ...g.to, g.z);
+        if (g.kind === "drag") connection.input("drag", g.row, ...this.inPlane(g), g.high);
         if (g.kind === "push") {
             const force = this.force(), id = this.page.agentId(g.slot);
             if (!crowd.alive(g.slot)) this.cancel();
@@ -122,6 +122,11 @@ export class Tools {
                 g.sent = true;
             }
         }
+    }
+
+    /** Returns where a gesture leads to, as a position of the program's plane. */
+    inPlane({ deck, to }) {
+        return this.page.view.storeys.toPlane(deck, to);
     }
 
     /** Returns the force of the present push, N; null while the drag is too short. */
@@ -147,9 +152,9 @@ export class Tools {
 
     finish() {
         const g = this.gesture, { connection } = this.page;
-        if (g.kind === "throw") this.release(g.from, this.throwTo(g.from, g.to));
+        if (g.kind === "throw") this.release(g.deck, g.from, this.throwTo(g.from, g.to));
         if (g.kind === "drag") {
-            connection.input("drag", g.row, ...g.to, g.z);
+            connection.input("drag", g.row, ...this.inPlane(g), g.high);
             connection.input("release", g.row);
         }
         this.cancel(true);
@@ -159,9 +164,9 @@ export class Tools {
         return throwTo(from, to, this.page.gravity());
     }
 
-    release(from, velocity) {
+    release(deck, from, velocity) {
         const { size, mass } = this.page.box();
-        this.page.connection.input("box", from[0], from[1], HAND, ...velocity, size, mass);
+        this.page.connection.input("box", ...this.page.view.storeys.toPlane(deck, from), HAND, ...velocity, size, mass);
     }
 
     cancel(done = false) {
@@ -181,10 +186,10 @@ export class Tools {
         }
         const ahead = view.camera.getWorldDirection(view.camera.position.clone());
         const flat = Math.hypot(ahead.x, ahead.y), unit = flat > 0.01 ? [ahead.x / flat, ahead.y / flat] : [0, 1];
-        const onto = view.floorAt(...at);
+        const onto = view.groundAt(...at);
         if (this.tool === "throw" && onto) {
-            const from = [onto[0] - 5 * unit[0], onto[1] - 5 * unit[1]];
-            return this.release(from, this.throwTo(from, onto));
+            const from = [onto.at[0] - 5 * unit[0], onto.at[1] - 5 * unit[1]];
+            return this.release(onto.deck, from, this.throwTo(from, onto.at));
         }
         if (!this.begin(at)) return undefined;
         const g = this.gesture;
@@ -197,22 +202,23 @@ export class Tools {
         const g = this.gesture;
         if (!g) return;
         if (g.kind === "throw") {
-            const velocity = this.throwTo(g.from, g.to), path = flight(g.from, velocity, this.page.gravity());
+            const velocity = this.throwTo(g.from, g.to), path = flight(g.from, velocity, this.page.gravity()).map(([x, y, z]) => [x, y, g.floor + z]);
             for (const [style, wide] of [["#000000a0", 5], ["#ffd21f", 2.5]]) {
                 stroke(pen, path.map((p) => project(...p)), style, wide);
-                stroke(pen, [project(...g.from, 0), project(...g.from, HAND)], style, wide);
+                stroke(pen, [project(...g.from, g.floor), project(...g.from, g.floor + HAND)], style, wide);
             }
             const end = project(...path[path.length - 1]);
             if (end) this.page.overlay.tag(`${Math.hypot(...velocity).toFixed(1)} m/s`, [end[0], end[1] - 16]);
         } else if (g.kind === "push") {
             const at = this.page.crowd.position(g.slot, 1), force = this.force();
             if (!at || !force) return;
-            this.page.overlay.arrow([...at, 1.1], [...g.to, 1.1], "#ffd21f");
-            const tip = project(...g.to, 1.1);
+            const high = g.floor + 1.1;
+            this.page.overlay.arrow([...at, high], [...g.to, high], "#ffd21f");
+            const tip = project(...g.to, high);
             if (tip) this.page.overlay.tag(`${Math.hypot(...force).toFixed(0)} N`, [tip[0], tip[1] - 16]);
         } else {
             const at = this.page.crowd.bodyPosition(g.row);
-            if (at) this.page.overlay.arrow(at, [...g.to, g.z], "#ffd21f");
+            if (at) this.page.overlay.arrow(at, [...g.to, g.floor], "#ffd21f");
         }
     }
 }

@@ -33,10 +33,10 @@ function find(view, at) {
     return [view.wide / 2 + 1e4 * along(0), view.high / 2 + 1e4 * Math.abs(along(4)) + 1e4];
 }
 
-/** Marks balls at [x, y, z], m; returns how many are out of sight. */
+/** Marks balls {at: [x, y, z] in the picture, high: above the floor, m}; returns how many are out of sight. */
 export function markBalls(pen, view, balls) {
     let out = 0;
-    for (const at of balls) {
+    for (const { at, high } of balls) {
         const spot = find(view, at);
         if (spot[0] < 0 || spot[1] < 0 || spot[0] > view.wide || spot[1] > view.high) {
             pointTo(pen, view, spot);
@@ -44,9 +44,9 @@ export function markBalls(pen, view, balls) {
             continue;
         }
         outlined(pen, ring(spot, 11), 2.5);
-        if (at[2] < LOW) continue;
-        const foot = ring(at, 0.25).map(([x, y]) => view.project(x, y, 0.02));
-        stroke(pen, [view.project(at[0], at[1], 0.02), [spot[0], spot[1] + 11]], "#00000090", 1.5);
+        if (high < LOW) continue;
+        const floor = at[2] - high + 0.02, foot = ring(at, 0.25).map(([x, y]) => view.project(x, y, floor));
+        stroke(pen, [view.project(at[0], at[1], floor), [spot[0], spot[1] + 11]], "#00000090", 1.5);
         outlined(pen, foot, 1.5);
     }
     return out;

@@ -156,8 +156,8 @@ export class Bodies {
     /** Takes the poses of the last two frames. */
     upload(crowd) {
         if (this.radii.length === 0) return;
-        readPoses(crowd.previous, this.poses, 0, 16, this.known);
-        readPoses(crowd.next, this.poses, 8, 16, this.known);
+        readPoses(crowd.previous, crowd.storeys, this.poses, 0, 16, this.known);
+        readPoses(crowd.next, crowd.storeys, this.poses, 8, 16, this.known);
         // A body that was not there before does not slide.
         for (let row = crowd.previous.bodies; row < Math.min(this.known, crowd.next.bodies); row++) {
             this.poses.copyWithin(16 * row, 16 * row + 8, 16 * row + 16);

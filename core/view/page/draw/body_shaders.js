@@ -17,7 +17,7 @@ void main() {
     vec3 p = poseOf(tint.w, q);
     p += turned(position, q);
     facing = turned(normal, q);
-    high = p.z;
+    high = p.z - floorUnder(tint.w);
     colour = abs(tint.w - chosen) < 0.5 ? vec3(1.0, 0.85, 0.3) : tint.rgb;
     gl_Position = projectionMatrix * viewMatrix * vec4(p, 1.0);
 }`;
@@ -44,10 +44,10 @@ void main() {
     reach = vec2(length(one.xy), length(other.xy));
     vec2 a = reach.x > 0.01 ? one.xy / reach.x : vec2(1.0, 0.0), b = reach.y > 0.01 ? other.xy / reach.y : vec2(-a.y, a.x);
     at = position.xy * (reach + SOFT);
-    float low = p.z - abs(x.z) * half_size.x - abs(y.z) * half_size.y - abs(z.z) * half_size.z;
+    float under = floorUnder(position.z), low = p.z - under - abs(x.z) * half_size.x - abs(y.z) * half_size.y - abs(z.z) * half_size.z;
     dark = 0.42 * (1.0 - smoothstep(0.0, 1.2, low));
-    gl_Position = projectionMatrix * viewMatrix * vec4(p.xy + a * at.x + b * at.y, 0.008, 1.0);
-    if (dark < 0.01 || p.z < -10.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+    gl_Position = projectionMatrix * viewMatrix * vec4(p.xy + a * at.x + b * at.y, under + 0.008, 1.0);
+    if (dark < 0.01 || p.z < -500.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }`;
 
 export const BODY_SHADE_FRAGMENT = `

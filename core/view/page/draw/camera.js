@@ -3,6 +3,7 @@ import * as THREE from "three";
 
 const TURNS = [0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75, -90, 90]; // candidate directions: degrees from the south, eastwards
 const RISES = [36, 48, 60]; // candidate elevations: degrees above the floor
+const BETWEEN = 30; // degrees above the floor from which one looks between storeys
 const FILL = 0.94; // share of the window that the scene fills
 const RELUCTANCE = 0.1; // share of the score that a turn of 90 degrees from the south costs
 const STEEP = [48, 0.01]; // degrees of elevation above which people look flat; share of the score that each further degree costs
@@ -12,9 +13,9 @@ const TALL = 2.1; // m: height that has to be visible, that of the tallest figur
 const WIDE = 0.4; // m: margin around people
 const TALLEST = 3; // m: walls count as visible height up to this
 
-/** The corners of a box [[x0, y0], [x1, y1]], on the floor and `high` above it, m. */
-function cornersOf([[x0, y0], [x1, y1]], high) {
-    return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].flatMap(([x, y]) => [new THREE.Vector3(x, y, 0), new THREE.Vector3(x, y, high)]);
+/** The corners of a box [[x0, y0], [x1, y1]] between two heights, m. */
+function cornersOf([[x0, y0], [x1, y1]], [low, high]) {
+    return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].flatMap(([x, y]) => [new THREE.Vector3(x, y, low), new THREE.Vector3(x, y, high)]);
 }
 
 /** Right, up and forward of an eye that looks down by `rise` rad from `turn` rad east of the south. */
@@ -47,9 +48,9 @@ function standOf(points, { right, up, ahead }, tangents) {
  * Scores how well a window is filled: the share of it that the floor covers, times the share that the box around
  * the floor spans (so that long scenes lie along a diagonal), reduced if far parts look much smaller.
  */
-function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
+function scoreOf(points, low, eye, { right, up, ahead }, tangents, turn, rise) {
     let area = 0, nearest = Infinity, farthest = 0;
-    const floor = points.filter((p) => p.z === 0).map((p) => {
+    const floor = points.filter((p) => p.z === low).map((p) => {
         const v = p.clone().sub(eye), depth = v.dot(ahead);
         nearest = Math.min(nearest, depth);
         farthest = Math.max(farthest, depth);
@@ -60,7 +61,7 @@ function scoreOf(points, eye, { right, up, ahead }, tangents, turn, rise) {
         area += (x * ny - nx * y) / 8; // the window is 2 by 2
     });
     const steep = STEEP[1] * Math.max(0, rise * (180 / Math.PI) - STEEP[0]);
-    const [low, high] = boxOf(floor, 0), span = ((high[0] - low[0]) * (high[1] - low[1])) / 4;
+    const [[x0, y0], [x1, y1]] = boxOf(floor, 0), span = ((x1 - x0) * (y1 - y0)) / 4;
     return Math.abs(area) * span * (nearest / farthest) ** EVEN * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2)) * (1 - steep);
 }
 
@@ -69,23 +70,39 @@ export function heightOf(scene) {
     return Math.min(TALLEST, Math.max(TALL, ...(scene.walls ?? []).map((wall) => wall.height || 0)));
 }
 
-/**
- * Returns the camera {at, look} with the best score that shows a box of the floor and `tall` m above it.
- * `fieldOfView` is the window's height in degrees, `aspect` its width by its height.
- */
-export function fitBox(box, tall, fieldOfView, aspect) {
-    const high = FILL * Math.tan((fieldOfView / 2) * (Math.PI / 180)), tangents = [high * aspect, high];
-    const points = cornersOf(box, tall);
+/** Tangents of half of a window, of which a margin is left free; `fieldOfView` is its height in degrees, `aspect` its width by its height. */
+function tangentsOf(fieldOfView, aspect) {
+    const high = FILL * Math.tan((fieldOfView / 2) * (Math.PI / 180));
+    return [high * aspect, high];
+}
+
+/** The camera {at, look} at a point, which looks ahead at the height `aim`, m. */
+function lookAt(at, ahead, aim) {
+    return { at, look: at.clone().addScaledVector(ahead, (aim - at.z) / ahead.z) };
+}
+
+/** Returns the camera {at, look} with the best score that shows a box of the floor between two heights [low, high], m. */
+export function fitBox(box, heights, fieldOfView, aspect) {
+    const tangents = tangentsOf(fieldOfView, aspect), points = cornersOf(box, heights);
     let best = null;
     for (const turn of TURNS.map((t) => (t * Math.PI) / 180)) {
         for (const rise of RISES.map((r) => (r * Math.PI) / 180)) {
             const axes = axesOf(turn, rise), at = standOf(points, axes, tangents);
-            const score = scoreOf(points, at, axes, tangents, turn, rise);
+            const score = scoreOf(points, heights[0], at, axes, tangents, turn, rise);
             if (!best || score > best.score) best = { score, at, ahead: axes.ahead };
         }
     }
-    const look = best.at.clone().addScaledVector(best.ahead, -best.at.z / best.ahead.z); // on the floor
-    return { at: best.at, look };
+    return lookAt(best.at, best.ahead, heights[0]);
+}
+
+/**
+ * Returns the camera {at, look} that shows points [x, y, z] of several storeys from BETWEEN degrees above them, across the shorter side
+ * of a box around them: so one looks between storeys that are spread. It looks at the height `aim`, m.
+ */
+export function fitStoreys(corners, [[x0, y0], [x1, y1]], aim, fieldOfView, aspect) {
+    const turn = y1 - y0 > x1 - x0 ? Math.PI / 2 : 0, axes = axesOf(turn, (BETWEEN * Math.PI) / 180);
+    const at = standOf(corners.map((p) => new THREE.Vector3(...p)), axes, tangentsOf(fieldOfView, aspect));
+    return lookAt(at, axes.ahead, aim);
 }
 
 /**
@@ -132,7 +149,7 @@ export function sceneBox(scene, people) {
     const places = (scene.places ?? []).filter((p) => p.kind !== "set").map(extentOf);
     const figures = people.flatMap(([x, y]) => [[x - WIDE, y - WIDE], [x + WIDE, y + WIDE]]);
     const core = boxOf([...(scene.walls ?? []).flatMap((w) => w.points ?? []), ...figures]);
-    if (!core) return boxOf([...places.flat(), ...Object.values(scene.regions ?? {}).flat()]) ?? scene.area;
+    if (!core) return boxOf([...places.flat(), ...(scene.areas ?? []).flatMap(({ points }) => points)]) ?? scene.area;
     const all = boxOf([...core, ...places.flat()]), area = ([[x0, y0], [x1, y1]]) => (x1 - x0) * (y1 - y0);
     if (!scene.walls?.length && area(all) <= LARGER * area(core)) return all;
     const margin = NEAR * Math.max(Math.sqrt(area(core)), 10);

@@ -33,12 +33,12 @@ export class Follow {
         this.now = null;
     }
 
-    /** Moves with the person, who is at [x, y] at `time` (ms). */
-    keepUp(at, time) {
-        const { view } = this, target = view.controls.target, dx = at[0] - target.x, dy = at[1] - target.y, moved = Math.hypot(dx, dy);
-        if (moved > 1e-3) view.moveBy(dx, dy);
+    /** Moves with the person, who is at [x, y] on a floor at height `floor`, m, at `time` (ms). */
+    keepUp(at, floor, time) {
+        const { view } = this, target = view.controls.target, [dx, dy, dz] = [at[0] - target.x, at[1] - target.y, floor - target.z], moved = Math.hypot(dx, dy, dz);
+        if (moved > 1e-3) view.moveBy(dx, dy, dz);
         if (view.top) return;
-        this.head = [at[0], at[1], HEAD];
+        this.head = [at[0], at[1], floor + HEAD];
         this.heed();
         this.aim(time);
         const passed = time - (this.time ?? time);

@@ -6,6 +6,7 @@ export const LOWERED = 0.35; // m, drawn height of walls that would hide somethi
 /** Walls: those that stand between the eye and the box `keep` are lowered. */
 export const WALL_VERTEX = `
 attribute vec2 middle, across; // of the wall's block; from its middle to beside it, m
+attribute float foot;      // height of the floor under it, m
 uniform vec3 eye;
 uniform vec4 keep;         // x0, y0, x1, y1
 uniform float lowered, edge; // edge: m within that box
@@ -15,10 +16,10 @@ void main() {
     vec2 behind = middle + (dot(across, middle - eye.xy) < 0.0 ? -across : across);
     bool hides = all(greaterThan(behind, keep.xy + edge)) && all(lessThan(behind, keep.zw - edge));
     vec3 at = position;
-    if (hides && lowered > 0.5) at.z = min(at.z, ${LOWERED});
+    if (hides && lowered > 0.5) at.z = min(at.z, foot + ${LOWERED});
     facing = normal;
-    high = at.z;
-    gl_Position = projectionMatrix * viewMatrix * vec4(at, 1.0);
+    high = at.z - foot;
+    gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(at, 1.0);
 }`;
 
 export const WALL_FRAGMENT = LIGHT + `
@@ -40,6 +41,7 @@ uniform vec3 base, line, sky;
 uniform float dim;         // factor of the materials' colours: a dark page has darker floors
 uniform sampler2D field, ramp;
 uniform vec4 cover;        // x0, y0, width, height of the field, m; width 0: none
+uniform vec2 rows;         // share of its height at which this floor's rows begin and end
 uniform sampler2D shade;   // of walls
 uniform vec4 shaded;       // its area, as of cover; width 0: none
 uniform float gain;        // factor of the field's values, so that people and floor share a scale
@@ -49,7 +51,7 @@ varying vec2 ground;
 vec3 onFloor(vec3 colour) {
     if (cover.z > 0.0) {
         vec2 at = (ground - cover.xy) / cover.zw;
-        if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) {
+        if (all(greaterThan(at, vec2(0.0, rows.x))) && all(lessThan(at, vec2(1.0, rows.y)))) {
             float v = gain * texture2D(field, at).r;
             if (v > 0.004) colour = mix(colour, texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.2 + 3.0 * v));
         }
@@ -68,7 +70,7 @@ export const FLOOR_VERTEX = `
 varying vec2 ground;
 void main() {
     ground = position.xy;
-    gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
 }`;
 
 /** The floor's materials, by MATERIAL in the order of MATERIALS: a shader of one, as a processor that draws compiles for long. */
@@ -136,7 +138,7 @@ vec3 floorColour() {
 }`;
 
 export const FLOOR_FRAGMENT = ON_FLOOR + FLOOR_COLOUR + `
-void main() { gl_FragColor = vec4(onFloor(floorColour()), 1.0); }`;
+void main() { gl_FragColor = vec4(onFloor(floorColour()) * (gl_FrontFacing ? 1.0 : 0.7), 1.0); }`;
 
 /** How paint varies: not at all, with the floor under it, as grass does. */
 export const GRAIN = { none: 0, floor: 0.5, lawn: 1 };
@@ -149,7 +151,7 @@ varying vec4 paint;
 void main() {
     ground = position.xy;
     paint = ink;
-    gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+    gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
 }`;
 
 export const PAINT_FRAGMENT = ON_FLOOR + FLOOR_COLOUR + `

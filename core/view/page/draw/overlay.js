@@ -35,22 +35,53 @@ export class Overlay {
         this.blank = true; // nothing is on the canvas
     }
 
+    /** Takes a scene message as storeys have unfolded it. */
     set(scene) {
-        this.labels = [];
+        this.scene = scene;
+        this.labels = this.storeyLabels();
         for (const place of scene.places ?? []) {
-            if (place.kind !== "set" && place.points?.length) this.labels.push({ text: place.name, at: middle(place), box: boxAround(place.points, place.radius ?? 0) });
+            if (place.kind !== "set" && place.points?.length) this.label(place, { text: place.name, at: middle(place), box: boxAround(place.points, place.radius ?? 0) });
         }
-        for (const [name, points] of Object.entries(scene.regions ?? {})) {
-            this.labels.push({ text: name, at: middle({ points, kind: "polygon" }), box: boxAround(points, 0), faint: true });
+        for (const { name, points, deck } of scene.areas ?? []) {
+            this.label({ deck }, { text: name, at: middle({ points, kind: "polygon" }), box: boxAround(points, 0), faint: true });
         }
         for (const wall of scene.walls ?? []) {
-            if (wall.name) this.labels.push({ text: wall.name, at: [...middle({ points: wall.points, kind: "line" }), wall.height || 2], box: boxAround(wall.points, 0), gate: true });
+            if (wall.name) this.label(wall, { text: wall.name, at: middle({ points: wall.points, kind: "line" }), high: wall.height || 2, box: boxAround(wall.points, 0), gate: true });
         }
         // Ways out come first, then large places; names that several gates share are told once.
-        const first = (label) => (label.gate ? 0 : WAY_OUT.test(label.text) ? 1 : label.faint ? 3 : 2);
+        const first = (label) => (label.storey ? -1 : label.gate ? 0 : WAY_OUT.test(label.text) ? 1 : label.faint ? 3 : 2);
         this.ranked = this.labels.filter((label, i) => this.labels.findIndex((other) => other.text === label.text) === i)
             .sort((a, b) => first(a) - first(b) || b.box.size - a.box.size);
         this.drawn = "";
+    }
+
+    /** Adds a label of something on a deck, unless that is not shown. */
+    label({ deck = 0 }, { at, high = 0, ...label }) {
+        const { storeys } = this.view;
+        if (storeys.drawnDecks[deck]?.shown) this.labels.push({ ...label, at: [...at, storeys.heightAt(deck, at) + high] });
+    }
+
+    /** Labels of storeys, at a corner of their floors, and of stairs and lifts. */
+    storeyLabels() {
+        const { storeys } = this.view, out = [];
+        if (!storeys.several) return out;
+        storeys.list.forEach(({ name }, k) => {
+            const points = storeys.outlines[k].flat();
+            if (!storeys.isShown(k) || points.length === 0) return;
+            const corner = points.reduce((best, p) => (p[0] + p[1] < best[0] + best[1] ? p : best));
+            out.push({ text: name, at: [...corner, storeys.at[k]], box: boxAround(points, 0), storey: true });
+        });
+        const add = (text, points, z) => out.push({ text, at: [...middle({ points, kind: "polygon" }), z], box: boxAround(points, 0), faint: true });
+        storeys.decks.forEach(({ stair, name, lower, upper }, deck) => {
+            if (stair && lower < upper && storeys.drawnDecks[deck].shown) add(name, stair.outline, (storeys.at[lower] + storeys.at[upper]) / 2);
+        });
+        for (const { name, outline, stops } of storeys.lifts) if (storeys.isShown(stops[0].storey, stops.at(-1).storey)) add(name, outline, storeys.at[Math.max(stops[0].storey, Math.min(storeys.chosen, stops.at(-1).storey))]);
+        return out;
+    }
+
+    /** Takes over that storeys are shown in another way. */
+    place() {
+        if (this.scene) this.set(this.scene);
     }
 
     theme(dark) {
@@ -142,6 +173,7 @@ export class Overlay {
     }
 
     nameColour(label) {
+        if (label.storey) return this.dark ? "#ffffff" : "#20242a";
         if (label.gate) return this.dark ? "#ffab73" : "#a63d00";
         if (label.faint) return this.dark ? "#a5afbc" : "#5a6370";
         return this.dark ? "#6cc0f5" : "#0062a0";
@@ -158,20 +190,20 @@ export class Overlay {
     }
 
     drawRing(slot, share, colour, text) {
-        const at = this.crowd.position(slot, share);
-        if (!at) return null;
-        const r = this.crowd.reach(slot) + 0.15;
-        const path = Array.from({ length: 33 }, (_, i) => [at[0] + r * Math.cos((i * Math.PI) / 16), at[1] + r * Math.sin((i * Math.PI) / 16), 0.03]);
+        const spot = this.crowd.position(slot, share), floor = this.crowd.floor(slot, share);
+        if (!spot || Number.isNaN(floor)) return null;
+        const at = [...spot, floor], r = this.crowd.reach(slot) + 0.15;
+        const path = Array.from({ length: 33 }, (_, i) => [at[0] + r * Math.cos((i * Math.PI) / 16), at[1] + r * Math.sin((i * Math.PI) / 16), floor + 0.03]);
         stroke(this.pen, path.map((p) => this.view.project(...p)), "#000000a0", 5);
         stroke(this.pen, path.map((p) => this.view.project(...p)), colour, 2.5);
-        const head = this.view.project(at[0], at[1], 2.1);
+        const head = this.view.project(at[0], at[1], floor + 2.1);
         if (head && text) this.tag(text, [head[0], head[1] - 24]);
         return at;
     }
 
     drawChosen(share) {
         const at = this.drawRing(this.chosen, share, "#ffd21f", null);
-        const spot = at && this.view.project(at[0], at[1], 1.9);
+        const spot = at && this.view.project(at[0], at[1], at[2] + 1.9);
         if (spot) { // so that one person is found in a crowd seen from afar
             stroke(this.pen, [[spot[0] - 7, spot[1] - 16], [spot[0], spot[1] - 5], [spot[0] + 7, spot[1] - 16]], "#000000a0", 6);
             stroke(this.pen, [[spot[0] - 7, spot[1] - 16], [spot[0], spot[1] - 5], [spot[0] + 7, spot[1] - 16]], "#ffd21f", 3);
@@ -181,7 +213,7 @@ export class Overlay {
             const size = Math.hypot(force.fx, force.fy);
             if (size < 1) continue;
             const k = METRES_OF_NEWTON * Math.min(1, 600 / size);
-            this.arrow([at[0], at[1], 1.2], [at[0] + k * force.fx, at[1] + k * force.fy, 1.2], FORCE_COLOURS[force.kind] ?? "#999999");
+            this.arrow([at[0], at[1], at[2] + 1.2], [at[0] + k * force.fx, at[1] + k * force.fy, at[2] + 1.2], FORCE_COLOURS[force.kind] ?? "#999999");
         }
     }
 

@@ -20,6 +20,7 @@ const SPRITES = PIXELS.length; // list of those who are sprites; the next one is
 const ALL_LEVELS = Array.from({ length: RISES }, (_, level) => level); // elevations of the atlas
 const ABOVE = [0.82, 0.97]; // sine of the eye's elevation between which the simulated outlines appear on the floor
 const OWN_ACTS = ["brace", "carry", "lie"]; // what people do without a state that says so
+const UNKNOWN = -1e9; // m: height of the floor under people of a frame who are not shown in it
 const JUMP = 5; // s between two frames from which on nobody is seen to walk
 
 export class People {
@@ -39,6 +40,7 @@ export class People {
         this.baked = new Set(); // elevations that the atlas has
         this.acts = new Set(OWN_ACTS.map((name) => ACTIONS.indexOf(name))); // actions that the atlas has
         this.personVersion = -1;
+        this.several = false; // whether there are storeys
         this.group = new THREE.Group();
         this.makeLayers();
         this.grow(ROW);
@@ -50,7 +52,7 @@ export class People {
         this.kinds = integers(new Uint8Array(4 * 256), 256, THREE.RGBAIntegerFormat, THREE.UnsignedByteType);
         this.poses = posesTexture();
         return {
-            older: of(null), newer: of(null), motion: of(null), person: of(null), kinds: of(this.kinds), colours: of(null), poses: of(this.poses),
+            older: of(null), newer: of(null), olderFloor: of(null), newerFloor: of(null), motion: of(null), person: of(null), kinds: of(this.kinds), colours: of(null), poses: of(this.poses),
             olderMap: of(new THREE.Vector4()), newerMap: of(new THREE.Vector4()), share: of(1), classes: of(1), clock: of(0),
             from: of(new THREE.Vector3()), upright: of(1), eye: of(new THREE.Vector3()), flat_view: of(0), metre: of(1), above: of(0),
             cells: of(new THREE.Vector4(columns, rows, phases, poses)), texels: of(this.atlas.cell[1]), boxes: of(null), plain: of(this.slow ? 1 : 0), least: of(this.slow ? 2.5 : 1), atlasClothes: of(null), atlasBody: of(null), atlasSurface: of(null),
@@ -82,9 +84,10 @@ export class People {
     /** Creates room for so many slots; the next frame fills it again. */
     grow(need) {
         while (this.capacity < need) this.capacity = Math.max(ROW, 2 * this.capacity);
-        for (const texture of [...(this.records ?? []), this.moves, this.persons]) texture?.dispose();
+        for (const texture of [...(this.records ?? []), ...(this.floors ?? []), this.moves, this.persons]) texture?.dispose();
         const empty = () => new Uint32Array(2 * this.capacity).fill(NOBODY << 8);
         this.records = [0, 1].map(() => integers(empty(), ROW, THREE.RGIntegerFormat, THREE.UnsignedIntType));
+        this.floors = this.several ? [0, 1].map(() => numbers(new Float32Array(this.capacity), ROW)) : null;
         this.motion.grow(this.capacity);
         this.moves = integers(new Uint16Array(this.motion.bytes.buffer), ROW, THREE.RGBAIntegerFormat, THREE.UnsignedShortType);
         this.persons = integers(new Uint8Array(PERSON * this.capacity), ROW, THREE.RGBAIntegerFormat, THREE.UnsignedByteType);
@@ -104,8 +107,18 @@ export class People {
         this.personVersion = -1;
     }
 
-    /** Takes what groups wear and what states do, of a scene message. */
-    set(scene) {
+    /** Takes what groups wear and what states do, of a scene message; `several`: whether it has storeys. */
+    set(scene, several) {
+        if (several !== this.several) {
+            this.several = several;
+            for (const { layer } of this.layers) {
+                layer.material.defines = several ? { STOREYS: 1 } : {};
+                layer.material.needsUpdate = true;
+            }
+            this.grow(this.capacity);
+            if (this.taken) this.fresh = 2; // both records are empty
+            this.stale = this.taken !== null;
+        }
         this.kinds.image.data.fill(0);
         (scene.groups ?? []).slice(0, 256).forEach((group, i) => (this.kinds.image.data[4 * i] = Math.max(0, CLOTHES.indexOf(scene.clothes?.[group.name]))));
         (scene.states ?? []).slice(0, 255).forEach((state, i) => (this.kinds.image.data[4 * i + 1] = Math.max(0, ACTIONS.indexOf(state.pose))));
@@ -142,6 +155,7 @@ export class People {
         this.write(this.newest, next);
         u.newer.value = this.records[this.newest];
         u.older.value = this.records[1 - this.newest];
+        if (this.floors) this.writeFloors(next, previous);
         for (const [map, of] of [[u.newerMap, next], [u.olderMap, previous]]) map.value.set(of.x0, of.y0, of.sx, of.sy);
         this.uploadPersons(crowd);
         this.taken = next;
@@ -165,6 +179,23 @@ export class People {
         texture.needsUpdate = true;
     }
 
+    /** Notes that storeys are shown in another way. */
+    liftAgain() {
+        this.stale = true;
+    }
+
+    /** Uploads the heights of the floor under people. */
+    writeFloors(next, previous) {
+        const u = this.uniforms;
+        for (const [which, { floors }] of [[this.newest, next], [1 - this.newest, previous]]) {
+            const texture = this.floors[which], { data } = texture.image;
+            for (let slot = 0; floors && slot < Math.min(data.length, floors.length); slot++) data[slot] = Number.isNaN(floors[slot]) ? UNKNOWN : floors[slot];
+            texture.needsUpdate = true;
+        }
+        u.newerFloor.value = this.floors[this.newest];
+        u.olderFloor.value = this.floors[1 - this.newest];
+    }
+
     /** Chooses how everybody is drawn; `view`: {camera, top, metre: pixels of a metre at 1 m or everywhere, target}. */
     choose(crowd, { camera, top, metre, target }) {
         const u = this.uniforms, look = camera.matrixWorldInverse.elements, from = top ? target : camera.position;
@@ -177,7 +208,7 @@ export class People {
         u.metre.value = metre;
         u.above.value = Math.min(1, Math.max(0, (look[10] - ABOVE[0]) / (ABOVE[1] - ABOVE[0])));
         this.levels.choose(crowd.next, matrix, from, metre, top);
-        this.wanted = this.slow ? elevationsSeen(top ? [1, 1, 1] : this.levels.range(from), RISE, RISES) : ALL_LEVELS;
+        this.wanted = this.slow && !this.several ? elevationsSeen(top ? [1, 1, 1] : this.levels.range(from), RISE, RISES) : ALL_LEVELS;
         const { reach, counts } = this.levels;
         for (const { layer, list } of this.layers) {
             layer.material.uniforms.reach.value.set(Math.min(reach[list - 1] ?? 0, 1e9), Math.max(1e-3, Math.min(reach[list] ?? 1e9, 1e9)));
@@ -234,6 +265,13 @@ function integers(data, wide, format, type) {
     const texture = new THREE.DataTexture(data, wide, data.length / channels / wide, format, type);
     if (type === THREE.UnsignedIntType) texture.internalFormat = "RG32UI";
     texture.unpackAlignment = 1;
+    texture.needsUpdate = true;
+    return texture;
+}
+
+/** A texture of numbers, `wide` texels in a row. */
+function numbers(data, wide) {
+    const texture = new THREE.DataTexture(data, wide, data.length / wide, THREE.RedFormat, THREE.FloatType);
     texture.needsUpdate = true;
     return texture;
 }

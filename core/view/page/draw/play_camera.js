@@ -24,8 +24,8 @@ export class PlayCamera {
         this.time = undefined;
     }
 
-    /** Moves with the player, who is at [x, y] at `time` (ms). `others`: [x, y] of the other people. */
-    keepUp(at, others, time) {
+    /** Moves with the player, who is at [x, y] on a floor at height `floor`, m, at `time` (ms). `others`: [x, y] of the other people. */
+    keepUp(at, floor, others, time) {
         const { view } = this;
         if (!this.way) this.find(at, others());
         if (!this.way || view.top) return;
@@ -33,8 +33,8 @@ export class PlayCamera {
         const [x, y] = this.way, { perspective, orbit } = view;
         const glide = (vector, to) => ["x", "y", "z"].forEach((k, i) => (vector[k] += share * (to[i] - vector[k])));
         this.time = time;
-        glide(orbit.target, [at[0] + AHEAD * x, at[1] + AHEAD * y, 0.5]);
-        glide(perspective.position, [at[0] - BACK * x, at[1] - BACK * y, RISE]);
+        glide(orbit.target, [at[0] + AHEAD * x, at[1] + AHEAD * y, floor + 0.5]);
+        glide(perspective.position, [at[0] - BACK * x, at[1] - BACK * y, floor + RISE]);
         view.handled = true; // the picture's size does not move it home
         orbit.update();
         view.dirty = true;

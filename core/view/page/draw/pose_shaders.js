@@ -1,6 +1,6 @@
 /** GLSL: the pose of a body between two frames, for the vertices of bodies, of their shade and of what they carry. */
 export const POSE = `
-uniform sampler2D poses;   // four texels a body: previous place and turn, next place and turn
+uniform sampler2D poses;   // four texels a body: previous place and turn, next place and turn; fourth of a place: the height of the floor, m
 uniform vec2 size;         // of the texture
 uniform float share;
 vec4 texel(float index) {
@@ -16,4 +16,5 @@ vec3 poseOf(float row, out vec4 q) {
     q = dot(q, q) < 1e-6 ? vec4(0.0, 0.0, 0.0, 1.0) : normalize(q);
     return mix(texel(first).xyz, texel(first + 2.0).xyz, share);
 }
+float floorUnder(float row) { return mix(texel(4.0 * row).w, texel(4.0 * row + 2.0).w, share); }
 `;

@@ -1,8 +1,7 @@
-// Scenery of a scene message: things that stand or are carried by bodies, in one mesh, and what is painted on the floor, in
-// another. It is drawn and nothing else: people neither meet nor see it.
+// Scenery of a scene message: things that stand or are carried by bodies, in a mesh for each deck and one for what is carried, and what
+// is painted on the floor. It is drawn and nothing else: people neither meet nor see it.
 import * as THREE from "three";
-import { PAINT_FRAGMENT, PAINT_VERTEX } from "./ground_shaders.js";
-import { buildScenery } from "./scenery_mesh.js";
+import { buildScenery, MOST_TRIANGLES, tellLeft } from "./scenery_mesh.js";
 import { SCENERY_FRAGMENT, SCENERY_VERTEX } from "./scenery_shaders.js";
 
 function meshOf(attributes, material, order) {
@@ -14,10 +13,18 @@ function meshOf(attributes, material, order) {
     return mesh;
 }
 
+/** The mesh of what is painted, and of what stands. */
+export function meshOfPaint(paint, material) {
+    return meshOf([["position", paint.position], ["ink", paint.colour]], material, -0.9);
+}
+
+export function meshOfPile(pile, material) {
+    return meshOf([["position", pile.position], ["normal", pile.normal], ["ink", pile.colour], ["where", pile.where], ["part", pile.part]], material, 0);
+}
+
 export class Scenery {
     /** `floor`: uniforms of the floor, `seen`: of walls that are lowered, `poses`: of bodies. */
     constructor(floor, seen, poses) {
-        this.paintMaterial = new THREE.ShaderMaterial({ uniforms: floor, vertexShader: PAINT_VERTEX, fragmentShader: PAINT_FRAGMENT, depthWrite: false, side: THREE.DoubleSide, defines: { MATERIAL: 0 } });
         this.material = new THREE.RawShaderMaterial({
             uniforms: { ...seen, poses: poses.poses, size: poses.size, share: poses.share, sky: floor.sky, extent: floor.extent, dim: floor.dim },
             vertexShader: SCENERY_VERTEX, fragmentShader: SCENERY_FRAGMENT, side: THREE.DoubleSide,
@@ -25,19 +32,28 @@ export class Scenery {
     }
 
     /** Returns the triangles of some items, as buildScenery does. */
-    shape(items, bodies = [], beside = 1) {
-        return buildScenery(items, bodies, beside);
+    shape(items, bodies = [], beside = 1, most = MOST_TRIANGLES) {
+        return buildScenery(items, bodies, beside, most);
     }
 
-    /** Returns the meshes of a scene message; keeps the footprints {ring, high} of what stands, m, and says in `left` what was left out. */
-    build(scene, beside) {
-        const { pile, paint, text } = this.shape(scene.scenery ?? [], scene.bodies, beside), meshes = [];
-        this.left = text;
-        this.rings = pile.rings;
-        if (paint.position.length) meshes.push(meshOf([["position", paint.position], ["ink", paint.colour]], this.paintMaterial, -0.9));
-        if (pile.position.length) {
-            meshes.push(meshOf([["position", pile.position], ["normal", pile.normal], ["ink", pile.colour], ["where", pile.where], ["part", pile.part]], this.material, 0));
-        }
-        return meshes;
+    /** Returns the triangles of each deck, {pile, paint}, and keeps those of what is carried; says in `left` what was left out. */
+    build(scene, beside, decks) {
+        const left = new Map();
+        let most = MOST_TRIANGLES;
+        const shape = (items) => {
+            const shapes = this.shape(items, scene.bodies, beside, most);
+            most -= shapes.pile.triangles + shapes.paint.triangles;
+            for (const [kind, n] of shapes.left) left.set(kind, (left.get(kind) ?? 0) + n);
+            return shapes;
+        };
+        const items = scene.scenery ?? [], made = Array.from({ length: decks }, (_, k) => shape(items.filter(({ body, deck }) => !body && deck === k)));
+        this.loads = shape(items.filter(({ body }) => body)).pile;
+        this.left = tellLeft(left, MOST_TRIANGLES);
+        return made;
+    }
+
+    /** Returns the mesh of what is carried by bodies; null if nothing is. */
+    carried() {
+        return this.loads.position.length ? meshOfPile(this.loads, this.material) : null;
     }
 }

@@ -47,7 +47,7 @@ function* pileItem(pile, { kind, at = [], through = [], turns = [], size, colour
 }
 
 /** Returns what is said of copies that are left out; an empty text if there are none. */
-function tellLeft(left, most) {
+export function tellLeft(left, most) {
     const count = [...left.values()].reduce((sum, n) => sum + n, 0);
     if (count === 0) return "";
     const kinds = [...left].map(([kind, n]) => `${kind}: ${n}`).join(", ");

@@ -15,7 +15,7 @@ attribute vec3 part;       // height of the shape's foot; height above which no 
 uniform vec3 eye;
 uniform vec4 keep;         // x0, y0, x1, y1
 uniform float lowered, edge;
-uniform mat4 viewMatrix, projectionMatrix;
+uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
 varying vec3 facing;
 varying vec4 colour;
 varying vec3 at;
@@ -23,7 +23,8 @@ void main() {
     at = position;
     facing = normal;
     colour = ink;
-    bool gone = part.y > 0.0 && eye.z > part.y;
+    vec4 placed;
+    bool gone = part.y > 0.0 && eye.z > (modelMatrix * vec4(0.0, 0.0, part.y, 1.0)).z;
     if (part.z > -0.5) {
         vec4 q;
         vec3 middle = poseOf(part.z, q);
@@ -32,7 +33,8 @@ void main() {
         vec2 a = length(along.xy) > 1e-3 ? normalize(along.xy) : vec2(1.0, 0.0), b = vec2(-a.y, a.x);
         at = vec3(middle.xy + a * position.x + b * position.y, position.z);
         facing = vec3(a * normal.x + b * normal.y, normal.z);
-        gone = gone || middle.z < -10.0;
+        gone = gone || middle.z < -500.0;
+        placed = vec4(at.xy, at.z + floorUnder(part.z), 1.0);
     } else {
         vec2 behind = where.xy + (dot(where.zw, where.xy - eye.xy) < 0.0 ? -where.zw : where.zw);
         bool hides = all(greaterThan(behind, keep.xy + edge)) && all(lessThan(behind, keep.zw - edge));
@@ -40,8 +42,9 @@ void main() {
             at.z = min(at.z, ${LOWERED});
             gone = gone || part.x >= ${LOWERED};
         }
+        placed = modelMatrix * vec4(at, 1.0);
     }
-    gl_Position = projectionMatrix * viewMatrix * vec4(at, 1.0);
+    gl_Position = projectionMatrix * viewMatrix * placed;
     if (gone) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }`;
 

@@ -35,11 +35,12 @@ function sweptFrom({ ring, high }) {
 
 /**
  * Draws the shade of blocks {ring, high}, all of the same orientation, as {texture, cover: [x0, y0, width, height]}; null
- * without any. All rings of a kind are one path, so that overlapping shades are no darker.
+ * without any. All rings of a kind are one path, so that overlapping shades are no darker. `storeys`: number of such textures, which
+ * get fewer texels where there are many.
  */
-export function bakeShade(blocks) {
+export function bakeShade(blocks, storeys = 1) {
     if (blocks.length === 0) return null;
-    const cover = coverOf(blocks.map(({ ring }) => ring)), scale = Math.min(FINEST, MOST / Math.max(cover[2], cover[3]));
+    const cover = coverOf(blocks.map(({ ring }) => ring)), scale = Math.min(FINEST, MOST / Math.sqrt(storeys) / Math.max(cover[2], cover[3]));
     const canvas = document.createElement("canvas");
     canvas.width = Math.max(2, Math.round(scale * cover[2]));
     canvas.height = Math.max(2, Math.round(scale * cover[3]));

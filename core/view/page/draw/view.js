@@ -2,10 +2,11 @@
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import * as THREE from "three";
 import { Bodies } from "./bodies.js";
-import { fitBox, heightOf, sceneBox, standAt } from "./camera.js";
+import { fitBox, fitStoreys, heightOf, sceneBox, standAt } from "./camera.js";
 import { Ground } from "./ground.js";
 import { COLOURS, outerStates, table, useDarkRamps } from "./palette.js";
 import { People } from "./people.js";
+import { Storeys } from "./storeys.js";
 
 THREE.ColorManagement.enabled = false; // colours are sRGB all along, as in pictures
 const FIELD_OF_VIEW = 34; // degrees
@@ -18,6 +19,7 @@ export class View {
     constructor(canvas, crowd) {
         this.canvas = canvas;
         this.crowd = crowd;
+        this.storeys = crowd.storeys = new Storeys();
         this.renderer = makeRenderer(canvas);
         this.scene = new THREE.Scene();
         this.people = new People(this.renderer.slow);
@@ -87,23 +89,55 @@ export class View {
         this.dirty = true;
     }
 
-    /** Takes a scene message; the camera stays where it is when the scene is the same. */
-    set(scene) {
-        this.ground.set(scene);
-        this.people.set(scene);
+    /** Takes a scene message; the camera and how storeys are shown stay as they are when the scene is the same. */
+    set(message) {
+        const name = `${message.file} ${message.session}`;
+        this.takeStoreys(message.storeys ? { ...message.storeys, lifts: message.lifts ?? [] } : null, this.known === name, message.camera);
+        const scene = this.storeys.unfold(message);
+        this.storeys.measure(scene);
+        this.crowd.lift();
+        this.ground.set(scene, this.storeys);
+        this.people.set(scene, this.storeys.several);
         this.bodies.set(scene.bodies ?? []);
         if (this.crowd.next) this.bodies.upload(this.crowd);
         this.named = { state: scene.states ?? [], group: scene.groups ?? [], outer: outerStates(scene) };
         this.dropTables(["state", "group", "outer"]);
         this.colourBy(this.by);
-        const name = `${scene.file} ${scene.session}`;
+        this.shown = scene;
         if (this.known !== name) {
             this.known = name;
-            this.shown = scene;
             this.home = scene.camera;
             this.peopled = false;
             this.goHome();
         }
+        this.dirty = true;
+    }
+
+    /** Takes the storeys of a scene message; those of the same scene keep their view. `home`: the scene's own camera, if it has one. */
+    takeStoreys(given, same, home) {
+        const text = JSON.stringify(given);
+        if (text === this.given) return;
+        const { view, chosen } = this.storeys;
+        this.given = text;
+        this.storeys = this.crowd.storeys = new Storeys(given);
+        if (home) this.storeys.view = "stacked"; // it looks at true heights
+        if (same) Object.assign(this.storeys, { view, chosen: Math.min(chosen, this.storeys.count - 1) });
+        if (this.top) this.storeys.top = true;
+        this.storeys.arrange();
+    }
+
+    /** Shows storeys in another way, {view, chosen, top}: the eye goes along with the chosen storey. */
+    showStoreys(changes) {
+        const { storeys } = this, { target } = this.controls, before = storeys.at[storeys.chosen], view = storeys.view;
+        Object.assign(storeys, changes);
+        storeys.arrange();
+        this.crowd.lift();
+        this.people.liftAgain();
+        if (this.crowd.next) this.bodies.upload(this.crowd);
+        this.ground.place();
+        if (!storeys.several) return;
+        if (storeys.view !== view && !this.handled) this.goHome();
+        else if (changes.chosen !== undefined && !this.top) this.moveBy(0, 0, storeys.at[storeys.chosen] - (storeys.view === view ? target.z : before));
         this.dirty = true;
     }
 
@@ -114,12 +148,14 @@ export class View {
         const box = sceneBox(this.shown, this.crowd.everybody());
         const [[x0, y0], [x1, y1]] = box, wide = x1 - x0, deep = y1 - y0;
         const aspect = this.wide / this.high;
-        const fitted = this.home ? standAt(this.home, aspect) : fitBox(box, heightOf(this.shown), FIELD_OF_VIEW, aspect);
+        const [low, high] = this.storeys.range(), tall = heightOf(this.shown), aim = (low + high) / 2;
+        const fitted = this.home && this.storeys.view !== "exploded" ? standAt(this.home, aspect)
+            : high > low ? fitStoreys([...this.storeys.corners(tall), ...[x0, x1].flatMap((x) => [[x, y0, low], [x, y1, low]])], box, aim, FIELD_OF_VIEW, aspect) : fitBox(box, [low, low + tall], FIELD_OF_VIEW, aspect);
         this.ground.inside(box);
         this.orbit.target.copy(fitted.look);
         this.perspective.position.copy(fitted.at);
-        this.orbit.maxDistance = this.slide.maxDistance = 8 * Math.max(4, wide, deep);
-        this.lookDown(new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0), Math.max(4, 1.1 * Math.max(wide / aspect, deep)));
+        this.orbit.maxDistance = this.slide.maxDistance = 8 * Math.max(4, wide, deep, high - low);
+        this.lookDown(new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, aim), Math.max(4, 1.1 * Math.max(wide / aspect, deep)));
         this.flat.zoom = 1;
         this.dirty = true;
         this.orbit.update();
@@ -129,8 +165,8 @@ export class View {
 
     lookDown(at, size) {
         if (size) this.flatSize = size;
-        this.slide.target.set(at.x, at.y, 0);
-        this.flat.position.set(at.x, at.y, 1000);
+        this.slide.target.set(at.x, at.y, at.z);
+        this.flat.position.set(at.x, at.y, at.z + 1000);
         this.frameFlat();
     }
 
@@ -139,6 +175,7 @@ export class View {
         if (top === this.top) return;
         const target = this.controls.target.clone();
         this.top = top;
+        this.showStoreys({ top });
         if (top) {
             this.lookDown(target);
             const away = this.perspective.position.distanceTo(target);
@@ -154,11 +191,12 @@ export class View {
     }
 
     /** Moves the eye and what it looks at, m. */
-    moveBy(dx, dy) {
+    moveBy(dx, dy, dz = 0) {
         this.handled = true;
         for (const v of [this.camera.position, this.controls.target]) {
             v.x += dx;
             v.y += dy;
+            v.z += dz;
         }
         this.controls.update();
         this.moved();
@@ -271,7 +309,8 @@ export class View {
     /** Draws if anything moved since the last time; true if it did. */
     draw(now, drawn) {
         const share = this.crowd.share(now);
-        const moving = this.people.uniforms.share.value !== share;
+        const rides = this.ground.lifts.move(this.crowd.previous, this.crowd.next, share);
+        const moving = this.people.uniforms.share.value !== share || rides;
         if (!this.dirty && !moving) return this.drawStill(now);
         if (this.whole) this.sharpen();
         this.changed = now;
@@ -334,10 +373,11 @@ export class View {
         this.scene.traverseVisible((node) => {
             const { material } = node;
             if (!material) return;
-            const isNew = !this.coming.has(material), waits = isNew && added > 0 && (!isFirst || isTrimming(node));
+            const program = material.userData.program ?? material; // decks have materials of their own with the same program
+            const isNew = !this.coming.has(program), waits = isNew && added > 0 && (!isFirst || isTrimming(node));
             if (waits) left++;
             else if (isNew) {
-                this.coming.add(material);
+                this.coming.add(program);
                 added++;
             }
             node.layers.set(waits ? HIDDEN : 0);
@@ -367,12 +407,23 @@ export class View {
         return [(0.5 + 0.5 * v.x) * this.wide, (0.5 - 0.5 * v.y) * this.high, depth];
     }
 
-    /** Where the line through a CSS pixel meets the height z (m): [x, y], or null. */
-    floorAt(px, py, z = 0) {
+    /** The line through a CSS pixel: {origin, direction}. */
+    rayAt(px, py) {
         const ndc = new THREE.Vector2((2 * px) / this.wide - 1, 1 - (2 * py) / this.high);
         const ray = new THREE.Raycaster();
         ray.setFromCamera(ndc, this.camera);
-        const { origin, direction } = ray.ray;
+        return ray.ray;
+    }
+
+    /** The floor under a CSS pixel that is shown: {deck, at: [x, y] in plan, z: height in the picture}, or null. */
+    groundAt(px, py) {
+        const { origin, direction } = this.rayAt(px, py);
+        return this.storeys.hit(origin.toArray(), direction.toArray());
+    }
+
+    /** Where the line through a CSS pixel meets the height z (m): [x, y], or null. */
+    floorAt(px, py, z = 0) {
+        const { origin, direction } = this.rayAt(px, py);
         const t = (z - origin.z) / direction.z;
         return Number.isFinite(t) && t > 0 ? [origin.x + t * direction.x, origin.y + t * direction.y] : null;
     }

@@ -16,18 +16,21 @@ export function wallMaterial(seen, colour, fragmentShader) {
     });
 }
 
-/** Triangles and edges of blocks. A wall may be lowered if the spot `beside` m from it is within the scene. */
+/** Triangles and edges of blocks. A wall may be lowered if the spot `beside` m from it is within the scene. `floor`: height at [x, y]. */
 export class Prism {
-    constructor(beside = 1.2) {
+    constructor(beside = 1.2, floor = () => 0) {
+        this.floor = floor;
         this.beside = beside;
-        this.faces = { position: [], normal: [], middle: [], across: [] };
-        this.edges = { position: [], normal: [], middle: [], across: [] };
+        this.faces = { position: [], normal: [], middle: [], across: [], foot: [] };
+        this.edges = { position: [], normal: [], middle: [], across: [], foot: [] };
         this.blocks = []; // on rings that run counter-clockwise
     }
 
     add(part, points, normal) {
         for (const p of points) {
-            part.position.push(...p);
+            const foot = this.floor(p);
+            part.position.push(p[0], p[1], p[2] + foot);
+            part.foot.push(foot);
             part.normal.push(...normal);
             part.middle.push(...this.middle);
             part.across.push(...this.across);
@@ -40,7 +43,7 @@ export class Prism {
         const ring = THREE.ShapeUtils.isClockWise(shape) ? [...points].reverse() : points;
         this.middle = [0, 1].map((k) => ring.reduce((sum, p) => sum + p[k], 0) / ring.length);
         this.across = landmark ? [FAR, FAR] : acrossOf(ring, this.middle, this.beside);
-        this.blocks.push({ ring, high, middle: this.middle, across: this.across, box: boxOf(ring, 0) });
+        this.blocks.push({ ring, high, middle: this.middle, across: this.across, box: boxOf(ring, 0), foot: this.floor(this.middle) });
         ring.forEach((p, i) => {
             const q = ring[(i + 1) % ring.length], length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
             const a = [p[0], p[1]], b = [q[0], q[1]];
@@ -76,7 +79,7 @@ export class Prism {
         const made = [[this.faces, colour, WALL_FRAGMENT, THREE.Mesh], [this.edges, edge, WALL_EDGE_FRAGMENT, THREE.LineSegments]];
         return made.map(([part, ink, fragmentShader, Kind]) => {
             const geometry = new THREE.BufferGeometry();
-            for (const [name, size] of [["position", 3], ["normal", 3], ["middle", 2], ["across", 2]]) {
+            for (const [name, size] of [["position", 3], ["normal", 3], ["middle", 2], ["across", 2], ["foot", 1]]) {
                 geometry.setAttribute(name, new THREE.Float32BufferAttribute(part[name], size));
             }
             const node = new Kind(geometry, materialOf(ink, fragmentShader));

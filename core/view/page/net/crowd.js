@@ -2,6 +2,9 @@
 
 const HEADER = 48; // bytes of a frame before its slots
 const BODY = 20, CAR = 8;
+const HEIGHTS = 8; // bytes of the range of heights, behind the bodies of frames with storeys
+const GONE = -500; // m: bodies lower than this are not there
+const STAND = 4, CHEST = 1; // bits of the bytes of a slot behind the bodies
 export const PERSON = 4; // bytes of a slot in Crowd.person
 export const NOBODY = 255;
 export const FLAG = { parity: 1, failed: 2, player: 4 }; // higher bits: lean under pushes, or lying
@@ -9,10 +12,11 @@ export const FLAG = { parity: 1, failed: 2, player: 4 }; // higher bits: lean un
 /** Reads a frame's header; its slots stay where they are in the buffer. Lengths in m. */
 export function readFrame(buffer) {
     const view = new DataView(buffer);
-    const slots = view.getUint32(16, true), bodies = view.getUint32(20, true), chest = view.getUint32(44, true);
-    const end = HEADER + 8 * slots + BODY * bodies;
-    if (buffer.byteLength < end + chest * slots) throw new Error("a frame that is cut short");
+    const slots = view.getUint32(16, true), bodies = view.getUint32(20, true), more = view.getUint32(44, true);
+    const end = HEADER + 8 * slots + BODY * bodies, storeys = more & STAND ? readStands(buffer, view, end, slots) : null, last = storeys?.end ?? end;
+    if (buffer.byteLength < last + (more & CHEST) * slots) throw new Error("a frame that is cut short");
     return {
+        ...storeys, floors: null,
         tick: view.getUint32(4, true), time: view.getFloat64(8, true), slots, bodies,
         x0: view.getFloat32(24, true), y0: view.getFloat32(28, true),
         sx: view.getFloat32(32, true), sy: view.getFloat32(36, true),
@@ -20,22 +24,30 @@ export function readFrame(buffer) {
         bytes: new Uint8Array(buffer, HEADER, 8 * slots),
         words: new Uint16Array(buffer, HEADER, 4 * slots),
         poses: new DataView(buffer, HEADER + 8 * slots, BODY * bodies),
-        chests: chest ? new Uint8Array(buffer, end, slots) : null, // 256ths of a turn; null: all are discs
-        cars: new DataView(buffer, end + chest * slots), // of lifts, CAR bytes each: readCar
+        chests: more & CHEST ? new Uint8Array(buffer, last, slots) : null, // 256ths of a turn; null: all are discs
+        cars: readCars(new DataView(buffer, last + (more & CHEST) * slots)),
     };
 }
 
-/** Reads the car of the lift with this index in the scene message; null: the frame has none. */
-export function readCar(frame, lift) {
-    const at = CAR * lift, cars = frame.cars;
-    if (cars.byteLength < at + CAR) return null;
-    return {
-        height: cars.getFloat32(at, true), // m
-        open: cars.getUint8(at + 4) / 255, // share of the door
-        stop: cars.getUint8(at + 5), // on whose storey its riders are
-        people: cars.getUint8(at + 6),
-        mode: cars.getUint8(at + 7), // 0 in use, 1 out of use, 2 firemen
-    };
+/** Reads what frames with storeys have behind the bodies: deck and height of each slot, m from z0 by steps of sz. */
+function readStands(buffer, view, end, slots) {
+    const first = end + HEIGHTS;
+    if (buffer.byteLength < first + STAND * slots) throw new Error("a frame that is cut short");
+    return { z0: view.getFloat32(end, true), sz: view.getFloat32(end + 4, true), stands: new Uint16Array(buffer, first, 2 * slots), end: first + STAND * slots };
+}
+
+/** Reads the cars of lifts, in the order of the scene message. */
+function readCars(view) {
+    return Array.from({ length: Math.floor(view.byteLength / CAR) }, (_, lift) => {
+        const at = CAR * lift;
+        return {
+            height: view.getFloat32(at, true), // m
+            open: view.getUint8(at + 4) / 255, // share of the door
+            stop: view.getUint8(at + 5), // on whose storey its riders are
+            people: view.getUint8(at + 6),
+            mode: view.getUint8(at + 7), // 0 in use, 1 out of use, 2 firemen
+        };
+    });
 }
 
 /** Reads a field: cells of `cell` m, rows from y0 upwards; 255 is `most`. */
@@ -47,14 +59,23 @@ export function readField(buffer) {
         which: view.getUint32(4, true), columns, rows,
         x0: view.getFloat32(16, true), y0: view.getFloat32(20, true),
         cell: view.getFloat32(24, true), most: view.getFloat32(28, true),
-        cells: new Uint8Array(buffer, 32, columns * rows),
+        cells: new Uint8Array(buffer, 32, columns * rows), blocks: readBlocks(view, 32 + columns * rows),
     };
+}
+
+/** Reads the rows that each sheet has of a field, {sheet, first, rows, y0: m in plan}; none of one plane. */
+function readBlocks(view, end) {
+    return Array.from({ length: Math.floor((view.byteLength - end) / 16) }, (_, b) => {
+        const at = end + 16 * b;
+        return { sheet: view.getUint32(at, true), first: view.getUint32(at + 4, true), rows: view.getUint32(at + 8, true), y0: view.getFloat32(at + 12, true) };
+    });
 }
 
 export class Crowd {
     constructor() {
         this.previous = null;
         this.next = null;
+        this.storeys = null; // draw/storeys.js
         this.person = new Uint8Array(0); // a slot's radius in cm, group, and breadth and depth of the torso in cm; 0: a disc
         this.personVersion = 0;
         this.arrived = 0;
@@ -65,6 +86,7 @@ export class Crowd {
     /** Takes a frame that arrived at `now` (ms). Returns "new", or "same" for a tick seen already. */
     take(buffer, now) {
         const frame = readFrame(buffer);
+        this.storeys?.lift(frame);
         if (this.next && frame.tick === this.next.tick && frame.slots === this.next.slots) {
             this.next = frame;
             return "same";
@@ -114,7 +136,30 @@ export class Crowd {
         return at < Math.min(a.length, b.length) && ((a[at] ^ b[at]) & FLAG.parity) !== 0;
     }
 
-    /** Returns the position of a slot's person at a share of the way, m; null if the slot is empty. */
+    /** Computes the heights of people anew, as storeys are shown in another way. */
+    lift() {
+        for (const frame of new Set([this.previous, this.next])) if (frame) this.storeys.lift(frame);
+    }
+
+    /** Returns the deck that a slot's person is on. */
+    deck(slot) {
+        return this.next?.stands ? this.next.stands[2 * slot] : 0;
+    }
+
+    /** Returns the elevation of a slot's person, m. */
+    elevation(slot) {
+        return this.next?.stands ? this.next.z0 + this.next.sz * this.next.stands[2 * slot + 1] : 0;
+    }
+
+    /** Returns the height in the picture of the floor under a slot's person, m; NaN if that is not shown. */
+    floor(slot, share) {
+        const { previous: a, next: b } = this;
+        if (!b.floors) return 0;
+        const slides = share < 1 && slot < a.slots && a.floors && a.bytes[8 * slot + 5] !== NOBODY && !this.another(slot) && !Number.isNaN(a.floors[slot]);
+        return slides ? (1 - share) * a.floors[slot] + share * b.floors[slot] : b.floors[slot];
+    }
+
+    /** Returns the position of a slot's person at a share of the way, m in plan; null if the slot is empty. */
     position(slot, share) {
         if (!this.alive(slot)) return null;
         const b = this.next, a = this.previous;
@@ -157,20 +202,35 @@ export class Crowd {
         return this.person[PERSON * slot + 1];
     }
 
-    /** Returns the position of a body in the newest frame: [x, y, z], m; null if there is none. */
-    bodyPosition(row) {
+    /** Returns where a body is in the newest frame: {at: [x, y, z] in the picture, deck, high: above the floor}, m; null if there is none. */
+    findBody(row) {
         if (!this.next || row >= this.next.bodies) return null;
         const at = BODY * row, p = this.next.poses;
-        return [p.getFloat32(at, true), p.getFloat32(at + 4, true), p.getFloat32(at + 8, true)];
+        return placeBody(this.storeys, [p.getFloat32(at, true), p.getFloat32(at + 4, true), p.getFloat32(at + 8, true)]);
+    }
+
+    /** Returns the position of a body in the picture: [x, y, z], m; null if there is none. */
+    bodyPosition(row) {
+        return this.findBody(row)?.at ?? null;
     }
 }
 
-/** Writes x, y, z, 0 and a unit quaternion of each body into `out`, `stride` numbers apart. */
-export function readPoses(frame, out, offset, stride, count) {
+/** Returns where a body is drawn that is at [x, y, z] of the plane: {at, deck, high, floor}, m. */
+function placeBody(storeys, [x, y, z]) {
+    if (!storeys?.several || z < GONE) return { at: [x, y, z], deck: 0, high: z, floor: 0 };
+    const deck = storeys.deckAt([x, y]), plan = storeys.toPlan(deck, [x, y]), floor = storeys.heightAt(deck, plan);
+    return { at: [...plan, storeys.drawnDecks[deck].shown ? floor + z : 2 * GONE], deck, high: z, floor };
+}
+
+/** Writes x, y, z and the floor's height, and a unit quaternion of each body into `out`, `stride` numbers apart. */
+export function readPoses(frame, storeys, out, offset, stride, count) {
     const p = frame.poses;
     for (let row = 0; row < Math.min(count, frame.bodies); row++) {
         const at = BODY * row, o = offset + stride * row;
         for (let k = 0; k < 3; k++) out[o + k] = p.getFloat32(at + 4 * k, true);
         for (let k = 0; k < 4; k++) out[o + 4 + k] = p.getInt16(at + 12 + 2 * k, true) / 32767;
+        if (!storeys?.several) continue;
+        const placed = placeBody(storeys, out.slice(o, o + 3));
+        out.set([...placed.at, placed.floor], o);
     }
 }

@@ -23,6 +23,11 @@ function torsoRows(torso) {
     return [["breadth, depth", `${figure(torso.breadth)} m, ${figure(torso.depth)} m`], ["chest", `to ${Math.round(torso.chest) % 360}°${spin}`]];
 }
 
+/** Where somebody is, with storeys the name of theirs, or of the stair, and the height of its floor. */
+function placeText({ x, y, storey, height }) {
+    return `${figure(x)}, ${figure(y)} m${storey ? ` on ${storey}, ${height.toFixed(1)} m high` : ""}`;
+}
+
 /** A term of a condition, with its value and what there is where it does not hold. */
 function termRow(term) {
     const mark = el("span", { className: term.holds ? "holds" : "fails", role: "img", "aria-label": term.holds ? "holds" : "does not hold" }, term.holds ? "✓" : "✗");
@@ -114,7 +119,7 @@ export class AgentPage {
             ["state", `${agent.state}, for ${amount(agent.since, "s")}`],
             ["machine", agent.machine],
             ["group", agent.group ?? "–"],
-            ["place", `${figure(agent.x)}, ${figure(agent.y)} m`],
+            ["place", placeText(agent)],
             ["speed", amount(speed, "m/s")],
             ["radius, mass", `${figure(agent.radius)} m, ${figure(agent.mass)} kg`],
             ...torsoRows(agent.torso),
@@ -151,12 +156,12 @@ export class AgentPage {
         this.who = message;
     }
 
-    /** Takes a person of a recording: {slot, time, state, group, x, y, speed, radius, torso}. */
+    /** Takes a person of a recording: {slot, time, state, group, x, y, storey, height, speed, radius, torso}. */
     takeSeen(seen) {
         this.id = `slot ${seen.slot}`;
         const who = this.who?.slot === seen.slot && this.who.id >= 0 ? this.who : null;
         fill(this.node, el("div", { className: "row" }, el("h2", {}, "Person"), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
-            pairs([["state", seen.state ?? "–"], ["group", seen.group ?? "–"], ["place", `${figure(seen.x)}, ${figure(seen.y)} m`],
+            pairs([["state", seen.state ?? "–"], ["group", seen.group ?? "–"], ["place", placeText(seen)],
                 ["speed", `${figure(seen.speed)} m/s`], ["radius", `${figure(seen.radius)} m`], ...torsoRows(seen.torso), ...(who ? [["agent", String(who.id)]] : [])]),
             who ? el("p", { className: "faint" }, "Why it stays, a new run of the scene tells: ",
                 el("code", {}, `jostle why ${who.scene ?? "SCENE"} --agent ${who.id} --at ${Number(seen.time.toFixed(2))}`)) : null);

@@ -3,7 +3,7 @@ import { byId, el, fill, figure, moveFocus, say } from "../dom.js";
 
 export const KEYS = [
     ["Space", "stop and go on"], [".", "one step"], ["1 2 3 4", "tools: look, throw, drag, push"],
-    ["T", "from above"], ["F", "follow the chosen person"], ["H", "the whole scene"], ["N", "names: all, none, some"], ["A", "what the scene is about"],
+    ["T", "from above"], ["F", "follow the chosen person"], ["H", "the whole scene"], ["N", "names: all, none, some"], ["S", "storeys: stacked, exploded, one"], ["PageUp PageDown", "storey above, below"], ["A", "what the scene is about"],
     ["C", "next colour"], ["D", "next field on the floor"], ["P", "picture as PNG"],
     ["← ↑ → ↓", "move the eye"], ["Q E", "turn"], ["R V", "rise and sink"], ["+ −", "nearer and farther"],
     ["Enter", "with the picture in focus: act at its middle"], ["Esc", "let go, close"], ["?", "this"],

@@ -15,7 +15,7 @@ export function densityText(dense, r) {
 }
 
 export class ScenePage {
-    /** `page`: {tool(name), show(tab)} */
+    /** `page`: {tool(name), show(tab), lifts(counts): rows [name, text]} */
     constructor(node, page) {
         this.page = page;
         this.title = el("h2");
@@ -25,11 +25,13 @@ export class ScenePage {
         this.figures = el("dl", { className: "pairs" });
         this.exits = el("dl", { className: "pairs" });
         this.exitPart = el("div", { hidden: true }, el("h2", {}, "Passed, people"), this.exits);
+        this.lifts = el("dl", { className: "pairs" });
+        this.liftPart = el("div", { hidden: true }, el("h2", {}, "Lifts"), this.lifts);
         this.hints = el("ul");
         this.hintPart = el("div", { hidden: true }, el("h2", {}, "Hints on the behaviours"), this.hints);
         fill(node, this.title, this.about, el("h2", {}, "To try"),
             el("p", { className: "faint" }, "Click a person: what it wants, sees and feels, and why. Space stops the time."), this.tries,
-            this.files, el("h2", {}, "Now"), this.figures, this.exitPart, this.hintPart);
+            this.files, el("h2", {}, "Now"), this.figures, this.liftPart, this.exitPart, this.hintPart);
         this.rows = new Map();
     }
 
@@ -51,6 +53,9 @@ export class ScenePage {
         if (Number.isFinite(dense)) rows["greatest density now"] = densityText(dense, status.density_r);
         if (status.bodies) rows["bodies"] = figure(status.bodies);
         this.show(this.figures, rows);
+        const lifts = this.page.lifts(status.lifts);
+        this.liftPart.hidden = lifts.length === 0;
+        this.show(this.lifts, Object.fromEntries(lifts));
         this.showHints(status.hints ?? []);
         const flows = status.flows ?? {};
         this.exitPart.hidden = Object.keys(flows).length === 0;

@@ -20,12 +20,16 @@ uniform usampler2D person;         // radius, group, breadth and depth of the to
 uniform usampler2D kinds;          // 256 texels: clothes of a group, action of a state
 uniform sampler2D colours;
 uniform vec4 olderMap, newerMap;   // x0, y0, sx, sy
+#ifdef STOREYS
+uniform sampler2D olderFloor, newerFloor; // m: height in the picture of the floor under people
+#endif
 uniform float share, classes, clock;
 uniform mat4 viewMatrix, projectionMatrix;
 const float TURN = 6.28318530718;
 
 struct Person {
     vec2 at, ahead, chest, lean;
+    float base;                    // height of the floor
     float half_axis, surface;      // half of the length of the torso's axis, 0 of a disc; the surface's distance from it
     vec3 size;                     // depth, breadth and height, of those of the model
     float phase, gait, way;        // of the steps; where they lead beside the chest, rad
@@ -71,6 +75,11 @@ Person decode() {
     float t = another ? 1.0 : share;
     Person p;
     p.at = mix(placeOf(was.x, olderMap), placeOf(is.x, newerMap), t);
+    p.base = 0.0;
+#ifdef STOREYS
+    float below = texelFetch(olderFloor, texel, 0).r, now = texelFetch(newerFloor, texel, 0).r;
+    p.base = below < -1e8 ? now : mix(below, now, t);
+#endif
     float heading = between(before.x, info.x, t);
     p.ahead = wayOf(heading);
     vec4 phases = bytesOf(moves.x | (moves.y << 16)), ways = bytesOf(moves.z | (moves.w << 16));

@@ -112,8 +112,8 @@ uniform vec3 from;          // that distances are from
 uniform float upright;      // 0: only distances on the floor count
 uniform vec2 reach;
 flat out vec2 kept;
-void keep(vec2 at) {
-    float d = length(vec3(at - from.xy, upright * (0.9 - from.z)));
+void keep(vec2 at, float base) {
+    float d = length(vec3(at - from.xy, upright * (0.9 + base - from.z)));
     kept = vec2(smoothstep(${float(1 - BAND)} * reach.y, reach.y, d), reach.x > 0.0 ? smoothstep(${float(1 - BAND)} * reach.x, reach.x, d) : 1.0);
     if (kept.y >= 1.0) kept.y = 2.0;
 }
@@ -133,7 +133,7 @@ void axesOf(Person p, out vec3 front, out vec3 left, out vec3 up) {
     }
 }
 vec3 originOf(Person p, vec3 up) {
-    return p.lies ? vec3(p.at, 0.14 + p.height) - 0.875 * p.size.z * up : vec3(p.at, 0.0);
+    return p.lies ? vec3(p.at, p.base + 0.14 + p.height) - 0.875 * p.size.z * up : vec3(p.at, p.base);
 }
 `;
 
@@ -147,7 +147,7 @@ void main() {
     Person p = decode();
     Outfit o = dress(p.look, p.clothes, p.colour, p.plays, classes);
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
-    keep(p.at);
+    keep(p.at, p.base);
     if (!p.here || !wears(o, piece, bone.w) || kept.x >= 1.0 || kept.y <= 0.0) return;
     part = bone.w;
     paint = paintOf(o, part);

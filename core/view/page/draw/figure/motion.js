@@ -100,8 +100,9 @@ export class Motion {
 
     /** Writes how high they lie, in frame `b`; `before`: the words of frame `a`, of `known` slots. */
     stack(lying, b, known, before) {
-        const { words, bytes, x0, y0, sx, sy } = b, at = new Float64Array(3 * lying.length);
-        lying.forEach((slot, i) => at.set([x0 + sx * words[4 * slot], y0 + sy * words[4 * slot + 1], bytes[8 * slot + 4]], 3 * i));
+        const { words, bytes, x0, y0, sx, sy, stands } = b, at = new Float64Array(3 * lying.length), apart = 10 + 65536 * sy;
+        // Those of one deck lie on each other.
+        lying.forEach((slot, i) => at.set([x0 + sx * words[4 * slot], y0 + sy * words[4 * slot + 1] + (stands ? apart * stands[2 * slot] : 0), bytes[8 * slot + 4]], 3 * i));
         this.piles.stack(lying, at).forEach((height, i) => {
             const slot = lying[i], lay = slot < known && before[2 * slot + 1] >>> 27 === LIES;
             this.bytes[STRIDE * slot + 2] = lay ? this.heights[slot] : height;

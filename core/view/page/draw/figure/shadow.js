@@ -32,7 +32,7 @@ void main() {
     if (!p.here) return;
     vec3 box = spread(p);
     ground = ALONG * mix(box.x, box.y, 0.5 + 0.5 * corner.x) + ACROSS * corner.y * box.z;
-    gl_Position = projectionMatrix * viewMatrix * vec4(p.at + ground, 0.012, 1.0);
+    gl_Position = projectionMatrix * viewMatrix * vec4(p.at + ground, p.base + 0.012, 1.0);
 }`;
 
 export const FAR_SHADE_VERTEX = COMMON + `
@@ -46,7 +46,7 @@ void main() {
     if (!p.here) return;
     vec3 box = spread(p);
     middle = 0.5 * (box.x + box.y) * ALONG;
-    vec4 seen = viewMatrix * vec4(p.at + middle, 0.012, 1.0);
+    vec4 seen = viewMatrix * vec4(p.at + middle, p.base + 0.012, 1.0);
     vec4 clip = projectionMatrix * seen;
     float pixels = metre / clip.w;
     if (pixels * p.surface < least) return;

@@ -30,7 +30,7 @@ void main() {
     Person p = decode();
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
     gl_PointSize = 1.0;
-    keep(p.at);
+    keep(p.at, p.base);
     if (!p.here || kept.y <= 0.0) return;
     Outfit o = dress(p.look, p.clothes, p.colour, p.plays, classes);
     vec3 front, left, up;
