@@ -4,7 +4,7 @@ import shutil
 import subprocess
 import time
 
-from harness import JOSTLE, Session, draw, expect, settle, temporary_copy
+from harness import JOSTLE, Session, draw, expect, settle, temporary_copy, wait_for
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.support.ui import Select
 
@@ -220,6 +220,33 @@ def rides(browser):
     browser.wait("return /^at ground, door|^moves/.test([...document.querySelectorAll('#page-scene dt')].find((t) => t.textContent === 'east')?.nextSibling.textContent)", "the tab does not tell of the lift")
 
 
+# The value of the field on a deck at a point in plan, 0 to 255; null where the deck has none.
+FIELD = """
+const [deck, x, y] = arguments, u = page.view.ground.decks[deck].uniforms, [x0, y0, wide, deep] = u.cover.value.toArray(), rows = u.rows.value;
+const across = (x - x0) / wide, up = (y - y0) / deep, { data, width, height } = u.field.value?.image ?? {};
+return wide > 0 && across > 0 && across < 1 && up > rows.x && up < rows.y ? data[Math.floor(up * height) * width + Math.floor(across * width)] : null;
+"""
+
+
+def densities(browser):
+    """the density is shown on each storey, and on stairs, where people are"""
+    browser.run("page.fieldOf('density')")
+    browser.wait("return page.view.ground.decks[0].uniforms.cover.value.z > 0", "no field comes")
+    at = {name: browser.run("return page.crowd.position(arguments[0], 1)", slot) for name, slot in (("both", BELOW), ("above", RIDER))}
+    values = [browser.run(FIELD, deck, *at[name]) for name in at for deck in (0, 1)]
+    expect(values[0] > 20 and values[1] > 20, f"where one stands on each storey the density is {values[:2]}")
+    expect((values[2] or 0) < 5 and values[3] > 20, f"where one stands above alone the density is {values[2:]}")
+    for _ in range(8):
+        advance(browser, 1)
+        if storey_of(browser, CLIMBER) == "steps":
+            break
+    advance(browser, 1)
+    place = browser.run("return page.crowd.position(arguments[0], 1)", CLIMBER)
+    expect(storey_of(browser, CLIMBER) == "steps", f"the climber is at {place}")
+    wait_for(lambda: (browser.run(FIELD, 2, *place) or 0) > 20, f"on the stair the density is {browser.run(FIELD, 2, *place)}")
+    expect(browser.run("return page.view.ground.decks[2].treads.visible"), "no field is drawn on the stair")
+
+
 def replayed(browser):
     """a recording shows people on their storeys and stairs, chooses the one that is seen, and follows upstairs"""
     browser.wait("return page.view.storeys.several", "the recording has no storeys")
@@ -241,4 +268,4 @@ def replayed(browser):
     expect(abs(browser.run("return page.view.orbit.target.z") - 4) < 0.1, "the eye does not look at the upper storey")
 
 
-TESTS = [shown(heights), shown(chooses), shown(acts), shown(follows), shown(rides), shown(replayed, recorded=True)]
+TESTS = [shown(heights), shown(chooses), shown(acts), shown(follows), shown(rides), shown(densities), shown(replayed, recorded=True)]

@@ -18,7 +18,7 @@ export function addRims(pile, rings) {
     });
 }
 
-/** Adds the steps, or the slope, of a flight; `heightOf`: height of an elevation. */
+/** Adds the steps, or the slope, of a flight, and returns its corners; `heightOf`: height of an elevation. */
 function addFlight(pile, { kind, width, way }, { from, along: dir, run, low, slope }, heightOf) {
     const half = width / 2, z = heightOf(low), rise = heightOf(low + slope * run) - z, belt = kind === "escalator";
     const at = (far, aside, high) => [...along(from, dir, far, aside), high];
@@ -34,6 +34,7 @@ function addFlight(pile, { kind, width, way }, { from, along: dir, run, low, slo
         pile.face([at(0, side, z + under), at(run, side, z + rise + under), at(run, side, z + rise + over), at(0, side, z + over)], belt ? METAL : EDGE, z);
     }
     if (way !== "both") addArrows(pile, at, { run, z, rise, half, up: way === "up" });
+    return [at(0, -half, z), at(run, -half, z + rise), at(run, half, z + rise), at(0, half, z)];
 }
 
 /** Adds chevrons that point the way that a flight is walked or runs. */
@@ -49,9 +50,9 @@ function addArrows(pile, at, { run, z, rise, half, up }) {
     }
 }
 
-/** Adds the level parts of a stair: what its flights leave of its path. */
+/** Adds the level parts of a stair, what its flights leave of its path, and returns their corners. */
 function addLandings(pile, stair, floor) {
-    const { path, flights, width } = stair, half = width / 2;
+    const { path, flights, width } = stair, half = width / 2, out = [];
     for (let i = 0; i + 1 < path.length; i++) {
         const a = path[i], b = path[i + 1], length = Math.hypot(b[0] - a[0], b[1] - a[1]), dir = [(b[0] - a[0]) / length, (b[1] - a[1]) / length];
         const own = flights.map((f) => ({ at: (f.from[0] - a[0]) * dir[0] + (f.from[1] - a[1]) * dir[1], aside: (f.from[0] - a[0]) * dir[1] - (f.from[1] - a[1]) * dir[0], f }))
@@ -61,11 +62,13 @@ function addLandings(pile, stair, floor) {
             const begins = i > 0 && from === 0 ? -half : from, ends = at === length && i + 2 < path.length ? length + half : at;
             if (at - from > 0.01) {
                 const z = floor(along(a, dir, (from + at) / 2)), corner = (far, aside) => [...along(a, dir, far, aside), z];
-                pile.face([corner(begins, -half), corner(ends, -half), corner(ends, half), corner(begins, half)], STEPS, z);
+                out.push([corner(begins, -half), corner(ends, -half), corner(ends, half), corner(begins, half)]);
+                pile.face(out.at(-1), STEPS, z);
             }
             from = at + f.run;
         }
     }
+    return out;
 }
 
 /** Adds the handrails along both sides of a stair, from its foot to its head. */
@@ -84,12 +87,11 @@ function addRails(pile, { outline, kind }, floor) {
     }
 }
 
-/** Adds a stair; `elevation`: of its floor at [x, y]; `heightOf`: height of an elevation. */
+/** Adds a stair, and returns the corners of its flights and landings; `elevation`: of its floor at [x, y]; `heightOf`: height of an elevation. */
 export function addStair(pile, stair, elevation, heightOf) {
     const floor = (p) => heightOf(elevation(p));
-    for (const flight of stair.flights) addFlight(pile, stair, flight, heightOf);
-    addLandings(pile, stair, floor);
     addRails(pile, stair, floor);
+    return [...stair.flights.map((flight) => addFlight(pile, stair, flight, heightOf)), ...addLandings(pile, stair, floor)];
 }
 
 /** Adds a slope of a storey: steps or a ramp without rails, as people may step on to it from its sides. */

@@ -2,7 +2,7 @@
 // stair. All is built at height 0; a matrix puts it where storeys.js says. A scene of one plane has one deck.
 import * as THREE from "three";
 import { addRims, addShaft, addSlope, addStair } from "./building.js";
-import { FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED, PAINT_FRAGMENT, PAINT_VERTEX } from "./ground_shaders.js";
+import { FIELD_FRAGMENT, FLOOR_FRAGMENT, FLOOR_VERTEX, LOWERED, PAINT_FRAGMENT, PAINT_VERTEX } from "./ground_shaders.js";
 import { meshOfPaint, meshOfPile } from "./scenery.js";
 import { bakeShade } from "./shade.js";
 import { Pile } from "./shapes.js";
@@ -10,6 +10,7 @@ import { meetsBlock } from "./sightline.js";
 import { cutFloor } from "./storeys.js";
 import { LANDMARK, Prism, wallMaterial } from "./walls.js";
 
+const OVER = 0.12; // m: height of a field over the steps of a stair
 const PIECE = 0.6, UNDER = 0.09; // m: of a floor with slopes; how far it is below their steps
 const OPEN = 0.04; // m, drawn height of an open gate
 const LOW_SUN = 0.8; // m: height up to which ordinary walls cast a shadow, so that rooms stay light
@@ -45,12 +46,17 @@ function piecesOf([a, b, c, d]) {
     return Array.from({ length: columns * rows }, (_, n) => [n % columns, Math.floor(n / columns)]).map(([i, j]) => [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
 }
 
+/** Triangles of quadrilaterals [[x, y, z] four times], raised by `over` m. */
+function quadGeometry(quads, over) {
+    const geometry = new THREE.BufferGeometry(), position = quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d].flatMap(([x, y, z]) => [x, y, z + over]));
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
+    return geometry;
+}
+
 /** Triangles of quadrilaterals on the floor; `floor`: its height at [x, y], null where it is level. */
 function floorGeometry(quads, floor) {
     const pieces = floor ? quads.flatMap(piecesOf) : quads, height = (p) => (floor ? floor(p) - (floor(p) > 0.01 ? UNDER : 0) : 0);
-    const geometry = new THREE.BufferGeometry(), position = pieces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d].flatMap((p) => [...p, height(p)]));
-    geometry.setAttribute("position", new THREE.Float32BufferAttribute(position, 3));
-    return geometry;
+    return quadGeometry(pieces.map((quad) => quad.map((p) => [...p, height(p)])), 0);
 }
 
 /** Returns whether an upright block, as drawn for a camera at [x, y, z], hides a point from it; `seen`: uniforms of walls. */
@@ -83,9 +89,17 @@ export class Deck {
         // What lies on a slab is a little above it, also from afar.
         this.slabMaterial = material(FLOOR_VERTEX, FLOOR_FRAGMENT, { depthWrite: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 8 });
         this.paintMaterial = material(PAINT_VERTEX, PAINT_FRAGMENT, { side: THREE.DoubleSide });
-        this.materials = [this.floorMaterial, this.slabMaterial, this.paintMaterial];
+        this.fieldMaterial = material(FLOOR_VERTEX, FIELD_FRAGMENT, { transparent: true, side: THREE.DoubleSide });
+        this.materials = [this.floorMaterial, this.slabMaterial, this.paintMaterial, this.fieldMaterial];
         for (const [k, of] of this.materials.entries()) of.userData.program = k;
         this.blocks = [];
+    }
+
+    /** Sets and returns the height above the deck's at [x, y] in plan; of stairs by their storey below, however they are stretched. */
+    findFloor() {
+        const { storeys } = this.ground, { flights, height } = storeys.decks[this.number];
+        this.floorAt = flights.length ? (p) => storeys.elevation(this.number, p) - height : () => 0;
+        return this.floorAt;
     }
 
     /** Builds everything of a deck. `parts`: {walls, places, areas, pile, paint} of it alone, `margin`: m of floor around the scene. */
@@ -93,8 +107,6 @@ export class Deck {
         const { storeys, colours } = this.ground, { walls } = parts;
         this.clear();
         this.parts = parts;
-        // Height above the deck's at [x, y] in plan; of stairs by their storey below, however they are stretched.
-        this.floorAt = storeys.several && storeys.decks[this.number].flights.length ? (p) => storeys.elevation(this.number, p) - storeys.decks[this.number].height : () => 0;
         if (storeys.isStorey(this.number)) this.lay(margin);
         const fixed = new Prism(this.ground.beside, this.floorAt);
         for (const wall of walls) if (!wall.name) fixed.wall(wall, wall.height || 2);
@@ -130,7 +142,12 @@ export class Deck {
             this.addLines(areas.flatMap(({ points }) => outline(points, true, floor, 0.015)), colours.region, 0.6),
         ] };
         if (!storeys.several) return;
-        if (stair && lower < upper) addStair(pile, stair, (p) => storeys.elevation(this.number, p), heightOf);
+        if (stair && lower < upper) {
+            const treads = addStair(pile, stair, (p) => storeys.elevation(this.number, p), heightOf);
+            this.treads = this.add(new THREE.Mesh(quadGeometry(treads, OVER), this.fieldMaterial));
+            this.treads.visible = this.uniforms.cover.value.z > 0;
+            this.stretched.parts.push(this.treads);
+        }
         for (const slope of slopes) addSlope(pile, slope, heightOf);
         if (!stair) {
             addRims(pile, storeys.outlines[this.number]);
@@ -190,7 +207,9 @@ export class Deck {
     /** Shows a field over the floor; null hides it. */
     setField(field) {
         const { storeys } = this.ground, { cover, rows } = this.uniforms, block = field?.blocks.find(({ sheet }) => sheet === storeys.decks[this.number].sheet);
-        if (!field || (storeys.several && !block)) return cover.value.set(0, 0, 0, 0);
+        const known = field && (block || !storeys.several);
+        if (this.treads) this.treads.visible = Boolean(known);
+        if (!known) return cover.value.set(0, 0, 0, 0);
         const { first, y0, rows: count } = block ?? { first: 0, y0: field.y0, rows: field.rows };
         rows.value.set(first / field.rows, (first + count) / field.rows);
         return cover.value.set(field.x0, y0 - first * field.cell, field.columns * field.cell, field.rows * field.cell);
@@ -225,7 +244,7 @@ export class Deck {
 
     clear() {
         for (const part of [...this.group.children]) this.drop(part);
-        this.gateParts = this.floor = this.slab = this.stretched = null;
+        this.gateParts = this.floor = this.slab = this.treads = this.stretched = null;
     }
 
     /** Gives back what the graphics card holds of it. */

@@ -68,7 +68,7 @@ export class Ground {
         this.beside = box ? Math.min(1.2, 0.15 * Math.min(box[1][0] - box[0][0], box[1][1] - box[0][1])) : 1.2;
         this.seen.edge.value = this.beside / 3;
         this.changeDecks(storeys.decks.length);
-        const shapes = this.scenery.build(scene, this.beside, this.decks.length);
+        const shapes = this.scenery.build(scene, this.beside, this.decks.map((deck) => deck.findFloor()));
         this.decks.forEach((deck, k) => {
             const own = ({ deck: of }) => (of ?? 0) === k;
             deck.cover(Math.max(0, MATERIALS.indexOf(scene.floor)));

@@ -140,6 +140,21 @@ vec3 floorColour() {
 export const FLOOR_FRAGMENT = ON_FLOOR + FLOOR_COLOUR + `
 void main() { gl_FragColor = vec4(onFloor(floorColour()) * (gl_FrontFacing ? 1.0 : 0.7), 1.0); }`;
 
+/** A field alone, over the steps of stairs. */
+export const FIELD_FRAGMENT = `
+uniform sampler2D field, ramp;
+uniform vec4 cover;
+uniform vec2 rows;
+uniform float gain;
+varying vec2 ground;
+void main() {
+    vec2 at = (ground - cover.xy) / max(cover.zw, vec2(1e-6));
+    if (cover.z <= 0.0 || any(lessThan(at, vec2(0.0, rows.x))) || any(greaterThan(at, vec2(1.0, rows.y)))) discard;
+    float v = gain * texture2D(field, at).r;
+    if (v <= 0.004) discard;
+    gl_FragColor = vec4(texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.2 + 3.0 * v));
+}`;
+
 /** How paint varies: not at all, with the floor under it, as grass does. */
 export const GRAIN = { none: 0, floor: 0.5, lawn: 1 };
 

@@ -157,7 +157,7 @@ export class Overlay {
             }
             const asked = names === "all" || this.near(spot);
             if (!asked && (names === "none" || some >= MOST_NAMES || box[0] < 0 || box[2] > wide || this.isTiny(label))) continue;
-            if (taken.some((b) => meets(box, b))) continue;
+            if (taken.some((b) => meets(box, b)) || this.view.isCovered(label.at)) continue;
             taken.push(box);
             if (!asked) some++;
             this.tag(label.text, spot, this.nameColour(label));

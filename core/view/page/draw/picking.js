@@ -11,7 +11,7 @@ export function pickPerson(view, crowd, px, py, share, reach = REACH) {
     camera.updateMatrixWorld();
     // The product of both matrices is computed once, as the loop runs over all people.
     const m = multiply(camera.projectionMatrix.elements, camera.matrixWorldInverse.elements);
-    const { floors } = frame, eye = camera.position.toArray(), MIDDLE = 0.9;
+    const { floors } = frame, MIDDLE = 0.9;
     let best = null, least = Infinity;
     for (let slot = 0; slot < frame.slots; slot++) {
         if (frame.bytes[8 * slot + 5] === NOBODY) continue;
@@ -29,7 +29,7 @@ export function pickPerson(view, crowd, px, py, share, reach = REACH) {
         const tall = Math.max(1, 0.8 * heightOf(view, x, y, z - MIDDLE));
         const d = Math.hypot(sx - px, Math.max(0, Math.abs(sy - py) - tall / 2));
         const score = d + 0.02 * w;
-        if (d < reach && score < least && !view.storeys.hides([x, y, z], view.top ? [x, y, eye[2]] : eye)) {
+        if (d < reach && score < least && !view.isCovered([x, y, z])) {
             least = score;
             best = slot;
         }
@@ -48,7 +48,7 @@ export function pickBody(view, crowd, bodies, px, py) {
     for (let row = 0; row < bodies.radii.length; row++) {
         const at = crowd.bodyPosition(row);
         const spot = at && view.project(...at);
-        if (!spot || view.storeys.hides(at, view.top ? [at[0], at[1], view.camera.position.z] : view.camera.position.toArray())) continue;
+        if (!spot || view.isCovered(at)) continue;
         const pixels = view.pixelsOfMetre() / view.ratio / (view.top ? 1 : spot[2]);
         const d = Math.hypot(spot[0] - px, spot[1] - py);
         if (d < Math.max(12, bodies.radii[row] * pixels) && d + spot[2] < least) {

@@ -32,21 +32,21 @@ export class Scenery {
     }
 
     /** Returns the triangles of some items, as buildScenery does. */
-    shape(items, bodies = [], beside = 1, most = MOST_TRIANGLES) {
-        return buildScenery(items, bodies, beside, most);
+    shape(items, bodies = [], beside = 1, most = MOST_TRIANGLES, floor = undefined) {
+        return buildScenery(items, bodies, beside, most, floor);
     }
 
-    /** Returns the triangles of each deck, {pile, paint}, and keeps those of what is carried; says in `left` what was left out. */
-    build(scene, beside, decks) {
+    /** Returns the triangles of each deck, {pile, paint}, and keeps those of what is carried; says in `left` what was left out. `floors`: heights of decks. */
+    build(scene, beside, floors) {
         const left = new Map();
         let most = MOST_TRIANGLES;
-        const shape = (items) => {
-            const shapes = this.shape(items, scene.bodies, beside, most);
+        const shape = (items, floor) => {
+            const shapes = this.shape(items, scene.bodies, beside, most, floor);
             most -= shapes.pile.triangles + shapes.paint.triangles;
             for (const [kind, n] of shapes.left) left.set(kind, (left.get(kind) ?? 0) + n);
             return shapes;
         };
-        const items = scene.scenery ?? [], made = Array.from({ length: decks }, (_, k) => shape(items.filter(({ body, deck }) => !body && deck === k)));
+        const items = scene.scenery ?? [], made = floors.map((floor, k) => shape(items.filter(({ body, deck }) => !body && deck === k), floor));
         this.loads = shape(items.filter(({ body }) => body)).pile;
         this.left = tellLeft(left, MOST_TRIANGLES);
         return made;

@@ -56,10 +56,10 @@ export function tellLeft(left, most) {
 
 /**
  * Makes the triangles of scenery: {pile, paint, left, text}. From the first copy that does not fit within `most` triangles,
- * all are left out: `left` counts them by kind, `text` tells it.
+ * all are left out: `left` counts them by kind, `text` tells it. `floor`: height of the floor at [x, y], m.
  */
-export function buildScenery(items, bodies, beside, most = MOST_TRIANGLES) {
-    const pile = new Pile(beside), paint = new Paint(), rows = new Map(bodies.map((body, row) => [body.name, row])), left = new Map();
+export function buildScenery(items, bodies, beside, most = MOST_TRIANGLES, floor = undefined) {
+    const pile = new Pile(beside, floor), paint = new Paint(floor), rows = new Map(bodies.map((body, row) => [body.name, row])), left = new Map();
     for (const item of items) {
         const copies = PAINTED[item.kind] ? paintItem(paint, item) : pileItem(pile, item, (name) => rows.get(name) ?? -1);
         for (const add of copies) {

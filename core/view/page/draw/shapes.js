@@ -112,8 +112,10 @@ class Rows {
  * stand on, as they are lowered together where they hide the crowd.
  */
 export class Pile {
-    constructor(beside = 1.2) {
+    /** `floor`: height of the floor at [x, y], m. */
+    constructor(beside = 1.2, floor = () => 0) {
         this.beside = beside;
+        this.floor = floor;
         this.position = new Rows(3);
         this.normal = new Rows(3);
         this.colour = new Rows(4); // red, green, blue; and glow, 0 to 1, which needs no light
@@ -137,6 +139,7 @@ export class Pile {
     place(x, y, turn, row = -1) {
         this.at = [x, y, Math.cos(turn), Math.sin(turn)];
         this.row = row;
+        this.base = row < 0 ? this.floor([x, y]) : 0;
         this.roof = 0;
         this.middle = [x, y];
         this.across = [FAR, FAR];
@@ -165,7 +168,7 @@ export class Pile {
         for (let i = 1; i + 1 < points.length; i++) {
             for (let corner = 0; corner < 3; corner++) {
                 const k = corner ? i + corner - 1 : 0, n = normals ? normals[k] : even, [x, y, z] = points[k];
-                this.position.add(ox + cos * x - sin * y, oy + sin * x + cos * y, z);
+                this.position.add(ox + cos * x - sin * y, oy + sin * x + cos * y, z + this.base);
                 this.normal.add(cos * n[0] - sin * n[1], sin * n[0] + cos * n[1], n[2]);
                 this.colour.add(colour[0], colour[1], colour[2], glow);
                 this.where.add(this.middle[0], this.middle[1], this.across[0], this.across[1]);
@@ -257,7 +260,9 @@ export class Pile {
 
 /** Triangles of what is painted on the floor: lines, circles, areas; in the order in which they are added. */
 export class Paint {
-    constructor() {
+    /** `floor`: height of the floor at [x, y], m. */
+    constructor(floor = () => 0) {
+        this.floor = floor;
         this.position = new Rows(3);
         this.colour = new Rows(4);
     }
@@ -276,7 +281,7 @@ export class Paint {
     add(points, faces, colour, grain = 0) {
         for (const face of faces) {
             for (const k of face) {
-                this.position.add(points[k][0], points[k][1], 0.004);
+                this.position.add(points[k][0], points[k][1], this.floor(points[k]) + 0.004);
                 this.colour.add(colour[0], colour[1], colour[2], grain);
             }
         }

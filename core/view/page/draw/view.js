@@ -415,6 +415,11 @@ export class View {
         return ray.ray;
     }
 
+    /** Whether the floor of a storey hides a point of the picture, [x, y, z], from the eye. */
+    isCovered(at) {
+        return this.storeys.hides(at, this.top ? [at[0], at[1], this.camera.position.z] : this.camera.position.toArray());
+    }
+
     /** The floor under a CSS pixel that is shown: {deck, at: [x, y] in plan, z: height in the picture}, or null. */
     groundAt(px, py) {
         const { origin, direction } = this.rayAt(px, py);

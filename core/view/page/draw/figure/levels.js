@@ -64,16 +64,24 @@ export class Levels {
     /** Notes who is in sight, and how far away; returns how many. */
     collect(frame, m, from, flat) {
         const { words, bytes, x0, y0, sx, sy, slots, floors } = frame, { seen, away } = this;
+        const level = flat ? 0 : MIDDLE - from.z;
         const ox = m[8] * MIDDLE + m[12], oy = m[9] * MIDDLE + m[13], ow = m[11] * MIDDLE + m[15];
         const edgeX = AROUND * Math.hypot(m[0], m[4], m[8]), edgeY = AROUND * Math.hypot(m[1], m[5], m[9]);
         let count = 0;
         for (let slot = 0, w = 0; slot < slots; slot++, w += 4) {
             if (bytes[2 * w + 5] === NOBODY) continue;
-            const x = x0 + sx * words[w], y = y0 + sy * words[w + 1], z = floors ? floors[slot] : 0;
-            if (z !== z) continue; // on a storey that is not shown
-            const cw = m[3] * x + m[7] * y + m[11] * z + ow, cx = m[0] * x + m[4] * y + m[8] * z + ox, cy = m[1] * x + m[5] * y + m[9] * z + oy;
+            const x = x0 + sx * words[w], y = y0 + sy * words[w + 1];
+            let cw = m[3] * x + m[7] * y + ow, cx = m[0] * x + m[4] * y + ox, cy = m[1] * x + m[5] * y + oy, dz = level;
+            if (floors !== null) {
+                const z = floors[slot];
+                if (z !== z) continue; // on a storey that is not shown
+                cw += m[11] * z;
+                cx += m[8] * z;
+                cy += m[9] * z;
+                dz += flat ? 0 : z;
+            }
             if (cw < -AROUND || cx > cw + edgeX || -cx > cw + edgeX || cy > cw + edgeY || -cy > cw + edgeY) continue;
-            const dx = x - from.x, dy = y - from.y, dz = flat ? 0 : z + MIDDLE - from.z;
+            const dx = x - from.x, dy = y - from.y;
             seen[count] = slot;
             away[count++] = Math.sqrt(dx * dx + dy * dy + dz * dz);
         }
