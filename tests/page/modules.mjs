@@ -130,6 +130,14 @@ const TESTS = {
         assert.deepEqual(shown({ view: "stacked", chosen: 1 }), [true, true, false, true, true]);
         assert.deepEqual(shown({ view: "exploded", chosen: 0 }), [true, true, true, true, true]);
     },
+    "of many storeys that are spread, the picture holds those about the chosen one": () => {
+        const tall = (count, changes) => {
+            const list = [...Array(count).keys()].map((k) => ({ name: `${k}`, height: 3 * k })), storeys = Object.assign(new Storeys({ ...BUILDING, list, stairs: [] }), changes);
+            storeys.measure(storeys.unfold({ walls: list.map((_, k) => ({ points: WALLS[0].points.map(([x, y]) => [x, y + 45 * k]), height: 2 })), places: [], area: [[0, 0], [20, 10]] }));
+            return list.map((_, k) => storeys.isFramed(k)).filter(Boolean).length;
+        };
+        assert.deepEqual([tall(8, { view: "exploded" }), tall(30, { view: "exploded", chosen: 12 }), tall(30, { view: "stacked" })], [8, 7, 30]);
+    },
     "people get the height of their floor, and none where it is not shown": () => {
         const frame = () => ({ slots: 3, stands: new Uint16Array([0, 0, 3, 32768, 2, 65535]), z0: 0, sz: 7.5 / 65535 });
         const lifted = (changes) => {

@@ -51,11 +51,20 @@ export class Ground {
         this.uniforms.sky.value.set(this.colours.sky);
         this.uniforms.zenith.value.set(this.colours.zenith);
         this.uniforms.dim.value = this.colours.dim;
-        if (this.scene) this.set(this.scene, this.storeys);
+        if (this.scene) this.build(this.scene, this.storeys);
     }
 
-    /** Builds everything of a scene message, as storeys have unfolded it. */
+    /** Takes a scene message, as storeys have unfolded it. Of one in which bodies alone have changed, only what they carry is built anew. */
     set(scene, storeys) {
+        const { area, floor, walls, places, areas, scenery } = scene, text = JSON.stringify([area, floor, walls, places, areas, scenery]);
+        if (text !== this.built || storeys !== this.storeys) this.build(scene, storeys);
+        this.built = text;
+        this.scene = scene;
+        this.carry();
+    }
+
+    /** Builds everything that stands. */
+    build(scene, storeys) {
         this.scene = scene;
         this.storeys = storeys;
         const walls = scene.walls ?? [];
@@ -74,7 +83,6 @@ export class Ground {
             deck.cover(Math.max(0, MATERIALS.indexOf(scene.floor)));
             deck.build({ walls: walls.filter(own), places: (scene.places ?? []).filter(own), areas: scene.areas.filter(own), ...shapes[k] }, margin);
         });
-        this.carry();
         this.lifts.set(storeys);
         this.place();
     }
@@ -98,7 +106,7 @@ export class Ground {
             this.carried.remove(part);
             part.geometry.dispose();
         }
-        const mesh = this.scenery.carried();
+        const mesh = this.scenery.carried(this.scene, this.beside);
         if (mesh) this.carried.add(mesh);
     }
 

@@ -36,24 +36,23 @@ export class Scenery {
         return buildScenery(items, bodies, beside, most, floor);
     }
 
-    /** Returns the triangles of each deck, {pile, paint}, and keeps those of what is carried; says in `left` what was left out. `floors`: heights of decks. */
+    /** Returns the triangles of each deck, {pile, paint}; `floors`: heights of decks. */
     build(scene, beside, floors) {
-        const left = new Map();
-        let most = MOST_TRIANGLES;
-        const shape = (items, floor) => {
-            const shapes = this.shape(items, scene.bodies, beside, most, floor);
-            most -= shapes.pile.triangles + shapes.paint.triangles;
-            for (const [kind, n] of shapes.left) left.set(kind, (left.get(kind) ?? 0) + n);
+        this.standing = new Map(); // what was left out
+        this.room = MOST_TRIANGLES;
+        return floors.map((floor, k) => {
+            const shapes = this.shape((scene.scenery ?? []).filter(({ body, deck }) => !body && deck === k), scene.bodies, beside, this.room, floor);
+            this.room -= shapes.pile.triangles + shapes.paint.triangles;
+            for (const [kind, n] of shapes.left) this.standing.set(kind, (this.standing.get(kind) ?? 0) + n);
             return shapes;
-        };
-        const items = scene.scenery ?? [], made = floors.map((floor, k) => shape(items.filter(({ body, deck }) => !body && deck === k), floor));
-        this.loads = shape(items.filter(({ body }) => body)).pile;
-        this.left = tellLeft(left, MOST_TRIANGLES);
-        return made;
+        });
     }
 
-    /** Returns the mesh of what is carried by bodies; null if nothing is. */
-    carried() {
-        return this.loads.position.length ? meshOfPile(this.loads, this.material) : null;
+    /** Returns the mesh of what is carried by bodies, null if nothing is; says in `left` what was left out of all. */
+    carried(scene, beside) {
+        const { pile, left } = this.shape((scene.scenery ?? []).filter(({ body }) => body), scene.bodies, beside, this.room), all = new Map(this.standing);
+        for (const [kind, n] of left) all.set(kind, (all.get(kind) ?? 0) + n);
+        this.left = tellLeft(all, MOST_TRIANGLES);
+        return pile.position.length ? meshOfPile(pile, this.material) : null;
     }
 }

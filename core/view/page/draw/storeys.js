@@ -9,6 +9,7 @@ export const VIEWS = { stacked: "Stacked", exploded: "Exploded", one: "One store
 const SPREAD = 0.62; // of the depth of the floors: between two storeys that are exploded. Seen from 30 degrees above, neither covers the other
 const NEAR = 0.02; // m: points this near to a line lie on it
 const SLOPES = 12; // steps by which the point is found where a line meets a floor with slopes
+const MANY = 8; // storeys: of more that are spread the picture holds those about the chosen one
 const MOST_DEPTH = 200; // m: deeper floors are not spread further
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1]];
@@ -276,15 +277,20 @@ export class Storeys {
         }
     }
 
-    /** Least and greatest height in the picture of the storeys that are shown. */
+    /** Whether the picture of all has to hold a storey: of many that are spread, those near the chosen one. */
+    isFramed(k) {
+        return this.isShown(k) && (this.view !== "exploded" || this.count <= MANY || Math.abs(k - this.chosen) <= MANY / 2 - 1);
+    }
+
+    /** Least and greatest height in the picture of the storeys that it has to hold. */
     range() {
-        const shown = this.at.filter((_, k) => this.isShown(k));
+        const shown = this.at.filter((_, k) => this.isFramed(k));
         return [Math.min(...shown), Math.max(...shown)];
     }
 
-    /** The corners of the floors that are shown, and of what is `tall` m high on them: [x, y, z]. */
+    /** The corners of the floors that the picture has to hold, and of what is `tall` m high on them: [x, y, z]. */
     corners(tall) {
-        return this.at.flatMap((z, k) => (this.isShown(k) ? this.outlines[k].flat().flatMap(([x, y]) => [[x, y, z], [x, y, z + tall]]) : []));
+        return this.at.flatMap((z, k) => (this.isFramed(k) ? this.outlines[k].flat().flatMap(([x, y]) => [[x, y, z], [x, y, z + tall]]) : []));
     }
 
     /** The lowest storey that is shown: the ground about the building is at its height. */
