@@ -102,15 +102,24 @@ void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open
     }
 }
 
-/* Copies the rings that stand; closed gates if `gates`, and doors of lifts if `doors`. */
-static void copy_standing(JoxWalls *out, const JoxWalls *all, bool gates, bool doors) {
+typedef enum Doors { NO_DOORS, SHUT_DOORS, ALL_DOORS } Doors;
+
+/* Returns whether a ring stands; closed gates if `gates`, and these doors of lifts. */
+static bool stands(const struct JoxWallRing *ring, bool gates, Doors doors) {
+    if (ring->is_lift_door)
+        return doors == ALL_DOORS || (doors == SHUT_DOORS && gates && !ring->open);
+    return !ring->open && (gates || !ring->name);
+}
+
+/* Copies the rings that stand. */
+static void copy_standing(JoxWalls *out, const JoxWalls *all, bool gates, Doors doors) {
     out->count = out->ring_count = 0;
     JOX_RESERVE(out->vertices, out->capacity, all->count);
     JOX_RESERVE(out->rings, out->ring_capacity, all->ring_count);
     for (uint32_t r = 0; r < all->ring_count; r++) {
         const struct JoxWallRing *ring = &all->rings[r];
         JOX_ASSERT(ring->first >= out->count && ring->first + ring->count <= all->count);
-        if (ring->open || (ring->name && !gates) || (ring->is_lift_door && !doors))
+        if (!stands(ring, gates, doors))
             continue;
         uint32_t back = ring->first - out->count; /* rings are contiguous */
         for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {
@@ -128,11 +137,15 @@ static void copy_standing(JoxWalls *out, const JoxWalls *all, bool gates, bool d
 }
 
 void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
-    copy_standing(out, all, gates, true);
+    copy_standing(out, all, gates, SHUT_DOORS);
 }
 
 void jox_walls_for_ways(JoxWalls *out, const JoxWalls *all, bool gates) {
-    copy_standing(out, all, gates, false);
+    copy_standing(out, all, gates, NO_DOORS);
+}
+
+void jox_walls_dividing(JoxWalls *out, const JoxWalls *all) {
+    copy_standing(out, all, true, ALL_DOORS);
 }
 
 uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin) {

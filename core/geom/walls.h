@@ -72,6 +72,9 @@ void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open
 void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
 /* Does the same without the doors of lifts, which ways lead through. */
 void jox_walls_for_ways(JoxWalls *out, const JoxWalls *all, bool gates);
+/* Copies the closed walls of `all` to `out`, and all doors of lifts, open or not: what divides the
+   floor. */
+void jox_walls_dividing(JoxWalls *out, const JoxWalls *all);
 /* Returns the number of points of a ring as it was given, from its first vertex on, and whether the
    last is joined to the first. A closed polyline is stored as two rings, and *twin tells that the
    next ring repeats this one. */

@@ -50,6 +50,8 @@ typedef struct JoxFrame {
     const uint32_t *kicked, *struck;
     const JoxObjects *objects;     /* bodies at the beginning of this step, as agents saw them */
     const JoxWalls *walls;         /* walls that stand at this moment */
+    const JoxWalls *dividing;      /* the same and all doors of lifts, which divide the floor of
+                                      densities;      NULL: there are no lifts */
     const JoxWallLoad *wall_loads; /* load of each wall piece; NULL: unknown */
     uint32_t wall_load_count;
     /* Storeys and stairs: x and y, walls and objects are positions on their sheets. NULL: one
@@ -60,6 +62,10 @@ typedef struct JoxFrame {
     uint32_t lift_count;
 } JoxFrame;
 
+/* Returns the walls that divide the floor. */
+static inline const JoxWalls *jox_frame_dividing_walls(const JoxFrame *frame) {
+    return frame->dividing ? frame->dividing : frame->walls;
+}
 /* Returns the radius of person i, m, or `unknown` where the frame has no radii. */
 static inline float jox_frame_radius(const JoxFrame *frame, uint32_t i, float unknown) {
     return frame->radius ? frame->radius[frame->one_radius ? 0 : i] : unknown;

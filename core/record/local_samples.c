@@ -104,7 +104,7 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
                                    .seen = seen,
                                    .weights = {NULL, l->vx, l->vy}};
     jox_density_storeys(l->grid, frame->storeys);
-    jox_density_walls(l->grid, frame->walls);
+    jox_density_walls(l->grid, jox_frame_dividing_walls(frame));
     jox_density_sample(l->grid, &crowd, l->pressure ? 3 : 1,
                        (float *[]){l->grid->now, l->flow_x, l->flow_y});
     jox_density_update_statistics(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);

@@ -83,7 +83,9 @@ static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
 }
 
 void jox_trajectories_read_walls(JoxTrajectories *t, JoxDatabase *db) {
-    t->history = jox_wall_history_read(db, &t->storeys);
+    uint32_t lift_count;
+    const JoxLift *lifts = jox_lift_history_lifts(t->lifts, &lift_count);
+    t->history = jox_wall_history_read(db, &t->storeys, lifts, lift_count);
     if (t->history)
         jox_wall_history_first(t->history, &t->walls);
     else

@@ -16,7 +16,7 @@ typedef struct RecordedWall {
     int64_t frame;
     uint32_t number;
     /* same_points: the points are those of the wall's previous row. */
-    bool solid, closed, open, same_points;
+    bool solid, closed, open, same_points, is_lift_door;
     float height; /* m */
     float drawn;  /* m: height up to which it is drawn; 0: its height */
     char *name;
@@ -29,11 +29,12 @@ struct JoxWallHistory {
     uint32_t count, capacity;
     JoxV2 *points;
     size_t point_count, point_capacity;
-    uint32_t *latest;       /* 1 + row, by wall number; 0: none. Scratch */
-    uint32_t walls;         /* wall numbers are below this */
-    JoxWalls all, standing; /* walls of one frame; without open gates */
-    bool built;
-    int64_t from, until; /* `all` and `standing` are valid for frames from <= f < until */
+    uint32_t *latest; /* 1 + row, by wall number; 0: none. Scratch */
+    uint32_t walls;   /* wall numbers are below this */
+    /* Walls of one frame; without open gates; these and the open doors of lifts. */
+    JoxWalls all, standing, dividing;
+    bool built, has_lifts;
+    int64_t from, until; /* the walls are valid for frames from <= f < until */
 };
 
 /* ---- reading ---- */
@@ -113,7 +114,17 @@ static void place_wall(JoxWallHistory *h, sqlite3_stmt *list, const JoxStoreys *
             row->count = 0;
 }
 
-JoxWallHistory *jox_wall_history_read(JoxDatabase *db, const JoxStoreys *storeys) {
+/* Marks the walls that are doors of lifts. */
+static void mark_lift_doors(JoxWallHistory *h, const JoxLift *lifts, uint32_t count) {
+    h->has_lifts = count > 0;
+    for (uint32_t r = 0; r < h->count; r++)
+        for (uint32_t l = 0; h->rows[r].name && l < count; l++)
+            for (uint32_t s = 0; s < lifts[l].stop_count; s++)
+                h->rows[r].is_lift_door |= strcmp(lifts[l].stops[s].name, h->rows[r].name) == 0;
+}
+
+JoxWallHistory *jox_wall_history_read(JoxDatabase *db, const JoxStoreys *storeys,
+                                      const JoxLift *lifts, uint32_t lift_count) {
     /* Older recordings have no drawn heights, still older ones no frames. */
     static const char *const QUERIES[] = {
         "SELECT frame, number, name, solid, closed, open, height, points, drawn, storey, stair "
@@ -141,6 +152,7 @@ JoxWallHistory *jox_wall_history_read(JoxDatabase *db, const JoxStoreys *storeys
     }
     jox_free(points);
     jox_database_finalize(db, list);
+    mark_lift_doors(h, lifts, lift_count);
     return h;
 }
 
@@ -155,8 +167,10 @@ static void build_recorded_wall(JoxWalls *walls, const RecordedWall *row, const 
         jox_walls_add_solid(walls, points, row->count, row->height);
     else
         jox_walls_add_polyline(walls, points, row->count, row->closed, row->height);
-    for (uint32_t ring = first; ring < walls->ring_count; ring++)
+    for (uint32_t ring = first; ring < walls->ring_count; ring++) {
         walls->rings[ring].drawn = row->drawn;
+        walls->rings[ring].is_lift_door = row->is_lift_door;
+    }
     if (row->name)
         jox_walls_name(walls, first, row->name, row->open);
 }
@@ -196,6 +210,8 @@ static void update_frame_walls(JoxWallHistory *h, int64_t frame) {
         return;
     build_frame_walls(h, frame, &h->all, &h->from, &h->until);
     jox_walls_standing(&h->standing, &h->all, true);
+    if (h->has_lifts)
+        jox_walls_dividing(&h->dividing, &h->all);
     h->built = true;
 }
 
@@ -212,6 +228,11 @@ const JoxWalls *jox_wall_history_at(JoxWallHistory *h, int64_t frame) {
 const JoxWalls *jox_wall_history_standing(JoxWallHistory *h, int64_t frame) {
     update_frame_walls(h, frame);
     return &h->standing;
+}
+
+const JoxWalls *jox_wall_history_dividing(JoxWallHistory *h, int64_t frame) {
+    update_frame_walls(h, frame);
+    return h->has_lifts ? &h->dividing : NULL;
 }
 
 uint32_t jox_wall_history_changes(const JoxWallHistory *h, int64_t frame) {
@@ -231,5 +252,6 @@ void jox_wall_history_free(JoxWallHistory *h) {
     jox_free(h->latest);
     jox_walls_free(&h->all);
     jox_walls_free(&h->standing);
+    jox_walls_free(&h->dividing);
     jox_free(h);
 }

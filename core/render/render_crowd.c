@@ -222,7 +222,7 @@ static void measure_local_density(JoxRender *r) {
     JoxDensity *g = r->grid;
     const JoxFrame *f = &r->frame;
     jox_density_storeys(g, f->storeys);
-    jox_density_walls(g, f->walls);
+    jox_density_walls(g, jox_frame_dividing_walls(f));
     jox_density_add(g, f->period, f->x, f->y, f->count, f->time);
     JOX_RESERVE(r->density, r->density_capacity, f->count + 1);
     for (uint32_t i = 0; i < f->count; i++) {

@@ -132,7 +132,7 @@ double jox_run_greatest_density(const JoScene *scene) {
     const JoxStoreys *storeys = jox_run_find_plan_area(scene, &low, &high);
     JoxDensity *now =
         jox_density_create_on_storeys(low, high, local->grid->cell, JOX_DENSITY_KERNEL, storeys);
-    jox_density_walls(now, &scene->world->scratch.walls);
+    jox_density_walls(now, jox_world_dividing_walls(scene->world));
     jox_density_add(now, a->period, a->x, a->y, a->count, jo_world_time(scene->world));
     double most = now->most;
     jox_density_free(now);

@@ -133,6 +133,7 @@ static void begin_frame(JoxRunFrame *f, const JoScene *scene) {
                           .struck = a->struck,
                           .objects = &world->scratch.objects,
                           .walls = &world->scratch.walls,
+                          .dividing = jox_world_dividing_walls(world),
                           .storeys = find_storeys(world)};
     f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
     fill_cars(f, world);

@@ -195,6 +195,10 @@ const JoxWalls *jox_world_walls(const JoWorld *world) {
     return has_images(world) ? &world->scratch.images.walls : &world->scratch.walls;
 }
 
+const JoxWalls *jox_world_dividing_walls(const JoWorld *world) {
+    return world->model.lift_count ? &world->scratch.dividing : &world->scratch.walls;
+}
+
 void jox_world_apply_walls(JoWorld *world) {
     if (world->state.walls_applied)
         return;
@@ -203,6 +207,8 @@ void jox_world_apply_walls(JoWorld *world) {
         return;
     jox_walls_standing(&world->scratch.walls, &world->model.all_walls, true);
     JOX_ASSERT(world->scratch.walls.count <= world->model.all_walls.count);
+    if (world->model.lift_count)
+        jox_walls_dividing(&world->scratch.dividing, &world->model.all_walls);
     const bool joined = has_images(world);
     if (joined) {
         jox_wall_images_lay(&world->scratch.images, &world->scratch.walls,

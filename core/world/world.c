@@ -97,6 +97,7 @@ static void free_world(JoWorld *world) {
     jox_walls_free(&world->model.all_walls);
     jox_storeys_free(&world->model.storeys);
     jox_walls_free(&world->scratch.walls);
+    jox_walls_free(&world->scratch.dividing);
     jox_wall_images_free(&world->scratch.images);
     jox_free(world->state.added_walls);
     jox_input_free(&world->state.input);

@@ -113,6 +113,7 @@ typedef struct JoxWorldScratch {
     JoxNav *nav;
     JoxForces *forces;
     JoxWalls walls;       /* standing walls: all but open gates */
+    JoxWalls dividing;    /* the same and all doors of lifts; empty in a world without lifts */
     JoxWallImages images; /* walls and their images beyond joined edges; else empty */
     JoxWalls images_only; /* view of the images, read by machines */
     JoxEntrances entrances;
@@ -175,6 +176,8 @@ void jox_world_settle_walls(JoWorld *world);
 void jox_world_apply_walls(JoWorld *world);
 /* Returns the standing walls and, if edges are joined, their images. */
 const JoxWalls *jox_world_walls(const JoWorld *world);
+/* Returns the standing walls and all doors of lifts. */
+const JoxWalls *jox_world_dividing_walls(const JoWorld *world);
 /* Notes that the last ring of all_walls was added, before the first step: it is applied, and agents
    are moved out of it, before the next step. */
 void jox_world_note_new_wall(JoWorld *world);

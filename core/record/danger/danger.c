@@ -312,7 +312,7 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
     reserve_danger_people(d, frame);
     /* Cells of people near walls are needed between samples, too. */
     jox_density_storeys(d->local->grid, frame->storeys);
-    jox_density_walls(d->local->grid, frame->walls);
+    jox_density_walls(d->local->grid, jox_frame_dividing_walls(frame));
     update_all_loads(d, frame);
     jox_congestion_frame(&d->congestion, frame->count, frame->time);
     jox_danger_lines_add_crossings(&d->lines, frame);

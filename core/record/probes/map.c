@@ -127,7 +127,7 @@ static double mean_pressure(const Map *m, JoxV2 at) {
 /* Samples density, speed and compression into the sums. */
 static void sample_map(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const uint8_t *seen) {
     jox_density_storeys(m->grid, frame->storeys);
-    jox_density_walls(m->grid, def->through_walls ? NULL : frame->walls);
+    jox_density_walls(m->grid, def->through_walls ? NULL : jox_frame_dividing_walls(frame));
     JOX_RESERVE(m->speeds, m->speed_capacity, frame->count + 1);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i])
