@@ -28,20 +28,26 @@ const char *jox_parameter_successor(const char *name) {
     return NULL;
 }
 
-/* Words for values of haste. */
+/* Words for values of parameters. */
 static const struct {
+    JoxParameter parameter;
     const char *word;
     double value;
-} LEVELS[] = {{"calm", 0.0}, {"normal", 0.5}, {"keen", 1.0}};
+} LEVELS[] = {{JOX_PARAM_haste, "calm", 0.0},   {JOX_PARAM_haste, "normal", 0.5},
+              {JOX_PARAM_haste, "keen", 1.0},   {JOX_PARAM_lifts, "never", 0.0},
+              {JOX_PARAM_lifts, "either", 0.5}, {JOX_PARAM_lifts, "only", 1.0}};
+enum { LEVEL_COUNT = sizeof LEVELS / sizeof *LEVELS };
 
 const char *jox_parameter_word(JoxParameter parameter, uint32_t n) {
-    return parameter == JOX_PARAM_haste && n < sizeof LEVELS / sizeof *LEVELS ? LEVELS[n].word
-                                                                              : NULL;
+    for (int k = 0; k < LEVEL_COUNT; k++)
+        if (LEVELS[k].parameter == parameter && n-- == 0)
+            return LEVELS[k].word;
+    return NULL;
 }
 
 bool jox_parameter_level(JoxParameter parameter, const char *word, double *value) {
-    for (size_t k = 0; parameter == JOX_PARAM_haste && k < sizeof LEVELS / sizeof *LEVELS; k++)
-        if (strcmp(LEVELS[k].word, word) == 0) {
+    for (int k = 0; k < LEVEL_COUNT; k++)
+        if (LEVELS[k].parameter == parameter && strcmp(LEVELS[k].word, word) == 0) {
             *value = LEVELS[k].value;
             return true;
         }

@@ -45,7 +45,10 @@
       "wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope")   \
     X(stair_down, "m/s", 0, 5, 0, "the same down stairs")                                          \
     X(escalator_walk, "", 0, 1, 0.25,                                                              \
-      "chance that an agent walks on a running escalator; otherwise it stands on it")
+      "chance that an agent walks on a running escalator; otherwise it stands on it")              \
+    X(lifts, "", 0, 1, 0.5,                                                                        \
+      "how an agent gets to other storeys: 0 never by a lift, 0.5 either by stairs or by a lift "  \
+      "that takes less time, 1 only by lifts and ramps, as it cannot use stairs")
 
 typedef enum JoxParameter {
 #define X(name, unit, least, greatest, value, meaning) JOX_PARAM_##name,
@@ -69,7 +72,8 @@ int jox_parameter_find(const char *name);
 /* Returns what to use in place of a parameter, or a constant of the walking law, that there is no
    more; NULL for any other name. */
 const char *jox_parameter_successor(const char *name);
-/* Finds the value of a word: haste is calm (0), normal (0.5) or keen (1). Returns false if the
+/* Finds the value of a word: haste is calm (0), normal (0.5) or keen (1), lifts never,
+   either or only. Returns false if the
    parameter has no such word. */
 bool jox_parameter_level(JoxParameter parameter, const char *word, double *value);
 /* Returns the n-th word of a parameter, from 0; NULL beyond the last. */

@@ -27,6 +27,12 @@ int32_t jox_lift_stop_at(const JoxLift *lift, uint32_t storey) {
     return -1;
 }
 
+JoxV2 jox_lift_outside(const JoxLift *lift, uint32_t stop, const JoxStoreys *storeys) {
+    const float BEFORE = 0.6f; /* m */
+    const JoxLiftStop *at = &lift->stops[stop];
+    return jox_on_sheet(storeys, at->storey, jox_add(at->middle, jox_scale(at->out, BEFORE)));
+}
+
 double jox_lift_travel_time(const JoxLift *lift, double metres) {
     const double way = fabs(metres), v = (double)lift->speed, a = (double)lift->acceleration;
     return way >= v * v / a ? way / v + v / a : 2.0 * sqrt(way / a);

@@ -65,11 +65,13 @@ enum { JOX_LIFT_MODES = 3 };
 /* Lays a lift out for storeys that are laid out: doors, heights and spots, at least as many as the
    capacity. Call it once all members above "Laid out" are set. */
 void jox_lift_lay_out(JoxLift *lift, const JoxStoreys *storeys);
-/* Appends the walls of a lift, laid out or not: the shaft's on each storey from the lowest to the highest stop, and a closed
-   gate for each door. */
+/* Appends the walls of a lift, laid out or not: the shaft's on each storey from the lowest to the
+   highest stop, and a closed gate for each door. */
 void jox_lift_add_walls(const JoxLift *lift, const JoxStoreys *storeys, JoxWalls *walls);
 /* Returns whether a point of the plan is in the shaft. */
 bool jox_lift_contains(const JoxLift *lift, JoxV2 plan);
+/* Returns the position before a lift's door at a stop where an agent has left the car. */
+JoxV2 jox_lift_outside(const JoxLift *lift, uint32_t stop, const JoxStoreys *storeys);
 /* Returns the time for a way from standing to standing, s. */
 double jox_lift_travel_time(const JoxLift *lift, double metres);
 /* Returns the stop at a storey, or -1. */

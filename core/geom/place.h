@@ -22,6 +22,7 @@ typedef struct JoxPlace {
     uint32_t count;
     float radius;     /* m; points only */
     float spacing;    /* m; queues only */
+    bool refuge;      /* agents that cannot use stairs wait here while no lift takes them */
     int32_t start;    /* polygon: index of the line at which circuits begin to count, or -1 */
     int32_t *members; /* set: indices of places */
     uint32_t member_count;

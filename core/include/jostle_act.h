@@ -12,6 +12,7 @@
 #define JOSTLE_ACT_H
 
 #include "jostle.h"
+#include "jostle_read.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -93,6 +94,9 @@ JO_API bool jo_world_remove_wall(JoWorld *world, const char *name, JoError *erro
 /* Opens or closes the walls with a name. Agents in the way of a wall that closes are moved as
    for jo_world_add_wall. */
 JO_API bool jo_world_open_wall(JoWorld *world, const char *name, bool open, JoError *error);
+/* Sets the mode of a lift; the name `all` means all lifts (jo_world_lift tells the modes). */
+JO_API bool jo_world_set_lift_mode(JoWorld *world, const char *lift, JoLiftMode mode,
+                                   JoError *error);
 /* Sends a signal, which every agent hears in the next step, wherever it is. */
 JO_API bool jo_world_signal(JoWorld *world, const char *name, JoError *error);
 

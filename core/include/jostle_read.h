@@ -211,6 +211,26 @@ typedef struct JoStairState {
 } JoStairState;
 JO_API uint32_t jo_world_stair_count(const JoWorld *world);
 JO_API JoStairState jo_world_stair(const JoWorld *world, uint32_t stair);
+/* The use of a lift. */
+typedef enum JoLiftMode {
+    JO_LIFT_IN_USE,     /* serves calls in the direction of travel */
+    JO_LIFT_OUT_OF_USE, /* lets riders out at the next storey, and stands */
+    JO_LIFT_FIREMEN     /* fetches people storey by storey, and takes them to its home storey */
+} JoLiftMode;
+/* A lift and its car. */
+typedef struct JoLiftState {
+    const char *name; /* "" if there is no such lift; valid as long as the world */
+    JoLiftMode mode;
+    uint32_t capacity; /* people */
+    uint32_t people;   /* in the car */
+    uint32_t waiting;  /* people who have called it and wait before a door */
+    uint32_t storey;   /* where the car stands, or which it left: the storey of its riders */
+    bool moves;        /* the car is on its way */
+    double height;     /* m: elevation of the car's floor */
+    double open;       /* share of the door's width that is open, 0 to 1 */
+} JoLiftState;
+JO_API uint32_t jo_world_lift_count(const JoWorld *world);
+JO_API JoLiftState jo_world_lift(const JoWorld *world, uint32_t lift);
 
 #define JO_NO_STAIR 4294967295u
 /* A point in plan. */

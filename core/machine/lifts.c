@@ -42,17 +42,27 @@ int32_t jox_machines_ride_goal(const JoxMachineRun *run, uint32_t agent) {
     return term ? jox_target_place(run, agent, term->target) : -1;
 }
 
-bool jox_machine_rides(const JoxMachineRun *run, uint32_t machine) {
-    const JoxMachine *m = run->set->items[machine];
-    for (uint32_t s = 0; s < m->state_count; s++)
-        if (jox_ride_term(&m->states[s]))
-            return true;
-    return false;
+int32_t jox_machines_walk_goal(const JoxMachineRun *run, uint32_t agent) {
+    const JoxAgents *a = run->agents;
+    if (a->machine[agent] == JOX_NO_MACHINE)
+        return -1;
+    const JoxMachine *machine = jox_machine_of(run, agent);
+    const JoxState *state = &machine->states[a->state[agent]];
+    for (uint32_t t = 0; t < state->steer_count; t++) {
+        const JoxSteerTerm *term = &state->steer[t];
+        if ((term->kind != JOX_STEER_FIELD && term->kind != JOX_STEER_SEEK) ||
+            (term->target >= 0 && machine->targets[term->target].score))
+            continue;
+        const int32_t place = jox_target_place(run, agent, term->target);
+        if (place >= 0)
+            return place;
+    }
+    return -1;
 }
 
 bool jox_has_ridden(const JoxMachineRun *run, uint32_t agent) {
     const JoxRider *rider = jox_rider_find(run->lifts, run->agents->id[agent]);
-    return rider && rider->phase == JOX_RIDE_OVER;
+    return rider && !rider->itself && rider->phase == JOX_RIDE_OVER;
 }
 
 bool jox_is_riding(const JoxMachineRun *run, uint32_t agent) {

@@ -46,7 +46,8 @@ typedef enum JoxRidePhase {
     JOX_RIDE_OVER      /* it is on a storey where it was let out, or that it rides to */
 } JoxRidePhase;
 
-/* An agent whose state steers by `ride`. Sections hold no padding. */
+/* An agent whose state steers by `ride`, or that takes a lift on its way. Sections hold no padding.
+ */
 typedef struct JoxRider {
     uint32_t id;  /* of the agent */
     int32_t goal; /* place, or set of places, that it rides to */
@@ -56,7 +57,13 @@ typedef struct JoxRider {
     uint32_t since;    /* tick: when it called; once inside, when it boarded */
     int32_t spot;      /* index of its spot before the door or in the car; -1: none */
     float x, y;        /* m: position that it goes to, unless it approaches */
+    uint32_t itself;   /* 1: it walks to `goal`, on another storey, and chose the lift by itself */
 } JoxRider;
+
+/* The parameter `lifts`: an agent takes lifts by itself above the first, cannot use stairs above
+   the second. */
+#define JOX_LIFTS_NEVER 0.25f
+#define JOX_LIFTS_ONLY 0.75f
 
 /* Lifts as the machines see them. */
 typedef struct JoxLiftView {
@@ -79,8 +86,10 @@ const JoxRider *jox_rider_find(const JoxLiftView *view, uint32_t id);
 uint32_t jox_lift_near_stop(const JoxLiftView *view, uint32_t lift, JoxV2 at);
 /* Returns the place that an agent's state rides to, -1: its state does not ride. */
 int32_t jox_machines_ride_goal(const JoxMachineRun *run, uint32_t agent);
-/* Returns whether agents of a machine may ride in some state. */
-bool jox_machine_rides(const JoxMachineRun *run, uint32_t machine);
+/* Returns the place that an agent's state walks to (`field`, `seek`), -1: it walks to none. */
+int32_t jox_machines_walk_goal(const JoxMachineRun *run, uint32_t agent);
+/* Returns the refuge nearest to a position on its storey, -1: there is none. */
+int32_t jox_find_refuge(const JoxMachineRun *run, JoxV2 at);
 
 /* Functions for this folder alone. */
 /* Returns the term by which agents in a state ride, or NULL. */

@@ -113,6 +113,8 @@ typedef enum JoxRouteKind {
                         way, and wait at a gate */
     JOX_ROUTE_CROWD, /* as NOW, but slower where people bound for the place are held up: for agents
                         under the walking law */
+    JOX_ROUTE_STEPLESS, /* as NOW, without stairs and escalators: for agents that cannot use them;
+                           only in worlds with storeys */
     JOX_ROUTE_KINDS
 } JoxRouteKind;
 

@@ -281,6 +281,22 @@ static void collect_goals(const JoWorld *world, Goals *goals) {
     }
 }
 
+/* Returns whether a lift leads from the storey of a point to one from where nothing keeps an agent
+   from the place. */
+static bool leads_on_by_lift(const JoWorld *w, JoxHindrances *hindrances, JoxV2 at, float radius) {
+    const uint32_t storey = jox_storey_at(&w->model.storeys, at);
+    for (uint32_t l = 0; l < w->model.lift_count; l++) {
+        const JoxLift *lift = &w->model.lifts[l];
+        const int32_t from = jox_lift_stop_at(lift, storey);
+        for (uint32_t s = 0; from >= 0 && s < lift->stop_count; s++)
+            if (s != (uint32_t)from &&
+                jox_hindrances_kind(hindrances, jox_lift_outside(lift, s, &w->model.storeys),
+                                    radius) == JOX_HINDRANCE_NONE)
+                return true;
+    }
+    return false;
+}
+
 /* Warns of people who are kept from the n-th goal. */
 static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t first_of_sources,
                        const uint32_t *source_of, JoxDiagnostics *diagnostics) {
@@ -297,7 +313,11 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
         const float radius = jox_param(a, JOX_PARAM_radius, i);
         if (!(goals->of[i] >> n & 1) || jox_place_is_reached(places, goals->places[n], walls, at))
             continue;
-        const JoxHindranceKind kind = jox_hindrances_kind(hindrances, at, radius);
+        const JoxHindranceKind straight = jox_hindrances_kind(hindrances, at, radius);
+        const JoxHindranceKind kind =
+            straight != JOX_HINDRANCE_NONE && leads_on_by_lift(scene->world, hindrances, at, radius)
+                ? JOX_HINDRANCE_NONE
+                : straight;
         const uint32_t row = i < first_of_sources
                                  ? a->group[i]
                                  : spec->group_count + source_of[i - first_of_sources];

@@ -179,6 +179,7 @@ static const JoxKey KEYS[] = {
     {"place", "queue", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_QUEUE), .content = "xy[2]",
      .meaning = "points of a polyline, beginning at its head"},
     {"place", "spacing", NUMBER, "m", 0.1, 10, "0.5", TO(JoxPlace, spacing), .meaning = "of a queue: length for one person"},
+    {"place", "refuge", BOOL, "", 0, 0, "false", TO(JoxPlace, refuge), .example = "refuge: true", .meaning = "people who cannot use stairs (`set: {lifts: only}`) wait here while no lift takes them; they go to the nearest refuge of their storey"},
     {"place", "set", NAMES, "", 0, 0, "", READ(jox_key_read_place_points), SELECTS(JOX_PLACE_SET), .meaning = "names of other places, but not of sets"},
 
     {"wall", "solid", POINTS, "m", -FAR, FAR, "", READ(jox_key_read_wall_points), SELECTS(JOX_WALL_SOLID), .content = "xy[3]",

@@ -200,8 +200,10 @@ bool jox_finish_lift(const JoxReader *r, const JoxYaml *map, void *item, bool go
         return false;
     }
     const double floor = jox_polygon_area(lift->outline, lift->point_count);
+    const JoxYaml *capacity = jox_yaml_get(map, "capacity");
     if (lift->capacity / floor > DENSEST)
-        jox_scene_error(r, map, "bad-lift", "Enlarge `area`, or lower `capacity`",
+        jox_scene_error(r, capacity ? capacity : map, "bad-lift",
+                        "Enlarge `area`, or lower `capacity`",
                         "%u people do not fit into the %.2f m2 of '%.60s': more than %g on each m2",
                         lift->capacity, floor, lift->name, DENSEST);
     lift->load = (float)(isfinite(draft->load) ? draft->load : PERSON * lift->capacity);
@@ -240,6 +242,40 @@ static void add_places(const JoxReader *r, const JoxYaml *node, JoxLift *lift, J
     }
 }
 
+/* Returns whether two rings have floor in common: an edge of one crosses an edge of the other, or a
+   corner of one is inside the other. */
+static bool overlaps(const JoxV2 *a, uint32_t n, const JoxV2 *b, uint32_t m) {
+    if (jox_polygon_contains(a, n, jox_polygon_centroid(b, m)) ||
+        jox_polygon_contains(b, m, jox_polygon_centroid(a, n)))
+        return true;
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < m; k++)
+            if (jox_segment_crossing(a[i], a[(i + 1) % n], b[k], b[(k + 1) % m]))
+                return true;
+    return false;
+}
+
+/* Reports a shaft that overlaps one of a lift before it, or a stair, on a storey that both pass. */
+static void check_room(const JoxReader *r, const JoxYaml *map, const JoxSceneSpec *s, uint32_t l) {
+    const JoxLift *lift = &s->lifts[l];
+    const uint32_t first = lift->stops[0].storey, last = lift->stops[lift->stop_count - 1].storey;
+    for (uint32_t o = 0; o < l; o++) {
+        const JoxLift *other = &s->lifts[o];
+        if (other->stops[0].storey <= last && first <= other->stops[other->stop_count - 1].storey &&
+            overlaps(lift->outline, lift->point_count, other->outline, other->point_count))
+            jox_scene_error(r, map, "bad-lift", "Move one of them",
+                            "the shafts of '%.60s' and '%.60s' overlap", other->name, lift->name);
+    }
+    for (uint32_t k = 0; k < s->storeys.stair_count; k++) {
+        const JoxStair *stair = &s->storeys.stairs[k];
+        if (stair->lower <= last && first <= stair->upper &&
+            overlaps(lift->outline, lift->point_count, stair->outline, 2 * stair->path_count))
+            jox_scene_error(r, map, "bad-lift", "Move one of them",
+                            "the shaft of '%.60s' overlaps the stair '%.60s'", lift->name,
+                            stair->name);
+    }
+}
+
 void jox_key_read_lifts(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxSceneDraft *draft = r->draft;
     JoxSceneSpec *s = draft->scene;
@@ -262,13 +298,7 @@ void jox_key_read_lifts(const JoxReader *r, const JoxKey *key, const JoxYaml *no
     for (uint32_t l = 0; l < draft->lift_count; l++) {
         add_places(r, node, &draft->lifts[l].lift, s->places, &s->place_count);
         s->lifts[s->lift_count++] = draft->lifts[l].lift;
-        for (uint32_t o = 0; o < l; o++)
-            if (jox_polygon_contains(
-                    s->lifts[o].outline, s->lifts[o].point_count,
-                    jox_polygon_centroid(s->lifts[l].outline, s->lifts[l].point_count)))
-                jox_scene_error(r, node, "bad-lift", "Move one of them",
-                                "the shafts of '%.60s' and '%.60s' overlap", s->lifts[o].name,
-                                s->lifts[l].name);
+        check_room(r, jox_yaml_get(node, draft->lifts[l].lift.name), s, l);
     }
 }
 

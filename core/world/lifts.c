@@ -1,5 +1,6 @@
 #include "world/lifts.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -115,6 +116,30 @@ uint32_t jox_world_lift_waiting(const JoWorld *w, uint32_t lift) {
                  (w->state.lifts.riders[r].phase == JOX_RIDE_WAIT ||
                   w->state.lifts.riders[r].phase == JOX_RIDE_BOARD);
     return count;
+}
+
+JoxStranded jox_world_count_stranded(const JoWorld *w) {
+    const JoxAgents *a = &w->state.agents;
+    JoxStranded stranded = {0};
+    for (uint32_t i = 0; a->storeys && w->machines.fields && i < a->count; i++) {
+        const JoxV2 at = {a->x[i], a->y[i]};
+        if (!(jox_param(a, JOX_PARAM_lifts, i) > JOX_LIFTS_ONLY) ||
+            jox_rider_find(w->machines.lifts, a->id[i]))
+            continue;
+        const int32_t goal = jox_machines_walk_goal(&w->machines, i);
+        const JoxField *field =
+            goal < 0 ? NULL
+                     : w->machines.fields[(uint32_t)goal * JOX_ROUTE_KINDS + JOX_ROUTE_STEPLESS];
+        if (!field || jox_field_distance(field, at) < INFINITY)
+            continue;
+        if (jox_sheet_of(a->storeys, at.y) >= a->storeys->storey_count)
+            stranded.on_stairs++;
+        else if (jox_find_refuge(&w->machines, at) >= 0)
+            stranded.in_refuge++;
+        else
+            stranded.nowhere++;
+    }
+    return stranded;
 }
 
 /* Refuses cars and riders that no run can have. */

@@ -67,6 +67,13 @@ JoxCarLook jox_world_car_look(const JoWorld *world, uint32_t lift);
 int32_t jox_world_find_lift(const JoWorld *world, const char *name);
 /* Returns the number of agents that have called a lift and wait before a door. */
 uint32_t jox_world_lift_waiting(const JoWorld *world, uint32_t lift);
+/* People who cannot use stairs, whom no lift takes and no ramp leads to where they go. */
+typedef struct JoxStranded {
+    uint32_t in_refuge; /* they wait in a refuge, or go there */
+    uint32_t nowhere;   /* there is no refuge on their storey */
+    uint32_t on_stairs; /* they stand on a stair, put there by others */
+} JoxStranded;
+JoxStranded jox_world_count_stranded(const JoWorld *world);
 /* Lists the state; nothing in a world without lifts. */
 void jox_lifts_sections(JoWorld *world, JoxSections *sections);
 /* Lists the figures. */

@@ -190,6 +190,7 @@ function Target:contains(item) end
 ---@field stair_up jostle.OwnValue wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
 ---@field stair_down jostle.OwnValue the same down stairs, m/s; 0 to 5, default 0
 ---@field escalator_walk jostle.OwnValue chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
+---@field lifts jostle.OwnValue how an agent gets to other storeys: 0 never by a lift, 0.5 either by stairs or by a lift that takes less time, 1 only by lifts and ramps, as it cannot use stairs; 0 to 1, default 0.5
 
 ---@class jostle.Now
 ---@field speed jostle.Number present speed, m/s
@@ -265,6 +266,7 @@ function Target:contains(item) end
 ---@field stair_up? jostle.Value|jostle.Drawn wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
 ---@field stair_down? jostle.Value|jostle.Drawn the same down stairs, m/s; 0 to 5, default 0
 ---@field escalator_walk? jostle.Value|jostle.Drawn chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
+---@field lifts? jostle.Value|jostle.Drawn how an agent gets to other storeys: 0 never by a lift, 0.5 either by stairs or by a lift that takes less time, 1 only by lifts and ramps, as it cannot use stairs; 0 to 1, default 0.5
 
 ---@class jostle.Machine
 ---@field name? string name of the behaviour in messages and for mods
@@ -411,6 +413,7 @@ function Target:contains(item) end
 ---@field stair_up number wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
 ---@field stair_down number the same down stairs, m/s; 0 to 5, default 0
 ---@field escalator_walk number chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
+---@field lifts number how an agent gets to other storeys: 0 never by a lift, 0.5 either by stairs or by a lift that takes less time, 1 only by lifts and ramps, as it cannot use stairs; 0 to 1, default 0.5
 
 --- Another agent, or a body, as it was before the step. Memory alone can be set.
 ---@class jostle.View
@@ -462,6 +465,7 @@ function Target:contains(item) end
 ---@field stair_up number wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
 ---@field stair_down number the same down stairs, m/s; 0 to 5, default 0
 ---@field escalator_walk number chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
+---@field lifts number how an agent gets to other storeys: 0 never by a lift, 0.5 either by stairs or by a lift that takes less time, 1 only by lifts and ramps, as it cannot use stairs; 0 to 1, default 0.5
 
 --- A message that waited.
 ---@class jostle.Told
@@ -1081,6 +1085,7 @@ settings = nil
 ---@field stair_up number wanted speed up stairs, along the slope; 0: that of level ground, lessened by the slope, m/s; 0 to 5, default 0
 ---@field stair_down number the same down stairs, m/s; 0 to 5, default 0
 ---@field escalator_walk number chance that an agent walks on a running escalator; otherwise it stands on it; 0 to 1, default 0.25
+---@field lifts number how an agent gets to other storeys: 0 never by a lift, 0.5 either by stairs or by a lift that takes less time, 1 only by lifts and ramps, as it cannot use stairs; 0 to 1, default 0.5
 
 --- A body of a scene, as it is now: m and m/s.
 ---@class jostle.TestBody

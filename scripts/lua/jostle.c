@@ -298,12 +298,46 @@ static int signal(lua_State *L) {
     return done(L, s, good, &error);
 }
 
+/* Names of modes, in the order of JoLiftMode. */
+static const char *const LIFT_MODES[] = {"in_use", "out_of_use", "firemen", NULL};
+
 static int open_wall(lua_State *L) {
     JoError error = {0};
     Scene *s = scene_at(L);
     const bool open = lua_isnoneornil(L, 3) || lua_toboolean(L, 3),
                good = jo_scene_open_wall(s->scene, text_at(L, 2), open, &error);
     return done(L, s, good, &error);
+}
+
+/* scene:lift(name) returns a table, or nil if there is no such lift; scene:lift(name, mode) sets
+   its mode. */
+static int lift(lua_State *L) {
+    JoError error = {0};
+    Scene *s = scene_at(L);
+    JoWorld *world = jo_scene_world(s->scene);
+    const char *name = text_at(L, 2);
+    if (!lua_isnoneornil(L, 3)) {
+        const JoLiftMode mode = (JoLiftMode)luaL_checkoption(L, 3, NULL, LIFT_MODES);
+        const bool good = jo_world_set_lift_mode(world, name, mode, &error);
+        return done(L, s, good, &error);
+    }
+    for (uint32_t n = 0; n < jo_world_lift_count(world); n++) {
+        const JoLiftState at = jo_world_lift(world, n);
+        if (strcmp(at.name, name) != 0)
+            continue;
+        lua_createtable(L, 0, 8);
+        lua_pushstring(L, LIFT_MODES[at.mode]), lua_setfield(L, -2, "mode");
+        lua_pushinteger(L, at.capacity), lua_setfield(L, -2, "capacity");
+        lua_pushinteger(L, at.people), lua_setfield(L, -2, "people");
+        lua_pushinteger(L, at.waiting), lua_setfield(L, -2, "waiting");
+        lua_pushstring(L, jo_world_storey_name(world, at.storey)), lua_setfield(L, -2, "storey");
+        lua_pushboolean(L, at.moves), lua_setfield(L, -2, "moves");
+        lua_pushnumber(L, at.height), lua_setfield(L, -2, "height");
+        lua_pushnumber(L, at.open), lua_setfield(L, -2, "open");
+        return 1;
+    }
+    lua_pushnil(L);
+    return 1;
 }
 
 static int record(lua_State *L) {
@@ -430,16 +464,12 @@ static int probe(lua_State *L) {
     return luaL_error(L, "the scene has no probe '%s'", name);
 }
 
-static const luaL_Reg METHODS[] = {{"step", step},      {"run", run},
-                                   {"time", time_now},  {"duration", duration},
-                                   {"count", count},    {"hash", hash},
-                                   {"column", column},  {"agents", agents},
-                                   {"input", input},    {"signal", signal},
-                                   {"open", open_wall}, {"record", record},
-                                   {"probe", probe},    {"summary", summary},
-                                   {"close", close},    {"__gc", collect},
-                                   {"__close", close},  {"__tostring", describe},
-                                   {NULL, NULL}};
+static const luaL_Reg METHODS[] = {
+    {"step", step},     {"run", run},       {"time", time_now},       {"duration", duration},
+    {"count", count},   {"hash", hash},     {"column", column},       {"agents", agents},
+    {"input", input},   {"signal", signal}, {"open", open_wall},      {"lift", lift},
+    {"record", record}, {"probe", probe},   {"summary", summary},     {"close", close},
+    {"__gc", collect},  {"__close", close}, {"__tostring", describe}, {NULL, NULL}};
 
 __attribute__((visibility("default"))) int luaopen_jostle(lua_State *L);
 int luaopen_jostle(lua_State *L) {

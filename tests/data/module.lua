@@ -103,6 +103,11 @@ end)
 fails("frames too far apart", "0 to 1e6", scene.record, scene, folder .. "/c.sqlite", 1e9)
 fails("a seed that is no whole number", "seed must be a whole number", jostle.scene, "scenes/catch.yaml", { seed = 1 / 0 })
 
+local tower = jostle.scene("scenes/nist-2-7.yaml")
+check("a lift is seen", tower:lift("lift").mode == "in_use" and tower:lift("lift").capacity == 8 and tower:lift("none") == nil)
+check("its mode is set", tower:lift("lift", "firemen"):lift("lift").mode == "firemen")
+fails("the mode of no lift", "there is no lift 'left'", tower.lift, tower, "left", "in_use")
+
 -- What is closed stays so; what is forgotten is collected.
 do local last <close> = jostle.scene("scenes/catch.yaml"); last:step() end
 for _ = 1, 20 do jostle.scene("scenes/catch.yaml"):step() end

@@ -333,6 +333,122 @@ static void people_choose_the_lift_that_takes_least_time(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- ways over storeys ---- */
+
+/* Two storeys, 8 m apart, with a stair at x = 2 to 15 and a lift at x = 20; people upstairs at
+   `x` go to `goal` downstairs. */
+static JoScene *load_two_ways(const char *x, float goal, const char *lift, const char *people,
+                              const char *rest) {
+    static char text[4096];
+    snprintf(text, sizeof text,
+             "jostle: 1\n"
+             "storeys: {ground: {height: 0}, first: {height: 8}}\n"
+             "stairs: {stair: {from: ground, to: first, path: [[2, 8], [15, 8]], width: 1.5}}\n"
+             "lifts: {lift: {area: [[20, 5], [21.8, 6.8]], door: [[20.4, 5], [21.4, 5]]%s}}\n"
+             "walls: [{line: [[0, 0], [26, 0], [26, 10], [0, 10]], closed: true, storey: [ground, "
+             "first]}]\n"
+             "places: {low: {point: [%g, 1.5], radius: 1}, lobby: "
+             "{polygon: [[23, 1], [25, 1], [25, 3], [23, 3]], storey: first%s}}\n"
+             "groups: {people: {at: [[%s, 3]], storey: first%s, journey: [{to: low}]}}\n",
+             lift, (double)goal, rest, x, people);
+    return load_scene_file(write_test_file("scene.yaml", text), NULL, 0);
+}
+
+/* Runs until somebody is on a storey, at most `seconds`; returns whether they are. */
+static bool wait_for_storey(JoScene *scene, uint32_t storey, double seconds) {
+    for (int n = 0; n < (int)(seconds * 20.0); n++) {
+        step_scene(scene, 1);
+        if (count_on_storey(scene, storey))
+            return true;
+    }
+    return false;
+}
+
+static void people_take_lift_or_stair_by_time(void **state) {
+    (void)state;
+    const struct {
+        const char *x;
+        float goal;
+        const char *lift, *people;
+        uint32_t carried;
+    } CASES[] = {
+        {"20.5", 24.0f, "", "", 1},                   /* the lift is near */
+        {"15.8", 1.5f, "", "", 0},                    /* the stair is */
+        {"20.5", 24.0f, ", speed: 0.1", "", 0},       /* a slow lift */
+        {"20.5", 24.0f, ", mode: out_of_use", "", 0}, /* none */
+        {"20.5", 24.0f, ", mode: firemen", "", 0},    /* not for those who can walk */
+        {"20.5", 24.0f, "", ", set: {lifts: never}", 0},
+        {"15.8", 1.5f, "", ", set: {lifts: only}", 1}, /* they cannot use the stair */
+        {"15.8", 1.5f, ", mode: firemen", ", set: {lifts: only}", 1},
+    };
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        JoScene *scene =
+            load_two_ways(CASES[k].x, CASES[k].goal, CASES[k].lift, CASES[k].people, "");
+        if (!wait_for_storey(scene, 0, 90) || get_figures(scene)->carried != CASES[k].carried)
+            fail_msg("case %zu: %u carried", k, (unsigned)get_figures(scene)->carried);
+        step_scene_seconds(scene, 40);
+        const JoxAgents *a = &scene->world->state.agents; /* they walk on to the place */
+        assert_true(fabsf(a->x[0] - CASES[k].goal) < 1.5f && a->y[0] < 3.0f);
+        jo_scene_free(scene);
+    }
+}
+
+static void who_cannot_use_stairs_waits_in_a_refuge(void **state) {
+    (void)state;
+    for (int refuge = 0; refuge < 2; refuge++) {
+        JoScene *scene = load_two_ways("15.8", 1.5f, ", mode: out_of_use", ", set: {lifts: only}",
+                                       refuge ? ", refuge: true" : "");
+        step_scene_seconds(scene, 40);
+        const JoxAgents *a = &scene->world->state.agents;
+        const JoxV2 plan = jox_in_plan(a->storeys, (JoxV2){a->x[0], a->y[0]});
+        const JoxStranded stranded = jox_world_count_stranded(scene->world);
+        assert_int_equal(count_on_storey(scene, 1), 1);
+        assert_int_equal(stranded.in_refuge, refuge);
+        assert_int_equal(stranded.nowhere, !refuge);
+        assert_int_equal(plan.x > 22.5f, refuge);
+        JoxText lines = {0};
+        jox_run_say_lifts(scene, &lines);
+        assert_non_null(strstr(lines.data, refuge ? "wait in a refuge" : "found neither a lift"));
+        jox_text_free(&lines);
+        jox_world_set_lift_mode(scene->world, -1, JOX_LIFT_FIREMEN); /* who fetch them */
+        assert_true(wait_for_storey(scene, 0, 90));
+        assert_int_equal(jox_world_count_stranded(scene->world).nowhere, 0);
+        jo_scene_free(scene);
+    }
+}
+
+/* ---- calls of programs ---- */
+
+static void programs_set_modes_and_see_cars(void **state) {
+    (void)state;
+    JoError error = {0};
+    JoScene *scene =
+        load_scene_text(TOWER("", "groups: {people: {behaviour: own.lua, count: 3, in: high}}\n"),
+                        RIDER("east.ground"));
+    JoWorld *world = jo_scene_world(scene);
+    assert_int_equal(jo_world_lift_count(world), 1);
+    assert_string_equal(jo_world_lift(world, 1).name, "");
+    step_scene_seconds(scene, 12);
+    JoLiftState lift = jo_world_lift(world, 0);
+    assert_string_equal(lift.name, "east");
+    assert_int_equal(lift.capacity, 8);
+    assert_int_equal(lift.waiting + lift.people, 3);
+    assert_true(jo_world_set_lift_mode(world, "east", JO_LIFT_OUT_OF_USE, &error));
+    step_scene_seconds(scene, 40);
+    lift = jo_world_lift(world, 0);
+    assert_int_equal(lift.mode, JO_LIFT_OUT_OF_USE);
+    assert_false(lift.moves);
+    assert_int_equal(lift.people, 0);
+    assert_true(jo_world_set_lift_mode(world, "all", JO_LIFT_IN_USE, &error));
+    assert_true(jo_scene_input(scene, "lift east firemen", &error));
+    assert_int_equal(jo_world_lift(world, 0).mode, JO_LIFT_FIREMEN);
+    assert_false(jo_world_set_lift_mode(world, "eats", JO_LIFT_IN_USE, &error));
+    assert_non_null(strstr(error.text, "Did you mean 'east'?"));
+    assert_false(jo_scene_input(scene, "lift east broken", &error));
+    assert_non_null(strstr(error.text, "in_use, out_of_use or firemen"));
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(people_ride_down_and_walk_on),
@@ -347,6 +463,9 @@ int main(void) {
         cmocka_unit_test(longest_queue_is_the_most_who_wait_in_any_step),
         cmocka_unit_test(snapshot_in_the_middle_of_a_ride_continues_exactly),
         cmocka_unit_test(people_choose_the_lift_that_takes_least_time),
+        cmocka_unit_test(people_take_lift_or_stair_by_time),
+        cmocka_unit_test(who_cannot_use_stairs_waits_in_a_refuge),
+        cmocka_unit_test(programs_set_modes_and_see_cars),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -1,8 +1,8 @@
 /* Random buildings: storeys of a plan with inner walls, joined by straight and dog-leg stairs at
-   any angle, ramps and escalators. Everybody stays on floor, passes no wall, and gets out; runs on
-   several threads and instruction sets have one hash, and go on from a saved state to the same one.
-   JOSTLE_BUILDINGS says how many buildings are tried (default 6), JOSTLE_BUILDING which is the
-   first. */
+   any angle, escalators, and lifts with riders. Everybody stays on floor, passes no wall, and gets
+   out; runs on several threads and instruction sets have one hash, and go on from a saved state to
+   the same one. JOSTLE_BUILDINGS says how many buildings are tried (default 6), JOSTLE_BUILDING
+   which is the first. */
 #include "base/number/random.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
@@ -20,7 +20,7 @@ static uint32_t draw_whole(Draw *d, uint32_t below) {
     return (uint32_t)draw_number(d, 0.0, (double)below);
 }
 
-enum { WIDTH = 40, DEPTH = 24 };
+enum { WIDTH = 40, DEPTH = 24, LONGEST = 400 /* s */ };
 
 /* Appends the path of a stair about a centre, turned by an angle. */
 static void add_path(Draw *d, double x, double y, double width, JoxText *out) {
@@ -39,6 +39,44 @@ static void add_path(Draw *d, double x, double y, double width, JoxText *out) {
                         y + sin(angle) * p[0] + cos(angle) * p[1]);
     }
     jox_text_add(out, "]");
+}
+
+/* Appends lifts beside the stairs, none to two, which serve all storeys; returns how many. */
+static uint32_t add_lifts(Draw *d, JoxText *out) {
+    const uint32_t lifts = draw_whole(d, 3);
+    if (lifts)
+        jox_text_add(out, "lifts:\n");
+    for (uint32_t l = 0; l < lifts; l++) {
+        const double x = l ? 0.6 : 37.6, y = l ? 19.0 : draw_number(d, 10.0, 13.0);
+        const double door = draw_number(d, 0.25, 0.6);
+        const double side = l ? x + 1.7 : x; /* towards the middle of the building */
+        jox_text_printf(out,
+                        "  l%u: {area: [[%g, %.3f], [%g, %.3f]], door: [[%g, %.3f], [%g, %.3f]], "
+                        "capacity: %u, speed: %.2f, dwell: %.1f, returns: %s}\n",
+                        l, x, y, x + 1.7, y + 1.9, side, y + door, side, y + door + 1.0,
+                        1 + draw_whole(d, 8), draw_number(d, 0.6, 2.5), draw_number(d, 0.0, 5.0),
+                        draw_whole(d, 2) ? "true" : "false");
+    }
+    return lifts;
+}
+
+/* Appends people who cannot use stairs, people who ride to a storey, and modes of the lifts. */
+static void add_riders(Draw *d, uint32_t storeys, JoxText *out) {
+    for (uint32_t k = 1; k < storeys; k++) {
+        jox_text_printf(out,
+                        "  wheels%u: {count: %u, in: f%u, set: {lifts: only}, journey: [{exit: "
+                        "out}]}\n",
+                        k, 1 + draw_whole(d, 3), k);
+        jox_text_printf(
+            out, "  riders%u: {count: %u, in: f%u, journey: [{ride: l0.s%u}, {exit: out}]}\n", k,
+            1 + draw_whole(d, 3), k, draw_whole(d, k));
+    }
+    const uint32_t from = 5 + draw_whole(d, 30);
+    jox_text_printf(out,
+                    "events:\n  - {at: %u, lift: all, mode: %s}\n  - {at: %u, lift: all, mode: "
+                    "in_use}\n",
+                    from, draw_whole(d, 2) ? "firemen" : "out_of_use",
+                    from + 5 + draw_whole(d, 20));
 }
 
 /* Writes a building; every storey has a stair to the next one that leads both ways. */
@@ -61,6 +99,8 @@ static void write_building(uint32_t building, JoxText *out) {
                                                             : ", kind: escalator, way: down}\n"
                                         : "}\n");
         }
+    Draw of_lifts = {building, 1000}; /* leaves the draws of the rest alone */
+    const uint32_t lifts = add_lifts(&of_lifts, out);
     jox_text_add(out, "walls:\n");
     for (uint32_t k = 0; k < storeys; k++) {
         jox_text_printf(
@@ -81,6 +121,8 @@ static void write_building(uint32_t building, JoxText *out) {
     for (uint32_t k = 0; k < storeys; k++)
         jox_text_printf(out, "  g%u: {count: %u, in: f%u, journey: [{exit: out}]}\n", k,
                         5 + draw_whole(&d, 20), k);
+    if (lifts)
+        add_riders(&of_lifts, storeys, out);
 }
 
 static JoError error;
@@ -138,7 +180,7 @@ static void everybody_gets_out_of_random_buildings(void **state) {
             jox_text_free(&text);
             continue;
         }
-        for (int n = 0; one->world->state.agents.count && n < 200 * 20; n++) {
+        for (int n = 0; one->world->state.agents.count && n < LONGEST * 20; n++) {
             JoxText saved = {0};
             step_scene(one, 1);
             step_scene(other, 1);

@@ -7,7 +7,38 @@
 #define BOUND(keys) STAIR("from: ground, to: first, " keys)
 #define PLAIN "path: [[4, 0], [9, 0]]"
 
+#define LIFT(keys) STOREYS "lifts: {e: {" keys "}}\n" GROUP
+#define SHAFT "area: [[10, 5], [11.6, 6.8]]"
+#define DOOR "door: [[10.3, 5], [11.2, 5]]"
+
 static const JoxErrorCase CASES[] = {
+    {"lifts: @{e: {" SHAFT ", " DOOR "}}\n" GROUP, "missing-key", "storeys: {"},
+    {LIFT(SHAFT ", " DOOR ", capacity: @0"), "out-of-range", NULL},
+    {LIFT(SHAFT ", " DOOR ", capacity: @30"), "bad-lift", NULL},
+    {LIFT(SHAFT ", " DOOR ", opening: @-1"), "out-of-range", NULL},
+    {LIFT(SHAFT ", " DOOR ", speed: @0"), "out-of-range", NULL},
+    {LIFT(SHAFT ", " DOOR ", home: @frist"), "unknown-storey", "Did you mean 'first'?"},
+    {LIFT(SHAFT ", " DOOR ", storeys: [ground, @second]"), "unknown-storey", NULL},
+    {STOREYS "lifts: {e: @{" SHAFT ", " DOOR ", storeys: [first]}}\n" GROUP, "bad-lift",
+     "storeys: ["},
+    {LIFT(SHAFT ", " DOOR ", mode: @broken"), "bad-value", NULL},
+    {STOREYS "lifts: {e: @{" SHAFT "}}\n" GROUP, "bad-lift", "door: ["},
+    {STOREYS "lifts: {e: @{" SHAFT ", door: [[10.3, 4], [11.2, 4]]}}\n" GROUP, "bad-lift",
+     "one side"},
+    {STOREYS "lifts: {e: @{" SHAFT ", door: [[10.3, 5], [10.6, 5]]}}\n" GROUP, "bad-lift",
+     "0.8 to 1.1 m"},
+    {STOREYS "lifts: {e: {" SHAFT ", " DOOR "}, w: @{area: [[11, 5], [13, 7]], door: [[11.2, 5], "
+             "[12.2, 5]]}}\n" GROUP,
+     "bad-lift", "Move"},
+    {STOREYS "lifts: {e: @{" SHAFT ", " DOOR "}}\nstairs: {n: {from: ground, to: first, path: [[6, "
+             "6], [12, 6]]}}\n" GROUP,
+     "bad-lift", "Move"},
+    {STOREYS "lifts: {e: {" SHAFT ", " DOOR
+             "}}\nevents: [{at: 5, lift: @w, mode: firemen}]\n" GROUP,
+     "unknown-lift", NULL},
+    {STOREYS "lifts: {e: {" SHAFT ", " DOOR "}}\n"
+             "groups: {g: {at: [[0, 0]], journey: [{ride: @e.frist}]}}\n",
+     "unknown-place", "Did you mean 'e.first'?"},
     {STOREYS "places: {a: {point: [0, 0], storey: @frist}}\n" GROUP, "unknown-storey",
      "Did you mean 'first'?"},
     {"walls: [{line: [[0, 0], [9, 0]], storey: [@first]}]\n" GROUP, "unknown-storey", "storeys: {"},

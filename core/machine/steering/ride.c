@@ -13,6 +13,17 @@ static void face_door(const JoxMachineRun *run, const JoxRider *rider, uint32_t 
     run->agents->face_y[i] = stop->out.y;
 }
 
+void jox_steer_rider(const JoxMachineRun *run, const JoxRider *rider, JoxSteer *s, uint32_t n) {
+    const JoxAgents *a = run->agents;
+    const uint32_t i = s->index[n];
+    const JoxV2 at = {a->x[i], a->y[i]}, to = {rider->x, rider->y};
+    const JoxV2 way = jox_steer_arrive(at, to, jox_param(a, JOX_PARAM_speed, i));
+    s->way_x[n] = way.x;
+    s->way_y[n] = way.y;
+    if (rider->phase == JOX_RIDE_INSIDE && jox_length(jox_sub(to, at)) < AT_SPOT)
+        face_door(run, rider, i);
+}
+
 void jox_steer_ride(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                     JoxSteer *s) {
     const JoxAgents *a = run->agents;
@@ -23,16 +34,9 @@ void jox_steer_ride(const JoxMachineRun *run, const JoxMachine *machine, const J
             jox_weight_counts(s->by[n]) ? jox_ride_approach(run, s->index[n], goals[n]) : -1;
     jox_steer_to_places(run, term, s, places);
     for (uint32_t n = 0; n < s->count; n++) {
-        const uint32_t i = s->index[n];
-        const JoxRider *rider = jox_rider_find(run->lifts, a->id[i]);
-        if (!rider || rider->goal != goals[n] || rider->phase == JOX_RIDE_APPROACH ||
-            !jox_weight_counts(s->by[n]))
-            continue;
-        const JoxV2 at = {a->x[i], a->y[i]}, to = {rider->x, rider->y};
-        const JoxV2 way = jox_steer_arrive(at, to, jox_param(a, JOX_PARAM_speed, i));
-        s->way_x[n] = way.x;
-        s->way_y[n] = way.y;
-        if (rider->phase == JOX_RIDE_INSIDE && jox_length(jox_sub(to, at)) < AT_SPOT)
-            face_door(run, rider, i);
+        const JoxRider *rider = jox_rider_find(run->lifts, a->id[s->index[n]]);
+        if (rider && rider->goal == goals[n] && rider->phase != JOX_RIDE_APPROACH &&
+            jox_weight_counts(s->by[n]))
+            jox_steer_rider(run, rider, s, n);
     }
 }

@@ -169,6 +169,78 @@ static void lead_to_place(Asking *q, int32_t *places, uint32_t first) {
         lead_by_fields(q);
 }
 
+/* ---- agents that cannot use stairs ---- */
+
+/* Returns the field of a place without stairs, requested; NULL: there is none yet. */
+static const JoxField *request_stepless(Asking *q, int32_t place) {
+    q->place = (uint32_t)place;
+    return request_field(q, JOX_ROUTE_STEPLESS);
+}
+
+int32_t jox_find_refuge(const JoxMachineRun *run, JoxV2 at) {
+    const JoxStoreys *storeys = run->agents->storeys;
+    int32_t best = -1;
+    float least = INFINITY;
+    for (uint32_t p = 0; p < run->place_count; p++) {
+        const JoxPlace *place = &run->places[p];
+        if (!place->refuge || place->count == 0 ||
+            jox_sheet_of(storeys, place->centre.y) != jox_sheet_of(storeys, at.y))
+            continue;
+        const float way = jox_length(jox_sub(jox_place_nearest(run->places, p, at), at));
+        if (way < least) {
+            least = way;
+            best = (int32_t)p;
+        }
+    }
+    return best;
+}
+
+/* Directs an agent without stairs: to its place, else to a refuge, else it stands. */
+static void lead_without_stairs(Asking *q, uint32_t n, int32_t place) {
+    const JoxMachineRun *run = q->run;
+    const JoxAgents *a = run->agents;
+    const uint32_t i = q->s->index[n];
+    const JoxV2 at = {a->x[i], a->y[i]};
+    const JoxField *field = run->fields ? request_stepless(q, place) : NULL;
+    q->number[0] = (uint8_t)n;
+    if (field && !jox_place_is_reached(run->places, (uint32_t)place, run->walls, at) &&
+        !(jox_field_distance(field, at) < INFINITY)) {
+        place = jox_find_refuge(run, at);
+        field = place >= 0 ? request_stepless(q, place) : NULL;
+    }
+    if (!field || jox_place_is_reached(run->places, (uint32_t)place, run->walls, at))
+        return;
+    const JoxV2 way = jox_field_direction(field, at);
+    store_bound_place(q, 0, field, jox_field_distance(field, at));
+    q->s->way_x[n] = way.x;
+    q->s->way_y[n] = way.y;
+}
+
+/* Redirects agents that take a lift to a place by themselves: to its door by a field, or to where
+   the lift wants them, and leads those that cannot use stairs. Both leave -1 in `left` where the
+   way is written. */
+static void lead_over_storeys(Asking *q, int32_t *left) {
+    const JoxMachineRun *run = q->run;
+    for (uint32_t n = 0; n < q->s->count; n++) {
+        const uint32_t i = q->s->index[n];
+        if (left[n] < 0)
+            continue;
+        const JoxRider *rider = jox_rider_find(run->lifts, run->agents->id[i]);
+        const bool rides = rider && rider->itself && rider->goal == left[n];
+        if (rides && rider->phase != JOX_RIDE_APPROACH) {
+            jox_steer_rider(run, rider, q->s, n);
+            left[n] = -1;
+            continue;
+        }
+        if (rides)
+            left[n] = run->lifts->lifts[rider->lift].stops[rider->from].place;
+        if (jox_param(run->agents, JOX_PARAM_lifts, i) > JOX_LIFTS_ONLY) {
+            lead_without_stairs(q, n, left[n]);
+            left[n] = -1;
+        }
+    }
+}
+
 void jox_steer_to_places(const JoxMachineRun *run, const JoxSteerTerm *term, JoxSteer *s,
                          const int32_t *places) {
     int32_t left[JOX_BATCH];
@@ -181,6 +253,8 @@ void jox_steer_to_places(const JoxMachineRun *run, const JoxSteerTerm *term, Jox
         s->way_x[n] = s->way_y[n] = 0.0f;
         left[n] = jox_weight_counts(s->by[n]) ? places[n] : -1;
     }
+    if (run->agents->storeys)
+        lead_over_storeys(&q, left);
     for (uint32_t n = 0; n < s->count; n++)
         if (left[n] >= 0)
             lead_to_place(&q, left, n);
@@ -282,6 +356,8 @@ int32_t jox_machines_field_goal(const JoxMachineRun *run, uint32_t i, bool *shut
 int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
     const JoxV2 p = {run->agents->x[i], run->agents->y[i]};
     int32_t place;
+    if (jox_rider_find(run->lifts, run->agents->id[i])) /* a lift leads there */
+        return -1;
     for (uint32_t n = 0; (place = find_field_goal(run, i, n)) >= 0; n++) {
         JoxField *const *ways = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
         if (leads_nowhere(ways[JOX_ROUTE_NOW], p) &&

@@ -57,6 +57,14 @@ JoxLiftResult jox_run_lift_result(const JoWorld *w, uint32_t lift) {
 
 void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
     const JoWorld *w = scene->world;
+    const JoxStranded stranded = jox_world_count_stranded(w);
+    if (stranded.in_refuge + stranded.nowhere + stranded.on_stairs) {
+        jox_json_object(json, "cannot_use_stairs");
+        jox_json_whole(json, "in_refuge", stranded.in_refuge);
+        jox_json_whole(json, "without_refuge", stranded.nowhere);
+        jox_json_whole(json, "on_stairs", stranded.on_stairs);
+        jox_json_end(json);
+    }
     if (!w->model.lift_count)
         return;
     jox_json_object(json, "lifts");
@@ -90,8 +98,24 @@ void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
     jox_json_end(json);
 }
 
+/* Appends a sentence on people who cannot use stairs; nothing for nobody. */
+static void say_stranded(uint32_t people, const char *where, JoxText *out) {
+    if (!people)
+        return;
+    jox_text_add(out, " ");
+    jox_text_noun(out, people, "person who cannot use stairs|people who cannot use stairs");
+    jox_text_printf(out, " %s.", where);
+}
+
 void jox_run_say_lifts(const JoScene *scene, JoxText *out) {
     const JoWorld *w = scene->world;
+    const JoxStranded stranded = jox_world_count_stranded(w);
+    say_stranded(stranded.in_refuge, "found no lift that takes them, and wait in a refuge", out);
+    say_stranded(stranded.nowhere,
+                 "found neither a lift that takes them nor a refuge on their storey: give a place "
+                 "`refuge: true`, or a lift that is in use or left to firemen",
+                 out);
+    say_stranded(stranded.on_stairs, "stand on a stair, where others pushed them", out);
     for (uint32_t l = 0; l < w->model.lift_count; l++) {
         const JoxLiftResult r = jox_run_lift_result(w, l);
         jox_text_printf(out, " Lift %.60s carried ", r.name);

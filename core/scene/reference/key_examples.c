@@ -192,7 +192,7 @@ const JoxExample jox_scene_examples[] = {
      "  walkers: {behaviour: walker.lua, at: [[2, 2], [2, 3]], set: {goal: tree}}\n"},
     {"place", OPENING
      STOREYS
-     "places: {hall: {polygon: [[0, 0], [9, 0], [9, 6], [0, 6]], storey: first}}\n"
+     "places: {hall: {polygon: [[0, 0], [9, 0], [9, 6], [0, 6]], storey: first, refuge: true}}\n"
      STANDER},
     {"wall", OPENING
      "walls:\n"

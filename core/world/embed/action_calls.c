@@ -212,6 +212,16 @@ bool jo_world_open_wall(JoWorld *world, const char *name, bool open, JoError *er
     return act_by_name(world, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, name, NULL, 0, error);
 }
 
+bool jo_world_set_lift_mode(JoWorld *world, const char *lift, JoLiftMode mode, JoError *error) {
+    JOX_REQUIRE(world && !world->busy && lift && (uint32_t)mode < JOX_LIFT_MODES, false);
+    JoxInputEntry entry = {
+        .verb = JOX_INPUT_LIFT,
+        .names = {(char *)(uintptr_t)lift, (char *)(uintptr_t)jox_lift_mode_names[mode]}};
+    JOX_GUARD (world->heap, error)
+        return false;
+    return jox_input_perform(world, &entry, error);
+}
+
 bool jo_world_signal(JoWorld *world, const char *name, JoError *error) {
     JOX_REQUIRE(world && !world->busy && name, false);
     return act_by_name(world, JOX_INPUT_SIGNAL, name, NULL, 0, error);

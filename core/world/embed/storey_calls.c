@@ -48,6 +48,33 @@ JoStairState jo_world_stair(const JoWorld *world, uint32_t stair) {
                           .closed = at->closed};
 }
 
+_Static_assert((int)JO_LIFT_IN_USE == JOX_LIFT_IN_USE &&
+                   (int)JO_LIFT_OUT_OF_USE == JOX_LIFT_OUT_OF_USE &&
+                   (int)JO_LIFT_FIREMEN == JOX_LIFT_FIREMEN,
+               "modes are numbered alike");
+
+uint32_t jo_world_lift_count(const JoWorld *world) {
+    JOX_REQUIRE(world, 0);
+    return world->model.lift_count;
+}
+
+JoLiftState jo_world_lift(const JoWorld *world, uint32_t lift) {
+    JOX_REQUIRE(world, (JoLiftState){.name = ""});
+    if (lift >= world->model.lift_count)
+        return (JoLiftState){.name = ""};
+    const JoxLift *at = &world->model.lifts[lift];
+    const JoxCarLook car = jox_world_car_look(world, lift);
+    return (JoLiftState){.name = at->name,
+                         .mode = (JoLiftMode)car.mode,
+                         .capacity = at->capacity,
+                         .people = car.people,
+                         .waiting = jox_world_lift_waiting(world, lift),
+                         .storey = at->stops[car.stop].storey,
+                         .moves = world->state.lifts.cars[lift].target >= 0,
+                         .height = (double)car.height,
+                         .open = (double)car.open};
+}
+
 JoWhere jox_world_where(const JoWorld *world, JoxV2 at) {
     const JoxStoreys *s = get_storeys(world);
     const JoxV2 plan = jox_in_plan(s, at);

@@ -39,7 +39,8 @@ typedef enum JoxInputVerb {
     JOX_INPUT_DELETE,
     JOX_INPUT_WALL,
     JOX_INPUT_UNWALL,
-    JOX_INPUT_SETTING
+    JOX_INPUT_SETTING,
+    JOX_INPUT_LIFT
 } JoxInputVerb;
 
 /* Greatest size of one file, bytes. */

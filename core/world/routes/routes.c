@@ -208,6 +208,8 @@ static Making *prepare_field(const JoxRouteStage *w, uint32_t place,
     copy_stairs(w->agents->storeys, making);
     jox_walls_for_ways(&making->walls, w->all_walls, look->gates);
     jox_obstacles_add(&w->routes->obstacles, look->bodies, &making->walls);
+    for (uint32_t k = 0; look->stepless && k < making->stairs.stair_count; k++)
+        making->stairs.stairs[k].closed |= making->stairs.stairs[k].kind != JOX_STAIR_RAMP;
     making->places = jox_places_copy_goal(w->places, place, &making->place_count);
     if (jox_routes_lead_over_edges(w->agents, w->all_walls)) {
         jox_routes_add_wall_images(w->agents, &making->walls);
@@ -242,8 +244,11 @@ static Making *begin_route(const JoxRouteStage *w, uint32_t place, JoxRouteKind 
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
     JOX_ASSERT(!route->making); /* a running one would be lost */
     const bool open = kind == JOX_ROUTE_OPEN, crowd = kind == JOX_ROUTE_CROWD;
-    const JoxRouteFieldOptions look = {!open, open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
-                                       CLEARANCE};
+    const JoxRouteFieldOptions look = {.gates = !open,
+                                       .bodies =
+                                           open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
+                                       .clearance = CLEARANCE,
+                                       .stepless = kind == JOX_ROUTE_STEPLESS};
     Making *making = prepare_field(w, place, &look, crowd ? MOST_CROWD_CELLS : MOST_CELLS,
                                    routes->fields[place * JOX_ROUTE_KINDS + kind]);
     if (crowd) {
@@ -299,10 +304,10 @@ static bool is_due(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind) {
                (double)(w->tick - route->asked) * w->dt >=
                    get_crowd_pause(routes->fields[at]) - 1e-9;
     if (!routes->fields[at])
-        return routes->count < MOST_FIELDS && (kind == JOX_ROUTE_NOW || can_be_blocked(w));
+        return routes->count < MOST_FIELDS && (kind != JOX_ROUTE_OPEN || can_be_blocked(w));
     if (route->walls != routes->walls)
         return true;
-    return kind == JOX_ROUTE_NOW && route->obstacles != routes->obstacles.version &&
+    return kind != JOX_ROUTE_OPEN && route->obstacles != routes->obstacles.version &&
            (double)(w->tick - route->asked) * w->dt >= PAUSE - 1e-9;
 }
 
@@ -468,7 +473,8 @@ void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
     JOX_SECTION(s, "count", routes->count);
     jox_section(s, "wanted", routes->wanted, 1, routes->capacity);
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
-        list_route(routes, w->agents->storeys, at, s);
+        if (at % JOX_ROUTE_KINDS != JOX_ROUTE_STEPLESS || w->agents->storeys)
+            list_route(routes, w->agents->storeys, at, s);
     if (s->mode == JOX_SECTIONS_RESTORE && find_fault(w))
         jox_sections_fail(s, "routes", find_fault(w));
 }

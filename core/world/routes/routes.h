@@ -42,6 +42,7 @@ typedef struct JoxRouteFieldOptions {
     bool gates;      /* closed gates */
     uint32_t bodies; /* a bit for each JoxObstacleKind */
     float clearance; /* m: distance to walls, at least 0.05 */
+    bool stepless;   /* stairs and escalators are closed */
 } JoxRouteFieldOptions;
 /* Makes a field to a place at once, to see whether a way leads there; the caller frees it. Needs
    walls or agents. Changes nothing: bodies are where routes saw them last. */

@@ -62,6 +62,31 @@ bool jox_perform_close(JoWorld *world, const JoxInputEntry *entry, JoxText *why)
     return jox_event_open(world, entry->names[0], false, why);
 }
 
+bool jox_perform_lift(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
+    const char *name = entry->names[0], *mode = entry->names[1], *names[JOX_MOST_LIFTS + 1];
+    const int32_t lift = jox_world_find_lift(world, name);
+    char hint[JOX_HINT];
+    uint32_t count = 0, m = 0;
+    while (m < JOX_LIFT_MODES && strcmp(mode, jox_lift_mode_names[m]) != 0)
+        m++;
+    for (; count < world->model.lift_count; count++)
+        names[count] = world->model.lifts[count].name;
+    names[count++] = "all";
+    if (world->model.lift_count == 0) {
+        jox_text_printf(why, "there are no lifts; a scene has them by `lifts`");
+    } else if (lift < 0 && strcmp(name, "all") != 0) {
+        const char *near = jox_did_you_mean(name, names, count, hint);
+        jox_text_printf(why, "there is no lift '%.60s'%s%s", name, near ? ". " : "",
+                        near ? near : "");
+    } else if (m == JOX_LIFT_MODES) {
+        jox_text_printf(why, "a lift has no mode '%.60s': in_use, out_of_use or firemen", mode);
+    } else {
+        jox_world_set_lift_mode(world, lift, (JoxLiftMode)m);
+        return true;
+    }
+    return false;
+}
+
 bool jox_perform_signal(JoWorld *world, const JoxInputEntry *entry, JoxText *why) {
     return jox_event_signal(world, entry->names[0], why);
 }

@@ -17,6 +17,6 @@ JoxPerform jox_perform_player, jox_perform_push, jox_perform_spawn, jox_perform_
 JoxPerform jox_perform_throw, jox_perform_box, jox_perform_grab, jox_perform_drag,
     jox_perform_release, jox_perform_impulse, jox_perform_place, jox_perform_velocity,
     jox_perform_delete, jox_perform_open, jox_perform_close, jox_perform_signal, jox_perform_wall,
-    jox_perform_unwall;
+    jox_perform_unwall, jox_perform_lift;
 
 #endif

@@ -121,7 +121,10 @@ const JoxVerb jox_input_verbs[] = {
     [JOX_INPUT_SETTING] = {"setting", {CALLED("MOD"), CALLED("SETTING"), CALLED("VALUE")}, 3, 3,
      "setting gentle-queue chance 0.05",
      "changes a setting of a mod: the behaviours that it patches are loaded again, and go on from their states",
-     "parameters", NULL}};
+     "parameters", NULL},
+    [JOX_INPUT_LIFT] = {"lift", {CALLED("LIFT"), CALLED("MODE")}, 2, 2, "lift east out_of_use",
+     "sets the mode of a lift, or of `all` lifts: `in_use`, `out_of_use` or `firemen`",
+     JOX_VERB_PROGRAM, jox_perform_lift}};
 /* clang-format on */
 const uint32_t jox_input_verb_count = sizeof jox_input_verbs / sizeof *jox_input_verbs;
 static_assert(sizeof jox_input_verbs / sizeof *jox_input_verbs <= JOX_INPUT_MOST_VERBS,

@@ -16,11 +16,11 @@ from .compare import Comparison, compare
 from .live import LivePage, RecordingPage
 from .picture import Picture
 from .recording import Recording
-from .scene import Agent, Body, Scene, Stair, Storey, Where
+from .scene import Agent, Body, Lift, Scene, Stair, Storey, Where
 from .sweep import Sweep, sweep
 from .table import Table
 
-__all__ = ["Agent", "Body", "Comparison", "Error", "Events", "LivePage", "Picture", "Recording", "RecordingPage", "Scene", "Stair",
+__all__ = ["Agent", "Body", "Comparison", "Error", "Events", "Lift", "LivePage", "Picture", "Recording", "RecordingPage", "Scene", "Stair",
            "Storey", "Sweep", "Table", "Where", "Word", "compare", "data_folder", "sweep", "version"]
 
 

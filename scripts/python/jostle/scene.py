@@ -76,6 +76,25 @@ class Stair(NamedTuple):
     closed: bool
 
 
+class Lift(NamedTuple):
+    """A lift and its car: `capacity`, `people` in the car and those `waiting` before a door; the number of the `storey` where it
+    stands or which it left, its `height` in m, the share of its door that is `open`, and its mode, one of `LIFT_MODES`."""
+
+    name: str
+    mode: str
+    capacity: int
+    people: int
+    waiting: int
+    storey: int
+    moves: bool
+    height: float
+    open: float
+
+
+# As the library numbers them.
+LIFT_MODES = ("in_use", "out_of_use", "firemen")
+
+
 class Where(NamedTuple):
     """A point in plan, m: the height of the floor there, the number of the storey (on a stair that which is nearer in height),
     and the number of the stair or None."""
@@ -306,6 +325,14 @@ class Scene:
         found = (lib.jo_world_stair(world, n) for n in range(lib.jo_world_stair_count(world)))
         return [Stair(text_of(s.name), s.lower, s.upper, s.width, s.length, s.rise, s.belt, s.closed) for s in found]
 
+    @property
+    def lifts(self) -> list:
+        """The lifts, with their cars as they are at present."""
+        world = self._live()
+        found = (lib.jo_world_lift(world, n) for n in range(lib.jo_world_lift_count(world)))
+        return [Lift(text_of(at.name), LIFT_MODES[at.mode], at.capacity, at.people, at.waiting, at.storey, at.moves, at.height,
+                     at.open) for at in found]
+
     def storey(self, storey: Union[int, str]) -> int:
         """The number of a storey that is given by name or number. KeyError where there is none."""
         names = [one.name for one in self.storeys]
@@ -424,6 +451,12 @@ class Scene:
     def open(self, wall: str, is_open: bool = True) -> None:
         """Opens or closes the walls of a name."""
         self._do(lib.jo_world_open_wall, self._world, named(wall), is_open)
+
+    def set_lift(self, lift: str, mode: str) -> None:
+        """The mode of a lift from now on, `in_use`, `out_of_use` or `firemen`; `all` means all lifts."""
+        if mode not in LIFT_MODES:
+            raise ValueError(f"a lift has no mode {mode!r}: {', '.join(LIFT_MODES)}")
+        self._do(lib.jo_world_set_lift_mode, self._world, named(lift), LIFT_MODES.index(mode))
 
     def add_wall(self, name: str, points: Sequence[Sequence[float]]) -> None:
         """A thin wall between 2 points or a solid with 4 corners, m."""

@@ -311,6 +311,21 @@ def test_storeys(path):
     assert 0 in stairs and len(scene) < 4
 
 
+def test_lifts(path):
+    lift = "lifts: {east: {area: [[16, 8], [17.6, 9.8]], door: [[16, 8.4], [16, 9.4]], capacity: 4}}\n"
+    path.write_text(STOREYS.replace("walls:", lift + "walls:", 1))
+    scene = jostle.Scene(path)
+    (east,) = scene.lifts
+    assert (east.name, east.mode, east.capacity, east.people, east.storey, east.height) == ("east", "in_use", 4, 0, 0, 0.0)
+    scene.set_lift("east", "out_of_use")
+    scene.set_lift("all", "firemen")
+    assert scene.lifts[0].mode == "firemen"
+    with pytest.raises(ValueError):
+        scene.set_lift("east", "broken")
+    with pytest.raises(jostle.Error, match="there is no lift 'west'"):
+        scene.set_lift("west", "in_use")
+
+
 def test_a_scene_without_storeys_has_the_storey_0(path):
     scene = jostle.Scene(path)
     assert scene.storeys == [] and scene.stairs == [] and scene.agent(0).storey == 0
