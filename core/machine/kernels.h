@@ -55,11 +55,11 @@ void jox_steer_to_places(const JoxMachineRun *run, const JoxSteerTerm *term, Jox
 /* Returns whether the straight way from a point to a place leads off the storey, or the stair,
    where the point is. Only in a world of storeys. */
 bool jox_is_place_elsewhere(const JoxMachineRun *run, uint32_t place, JoxV2 at);
-/* steering/ride.c: computes `way` of agent n of a batch, which is at a lift or in it. */
+/* steering/at_lift.c: computes `way` of agent n of a batch, which is at a lift or in it. */
 struct JoxRider;
 void jox_steer_rider(const JoxMachineRun *run, const struct JoxRider *rider, JoxSteer *steer,
                      uint32_t n);
-/* Computes `way` of a term ride. */
+/* steering/ride.c: computes `way` of a term ride. */
 void jox_steer_ride(const JoxMachineRun *run, const JoxMachine *machine, const JoxSteerTerm *term,
                     JoxSteer *steer);
 

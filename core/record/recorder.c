@@ -138,6 +138,23 @@ static bool commit_frames(JoxRecorder *r) {
     return write_bounds(r) && execute_sql(r, "COMMIT") && check_file_name(r);
 }
 
+/* Writes the cars of a frame. */
+static bool write_cars(JoxRecorder *r, const JoxRecorderFrame *f) {
+    bool good = true;
+    for (uint32_t k = 0; good && k < f->car_count; k++) {
+        const JoxRecordCar *car = &f->cars[k];
+        sqlite3_bind_int64(r->car, 1, f->number);
+        sqlite3_bind_int64(r->car, 2, car->lift);
+        sqlite3_bind_double(r->car, 3, round((double)car->look.height * 1e3) / 1e3);
+        sqlite3_bind_double(r->car, 4, round((double)car->look.open * 1e3) / 1e3);
+        sqlite3_bind_int64(r->car, 5, car->storey);
+        sqlite3_bind_int64(r->car, 6, car->look.people);
+        sqlite3_bind_text(r->car, 7, jox_lift_mode_names[car->look.mode], -1, SQLITE_STATIC);
+        good = jox_recorder_execute(r, r->car);
+    }
+    return good;
+}
+
 static bool write_frame(JoxRecorder *r, const JoxRecorderFrame *f) {
     if (sqlite3_get_autocommit(r->db->sqlite) && !execute_sql(r, "BEGIN"))
         return false;
@@ -158,7 +175,7 @@ static bool write_frame(JoxRecorder *r, const JoxRecorderFrame *f) {
         if (!jox_recorder_execute(r, r->body))
             return false;
     }
-    if (!jox_recorder_write_cars(r, f))
+    if (!write_cars(r, f))
         return false;
     return jox_clock_wall() - r->committed < COMMITTED || commit_frames(r);
 }

@@ -1,6 +1,4 @@
-/* Writes the lifts of a recording: shafts and doors in plan, and cars whenever they change. */
-#include <math.h>
-
+/* Writes the lifts of a recording: shafts and doors in plan. recorder.c writes their cars. */
 #include "record/recorder_parts.h"
 
 static bool write_lift(JoxRecorder *r, uint32_t number, const JoxLift *lift) {
@@ -44,20 +42,4 @@ void jox_recorder_describe_lifts(JoxRecorder *r, const JoxLift *lifts, uint32_t 
     }
     r->failed |= !good;
     jox_recorder_return(r);
-}
-
-bool jox_recorder_write_cars(JoxRecorder *r, const JoxRecorderFrame *f) {
-    bool good = true;
-    for (uint32_t k = 0; good && k < f->car_count; k++) {
-        const JoxRecordCar *car = &f->cars[k];
-        sqlite3_bind_int64(r->car, 1, f->number);
-        sqlite3_bind_int64(r->car, 2, car->lift);
-        sqlite3_bind_double(r->car, 3, round((double)car->look.height * 1e3) / 1e3);
-        sqlite3_bind_double(r->car, 4, round((double)car->look.open * 1e3) / 1e3);
-        sqlite3_bind_int64(r->car, 5, car->storey);
-        sqlite3_bind_int64(r->car, 6, car->look.people);
-        sqlite3_bind_text(r->car, 7, jox_lift_mode_names[car->look.mode], -1, SQLITE_STATIC);
-        good = jox_recorder_execute(r, r->car);
-    }
-    return good;
 }

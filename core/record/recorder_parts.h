@@ -53,8 +53,6 @@ bool jox_recorder_prepare(JoxRecorder *recorder, sqlite3_stmt **statement, const
 bool jox_recorder_execute(JoxRecorder *recorder, sqlite3_stmt *statement);
 /* recorder_storeys.c: appends "x y, x y, ..." */
 void jox_recorder_write_points(JoxText *out, const JoxV2 *points, uint32_t count);
-/* recorder_lifts.c: writes the cars of a frame. */
-bool jox_recorder_write_cars(JoxRecorder *recorder, const JoxRecorderFrame *frame);
 bool jox_recorder_set_metadata(JoxRecorder *recorder, const char *key, const char *value);
 
 #endif
