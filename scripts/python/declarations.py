@@ -5,7 +5,7 @@ from pathlib import Path
 
 import cffi
 
-HEADERS = ("jostle.h", "jostle_act.h", "jostle_read.h", "jostle_tell.h", "jostle_words.h", "jostle_live.h", "jostle_tools.h")
+HEADERS = ("jostle.h", "jostle_read.h", "jostle_act.h", "jostle_tell.h", "jostle_words.h", "jostle_live.h", "jostle_tools.h")
 
 
 def include_folder() -> Path:
