@@ -2,7 +2,7 @@
 # in a minute.
 . tests/scenes/lib.sh
 MOST=60    # s
-LOOKED=100 # s: longest run of a scene
+LOOKED=75 # s: longest run of a scene
 
 # stood SCENE SECONDS [OPTION...]: prints the longest time, s, for which a person stood
 stood() { "$JOSTLE" run "$1" --for "${@:2}" --quiet --summary - 2>/dev/null | tr '\n' ' ' | sed -n 's/.*"stood_longest": { *"s": \([0-9.]*\).*/\1/p'; }
