@@ -1,5 +1,6 @@
 /* Runs of scenes with storeys: people find their way over stairs, also stairs one above the other.
  */
+#include "run/probe_listener.h"
 #include "unit/scene_loader.h"
 
 #define TOWER                                                                                      \
@@ -206,6 +207,104 @@ static void seekers_climb_stairs(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- storeys that nothing joins ---- */
+
+#define LONERS_HEAD                                                                                \
+    "jostle: 1\n"                                                                                  \
+    "storeys: {ground: {height: 0}, first: {height: 3}}\n"                                         \
+    "walls:\n"                                                                                     \
+    "  - {line: [[10, 1], [10, 0], [0, 0], [0, 10], [10, 10], [10, 9]], storey: ground}\n"         \
+    "  - {line: [[0, 1.5], [0, 0], [10, 0], [10, 10], [0, 10], [0, 9]], storey: first}\n"          \
+    "places:\n"                                                                                    \
+    "  east: {polygon: [[13, 0], [14, 0], [14, 10], [13, 10]]}\n"                                  \
+    "  west: {polygon: [[-4, 0], [-3, 0], [-3, 10], [-4, 10]], storey: first}\n"                   \
+    "probes:\n"                                                                                    \
+    "  low door: {flow: [[10, 9], [10, 1]]}\n"                                                     \
+    "  high door: {flow: [[0, 1.5], [0, 9]], storey: first}\n"                                     \
+    "groups:\n"
+
+/* Appends a group of people in rows `apart`, m, who walk to a place. */
+static void add_loners(JoxText *out, const char *name, const char *to, const char *storey,
+                       double apart) {
+    jox_text_printf(out, "  %s: {behaviour: %s.lua, storey: %s, at: [", name, to, storey);
+    const char *between = "";
+    for (double x = 2.0; x < 7.5; x += apart)
+        for (double y = 2.2; y < 7.7; y += apart) {
+            jox_text_printf(out, "%s[%g, %g]", between, x, y);
+            between = ", ";
+        }
+    jox_text_add(out, "]}\n");
+}
+
+/* What becomes of the people of a storey: a hash over all steps, and those who passed its door. */
+typedef struct Fate {
+    uint64_t hash;
+    uint32_t passed;
+} Fate;
+
+static void add_to_fate(Fate *fate, const JoxAgents *a, uint32_t i) {
+    const float cells[] = {a->x[i], a->y[i], a->vx[i], a->vy[i]};
+    for (size_t c = 0; c < sizeof cells; c++)
+        fate->hash = (fate->hash ^ ((const unsigned char *)cells)[c]) * 1099511628211u;
+}
+
+/* Runs people on a storey, and on the other one if `both`, in rows `apart`, m. Those of the first
+   have the lowest ids, on which random numbers depend. */
+static void run_loners(uint32_t storey, bool both, double apart, Fate fates[2]) {
+    static const char *const GROUPS[2][3] = {{"low", "east", "ground"}, {"high", "west", "first"}};
+    JoxText text = {0};
+    jox_text_add(&text, LONERS_HEAD);
+    for (uint32_t k = 0; k < (both ? 2u : 1u); k++) {
+        const char *const *group = GROUPS[(storey + k) % 2];
+        add_loners(&text, group[0], group[1], group[2], apart);
+    }
+    static const char *const PLACES[] = {"east", "west"};
+    for (int k = 0; k < 2; k++) {
+        char file[32], machine[300];
+        snprintf(file, sizeof file, "%s.lua", PLACES[k]);
+        snprintf(machine, sizeof machine,
+                 "return machine { name = \"%s\", version = 1, start = \"Go\", defaults = {speed = "
+                 "1.3}, states = { Go = { steer = seek \"%s\" } } }\n",
+                 PLACES[k], PLACES[k]);
+        write_test_file(file, machine);
+    }
+    JoScene *scene = load_scene_file(write_test_file("scene.yaml", text.data), NULL, 0);
+    const JoWorld *w = scene->world;
+    fates[0] = fates[1] = (Fate){.hash = 14695981039346656037u};
+    for (int n = 0; n < 500; n++) {
+        step_scene(scene, 1);
+        for (uint32_t rank = 0; rank < w->state.agents.count; rank++) {
+            const uint32_t i = w->state.agents.by_rank[rank];
+            add_to_fate(&fates[jox_sheet_of(&w->model.storeys, w->state.agents.y[i])],
+                        &w->state.agents, i);
+        }
+    }
+    for (uint32_t p = 0; p < 2; p++)
+        fates[p].passed = jox_probe_passages(jox_run_probe(scene, p));
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
+/* People of two storeys walk to the bit as if the other storey were empty, as long as nobody is
+   touched: contacts of all people are solved together, until the last one is. */
+static void storeys_that_nothing_joins_are_two_scenes(void **state) {
+    (void)state;
+    for (uint32_t storey = 0; storey < 2; storey++)
+        for (int dense = 0; dense < 2; dense++) {
+            const double apart = dense ? 0.55 : 2.6;
+            Fate both[2], alone[2];
+            run_loners(storey, true, apart, both);
+            run_loners(storey, false, apart, alone);
+            assert_int_equal(alone[1 - storey].passed, 0);
+            assert_true(both[0].passed >= 9 && both[1].passed >= 9);
+            if (!dense)
+                assert_true(both[storey].hash == alone[storey].hash);
+            assert_in_range(both[storey].passed + 3u * (uint32_t)dense - alone[storey].passed, 0,
+                            6 * dense);
+            assert_true(!dense || both[storey].passed > 60);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stairs_one_above_the_other_empty_a_tower),
@@ -214,6 +313,7 @@ int main(void) {
         cmocka_unit_test(programs_read_and_write_points_in_plan),
         cmocka_unit_test(who_leaves_the_plan_is_reported),
         cmocka_unit_test(seekers_climb_stairs),
+        cmocka_unit_test(storeys_that_nothing_joins_are_two_scenes),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }
