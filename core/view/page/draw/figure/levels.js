@@ -72,7 +72,7 @@ export class Levels {
             if (bytes[2 * w + 5] === NOBODY) continue;
             const x = x0 + sx * words[w], y = y0 + sy * words[w + 1];
             let cw = m[3] * x + m[7] * y + ow, cx = m[0] * x + m[4] * y + ox, cy = m[1] * x + m[5] * y + oy, dz = level;
-            if (floors !== null) {
+            if (floors) {
                 const z = floors[slot];
                 if (z !== z) continue; // on a storey that is not shown
                 cw += m[11] * z;
