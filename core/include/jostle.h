@@ -164,6 +164,7 @@ typedef struct JoAgentDef {
                                 (ORCA) chooses velocities, which is unfit for measuring capacities */
     double haste; /* motivation: 0 calm, 0.5 normal (the default), 1 keen; read only with a time gap
                      above 0 */
+    uint32_t storey; /* x and y are in plan on this storey, counted from the lowest up; default 0 */
     uint32_t cookie;
 } JoAgentDef;
 JO_API JoAgentDef jo_default_agent_def(void);
@@ -240,6 +241,8 @@ typedef struct JoBodyDef {
                            in Lee and Hughes 2006) */
     bool ends_world; /* the world fails when the force limit is reached; jo_world_failure names the
                         agent that is pressed */
+    uint32_t storey; /* x, y and the path are in plan on this storey, counted from the lowest up,
+                        and z above its floor; default 0 */
     uint32_t cookie;
 } JoBodyDef;
 JO_API JoBodyDef jo_default_body_def(void);
@@ -345,6 +348,11 @@ JO_API bool jo_scene_step(JoScene *scene, JoError *error);
    `spin` its angular velocity about x, y, z (rad/s, each up to 100; NULL: none). */
 JO_API bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
                            const double velocity[3], const double spin[3], JoError *error);
+/* The same from a point in plan on a storey, counted from the lowest up. JO_INPUT if there is no
+   such storey. */
+JO_API bool jo_scene_throw_on(JoScene *scene, uint32_t storey, const char *body,
+                              const double from[3], const double velocity[3], const double spin[3],
+                              JoError *error);
 /* Opens or closes the walls with a name. Agents in a wall that closes are moved out of it. */
 JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error);
 /* Sends a signal, which every agent hears in the next step, wherever it is. */

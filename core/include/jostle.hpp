@@ -126,6 +126,19 @@ class WorldRef {
         detail::require(agent.generation != 0, error);
         return agent;
     }
+    // Index of a storey by its name, for the calls that take one. Throws std::invalid_argument if there is none.
+    std::uint32_t storey(const char *name) const {
+        const std::uint32_t found = jo_world_find_storey(world_, name);
+        if (found == JO_NO_STOREY)
+            throw std::invalid_argument(std::string("there is no storey '") + name + "'");
+        return found;
+    }
+    JoAgent spawn_on(const char *group, std::uint32_t storey, double x, double y) {
+        JoError error{};
+        const JoAgent agent = jo_world_spawn_on(world_, group, storey, x, y, &error);
+        detail::require(agent.generation != 0, error);
+        return agent;
+    }
     std::vector<std::uint32_t> neighbours(double x, double y, double radius) const {
         std::vector<std::uint32_t> ids(jo_world_neighbours(world_, x, y, radius, nullptr, nullptr, 0));
         jo_world_neighbours(world_, x, y, radius, ids.data(), nullptr,

@@ -71,6 +71,12 @@ JO_API bool jo_body_impulse(JoWorld *world, JoBody body, const double impulse[3]
    quaternion x, y, z, w (NULL: its turn is kept), at rest. An agent that carries it loses it. */
 JO_API bool jo_body_place(JoWorld *world, JoBody body, const double at[3], const double turn[4],
                           JoError *error);
+/* The same with a point whose x and y are in plan on a storey, counted from the lowest up, and
+   whose z is above its floor. JO_INPUT if there is no such storey. */
+JO_API bool jo_body_impulse_on(JoWorld *world, JoBody body, const double impulse[3],
+                               uint32_t storey, const double point[3], JoError *error);
+JO_API bool jo_body_place_on(JoWorld *world, JoBody body, uint32_t storey, const double at[3],
+                             const double turn[4], JoError *error);
 /* Sets the velocity of a body's centre of mass, m/s, and its spin, rad/s (NULL: none), each up to
    100 along an axis. Not for static bodies. A kinematic body keeps them until they are set anew,
    and no longer follows the path that its scene gave it. */
@@ -89,6 +95,9 @@ JO_API bool jo_body_remove(JoWorld *world, JoBody body, JoError *error);
    as `not_moved_out`. */
 JO_API bool jo_world_add_wall(JoWorld *world, const char *name, const double *xy, size_t count,
                               JoError *error);
+/* The same on a storey, counted from the lowest up. JO_INPUT if there is no such storey. */
+JO_API bool jo_world_add_wall_on(JoWorld *world, const char *name, uint32_t storey,
+                                 const double *xy, size_t count, JoError *error);
 /* Removes the walls with a name that jo_world_add_wall made. */
 JO_API bool jo_world_remove_wall(JoWorld *world, const char *name, JoError *error);
 /* Opens or closes the walls with a name. Agents in the way of a wall that closes are moved as

@@ -200,6 +200,9 @@ JO_API uint32_t jo_world_storey_count(const JoWorld *world); /* 0: the world has
    as long as the world. */
 JO_API const char *jo_world_storey_name(const JoWorld *world, uint32_t storey);
 JO_API double jo_world_storey_height(const JoWorld *world, uint32_t storey);
+/* Index of a storey by its name; JO_NO_STOREY if there is no such. */
+#define JO_NO_STOREY UINT32_MAX
+JO_API uint32_t jo_world_find_storey(const JoWorld *world, const char *name);
 /* A stair, ramp or escalator. */
 typedef struct JoStairState {
     const char *name;      /* "" if there is no such stair; valid as long as the world */

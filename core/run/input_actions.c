@@ -13,6 +13,7 @@
 #include "run/reload.h"
 #include "run/run.h"
 #include "run/set_parameter.h"
+#include "world/embed/storey_points.h"
 #include "world/verbs/verb_table.h"
 
 /* ---- actions ---- */
@@ -138,6 +139,16 @@ bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
     }
     return check_writable_name("a body's name", body, error) &&
            perform_and_log(scene, &entry, error);
+}
+
+bool jo_scene_throw_on(JoScene *scene, uint32_t storey, const char *body, const double from[3],
+                       const double velocity[3], const double spin[3], JoError *error) {
+    JOX_REQUIRE(scene && body && from && !scene->world->busy, false);
+    if (!jox_world_check_storey(scene->world, storey, error))
+        return false;
+    const double at[3] = {from[0], jox_world_move_to_storey(scene->world, storey, from[1]),
+                          from[2]};
+    return jo_scene_throw(scene, body, at, velocity, spin, error);
 }
 
 bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error) {

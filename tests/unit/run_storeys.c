@@ -1,5 +1,7 @@
 /* Runs of scenes with storeys: people find their way over stairs, also stairs one above the other.
  */
+#include <math.h>
+
 #include "run/probe_listener.h"
 #include "unit/scene_loader.h"
 
@@ -160,6 +162,70 @@ static void programs_read_and_write_points_in_plan(void **state) {
 
 /* People and bodies that leave the plan would come to the next storey: they are reported, as those
    with invalid numbers are. */
+#define BODY_STOREYS                                                                               \
+    "jostle: 1\n"                                                                                  \
+    "storeys: {ground: {height: 0}, first: {height: 3}}\n"                                         \
+    "walls: [{line: [[0, 0], [20, 0], [20, 12], [0, 12]], closed: true, storey: [ground, "         \
+    "first]}]\n"                                                                                   \
+    "bodies: [{shape: {sphere: {radius: 0.2}}, mass: 2, at: [5, 5, 0.2], name: ball}]\n"
+
+/* Bodies, agents and walls of programs lie on the storey that is given; unknown storeys are refused
+   with their number. */
+static void programs_put_bodies_agents_and_walls_on_storeys(void **state) {
+    (void)state;
+    JoScene *scene = load_scene_file(write_test_file("scene.yaml", BODY_STOREYS), NULL, 0);
+    JoWorld *w = scene->world;
+    JoError error;
+    const JoBody ball = jo_world_find_body(w, "ball");
+    const uint32_t first = jo_world_find_storey(w, "first");
+    assert_int_equal(first, 1);
+    assert_true(jo_world_find_storey(w, "attic") == JO_NO_STOREY);
+    assert_true(jo_body_place_on(w, ball, first, (double[]){8, 6, 0.2}, NULL, &error));
+    step_scene(scene, 2);
+    JoBodyState at = jo_body_state(w, ball);
+    assert_true(at.storey == 1 && at.x > 7.9 && at.x < 8.1 && at.y > 5.9 && at.y < 6.1);
+    assert_true(
+        jo_body_impulse_on(w, ball, (double[]){4, 0, 0}, first, (double[]){8, 6, 0.2}, &error));
+    step_scene(scene, 2);
+    at = jo_body_state(w, ball);
+    assert_true(at.vx > 1.0 && fabs(at.vy) < 0.1); /* pushed through its centre, not turned */
+    assert_true(jo_scene_throw_on(scene, 0, "ball", (double[]){3, 3, 1}, NULL, NULL, &error));
+    step_scene(scene, 2);
+    at = jo_body_state(w, ball);
+    assert_true(at.storey == 0 && at.x > 2.9 && at.x < 3.1);
+    JoBodyDef box = jo_default_body_def();
+    box.x = 10;
+    box.y = 4;
+    box.storey = first;
+    const JoBody there = jo_world_add_body(w, &box, &error);
+    at = jo_body_state(w, there);
+    assert_true(at.storey == 1 && at.y == 4.0);
+    JoAgentDef person = jo_default_agent_def();
+    person.x = 15;
+    person.y = 9;
+    person.storey = first;
+    const JoAgentState stands = jo_agent_state(w, jo_world_add_agent(w, &person, &error));
+    assert_true(stands.storey == 1 && stands.x == 15.0 && stands.y == 9.0);
+    const double across[] = {12, 0, 12, 12}, from[2] = {11, 6}, to[2] = {13, 6};
+    assert_true(jo_world_add_wall_on(w, "shut", first, across, 2, &error));
+    step_scene(scene, 1);
+    assert_true(jo_world_cast_on(w, first, from, to, 0.1, JO_CAST_WALLS).hit);
+    assert_false(jo_world_cast_on(w, 0, from, to, 0.1, JO_CAST_WALLS).hit);
+    /* no such storey */
+    person.storey = box.storey = 2;
+    error.text[0] = 0;
+    assert_true(jo_world_add_agent(w, &person, &error).generation == 0);
+    assert_non_null(strstr(error.text, "there is no storey 2: the storeys are 0 to 1"));
+    assert_true(jo_world_add_body(w, &box, &error).generation == 0);
+    assert_false(jo_body_place_on(w, ball, 2, (double[]){8, 6, 0.2}, NULL, &error));
+    assert_false(
+        jo_body_impulse_on(w, ball, (double[]){1, 0, 0}, 7, (double[]){8, 6, 0.2}, &error));
+    assert_non_null(strstr(error.text, "there is no storey 7"));
+    assert_false(jo_world_add_wall_on(w, "shut", 2, across, 2, &error));
+    assert_false(jo_scene_throw_on(scene, 2, "ball", (double[]){3, 3, 1}, NULL, NULL, &error));
+    jo_scene_free(scene);
+}
+
 static void who_leaves_the_plan_is_reported(void **state) {
     (void)state;
     JoError error = {0};
@@ -311,6 +377,7 @@ int main(void) {
         cmocka_unit_test(nobody_sets_out_over_a_closed_stair),
         cmocka_unit_test(edits_that_move_sheets_wait),
         cmocka_unit_test(programs_read_and_write_points_in_plan),
+        cmocka_unit_test(programs_put_bodies_agents_and_walls_on_storeys),
         cmocka_unit_test(who_leaves_the_plan_is_reported),
         cmocka_unit_test(seekers_climb_stairs),
         cmocka_unit_test(storeys_that_nothing_joins_are_two_scenes),

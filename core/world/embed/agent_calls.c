@@ -4,6 +4,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "world/embed/argument_checks.h"
+#include "world/embed/storey_points.h"
 #include "world/world.h"
 
 enum { AGENT_COOKIE = 0x4a4f4147 };
@@ -45,11 +46,14 @@ static bool read_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUNT
                                   (double)JOX_WORLD_FARTHEST, error);
 }
 
+static JoxV2 find_position(const JoWorld *world, const JoAgentDef *def) {
+    return (JoxV2){(float)def->x, (float)jox_world_move_to_storey(world, def->storey, def->y)};
+}
+
 static void refuse_birth(const JoWorld *world, JoxBirthSpot spot, const JoAgentDef *def,
                          JoError *error) {
     JoxText why = {0};
-    jox_world_explain_unplaced(&world->model.storeys, spot, jox_v2((float)def->x, (float)def->y),
-                               &why);
+    jox_world_explain_unplaced(&world->model.storeys, spot, find_position(world, def), &why);
     jox_error(error, JO_INPUT, "the agent is not added: %s", why.data);
     jox_text_free(&why);
 }
@@ -59,10 +63,10 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
     double values[JOX_PARAM_COUNT];
     JOX_GUARD (world->heap, error)
         return (JoAgent){0};
-    if (!read_parameters(def, values, error))
+    if (!read_parameters(def, values, error) || !jox_world_check_storey(world, def->storey, error))
         return (JoAgent){0};
     JoxAgents *a = &world->state.agents;
-    const JoxBirthWish wish = {.at = {(float)def->x, (float)def->y},
+    const JoxBirthWish wish = {.at = find_position(world, def),
                                .radius =
                                    jox_parameter_store(JOX_PARAM_radius, values[JOX_PARAM_radius])};
     JoxV2 spot;

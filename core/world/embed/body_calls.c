@@ -6,6 +6,7 @@
 #include "base/mem.h"
 #include "base/number/elementary.h"
 #include "world/embed/argument_checks.h"
+#include "world/embed/storey_points.h"
 #include "world/world.h"
 
 enum { BODY_COOKIE = 0x4a4f424f };
@@ -21,7 +22,7 @@ JoBodyDef jo_default_body_def(void) {
 }
 
 /* Returns the path of a def, starting at the position of the body; the caller frees its points. */
-static JoxBodyPath make_path(const JoBodyDef *def) {
+static JoxBodyPath make_path(const JoWorld *world, const JoBodyDef *def) {
     const JoPath *p = &def->path;
     if (!p->points || p->count >= JOX_PATH_POINTS) /* jox_bodies_add refuses too many */
         return (JoxBodyPath){.count = p->points ? JOX_PATH_POINTS + 1 : 0};
@@ -34,6 +35,9 @@ static JoxBodyPath make_path(const JoBodyDef *def) {
                         .reopens = p->reopens};
     memcpy(path.points, (double[]){def->x, def->y, def->z}, 3 * sizeof *path.points);
     memcpy(path.points + 3, p->points, 3 * (size_t)p->count * sizeof *path.points);
+    for (uint32_t k = 0; k < path.count; k++)
+        path.points[3 * k + 1] =
+            jox_world_move_to_storey(world, def->storey, path.points[3 * k + 1]);
     return path;
 }
 
@@ -46,7 +50,8 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
                                 "JO_SPHERE, JO_BOX, JO_CYLINDER", error) ||
         !jox_argument_is_one_of("path.end", def->path.points ? def->path.end : JO_PATH_STAY,
                                 JO_PATH_ROUND + 1, "JO_PATH_STAY, JO_PATH_BACK, JO_PATH_ROUND",
-                                error))
+                                error) ||
+        !jox_world_check_storey(world, def->storey, error))
         return (JoBody){0};
     JOX_GUARD (world->heap, error)
         return (JoBody){0};
@@ -56,13 +61,14 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     body.mass = def->mass;
     body.still = def->mass == 0.0;
     body.kinematic = def->kinematic;
-    memcpy(body.position, (double[]){def->x, def->y, def->z}, sizeof body.position);
+    const double y = jox_world_move_to_storey(world, def->storey, def->y);
+    memcpy(body.position, (double[]){def->x, y, def->z}, sizeof body.position);
     body.turn[2] = jox_sin(def->turn / 2.0);
     body.turn[3] = jox_cos(def->turn / 2.0);
     memcpy(body.velocity, (double[]){def->vx, def->vy, def->vz}, sizeof body.velocity);
     body.friction = def->friction;
     body.restitution = def->restitution;
-    body.path = make_path(def);
+    body.path = make_path(world, def);
     body.force_limit =
         def->path.points && def->path.force_limit > 0.0 ? def->path.force_limit : def->force_limit;
     body.ends_run = def->ends_world;

@@ -1,6 +1,7 @@
 /* Public calls of jostle_read.h and jostle_act.h about storeys: names and heights, points of the
    plane in plan, and calls that take a point on a storey. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
@@ -25,6 +26,15 @@ double jo_world_storey_height(const JoWorld *world, uint32_t storey) {
     JOX_REQUIRE(world, NAN);
     const JoxStoreys *s = get_storeys(world);
     return storey < s->storey_count ? (double)s->storeys[storey].height : (double)NAN;
+}
+
+uint32_t jo_world_find_storey(const JoWorld *world, const char *name) {
+    JOX_REQUIRE(world && name, JO_NO_STOREY);
+    const JoxStoreys *s = get_storeys(world);
+    for (uint32_t k = 0; k < s->storey_count; k++)
+        if (strcmp(s->storeys[k].name, name) == 0)
+            return k;
+    return JO_NO_STOREY;
 }
 
 uint32_t jo_world_stair_count(const JoWorld *world) {
@@ -116,6 +126,19 @@ bool jox_world_has_storey(const JoWorld *world, uint32_t storey) {
     return storey < (count ? count : 1);
 }
 
+bool jox_world_check_storey(const JoWorld *world, uint32_t storey, JoError *error) {
+    const uint32_t count = get_storeys(world)->storey_count;
+    if (jox_world_has_storey(world, storey))
+        return true;
+    if (count)
+        jox_error(error, JO_INPUT, "there is no storey %u: the storeys are 0 to %u", storey,
+                  count - 1);
+    else
+        jox_error(error, JO_INPUT, "there is no storey %u: this world has no storeys, give 0",
+                  storey);
+    return false;
+}
+
 double jox_world_move_to_storey(const JoWorld *world, uint32_t storey, double y) {
     const JoxStoreys *s = get_storeys(world);
     return jox_has_storeys(s) ? y + (double)storey * (double)s->pitch : y;
@@ -143,23 +166,10 @@ JoCast jo_world_cast_on(const JoWorld *world, uint32_t storey, const double from
     return cast;
 }
 
-static bool check_storey(const JoWorld *world, uint32_t storey, JoError *error) {
-    const uint32_t count = get_storeys(world)->storey_count;
-    if (jox_world_has_storey(world, storey))
-        return true;
-    if (count)
-        jox_error(error, JO_INPUT, "there is no storey %u: the storeys are 0 to %u", storey,
-                  count - 1);
-    else
-        jox_error(error, JO_INPUT, "there is no storey %u: this world has no storeys, give 0",
-                  storey);
-    return false;
-}
-
 JoAgent jo_world_spawn_on(JoWorld *world, const char *group, uint32_t storey, double x, double y,
                           JoError *error) {
     JOX_REQUIRE(world && !world->busy && group, (JoAgent){0});
-    if (!check_storey(world, storey, error))
+    if (!jox_world_check_storey(world, storey, error))
         return (JoAgent){0};
     return jo_world_spawn(world, group, x, jox_world_move_to_storey(world, storey, y), error);
 }
@@ -167,6 +177,48 @@ JoAgent jo_world_spawn_on(JoWorld *world, const char *group, uint32_t storey, do
 bool jo_agent_teleport_on(JoWorld *world, JoAgent agent, uint32_t storey, double x, double y,
                           JoError *error) {
     JOX_REQUIRE(world && !world->busy, false);
-    return check_storey(world, storey, error) &&
+    return jox_world_check_storey(world, storey, error) &&
            jo_agent_teleport(world, agent, x, jox_world_move_to_storey(world, storey, y), error);
+}
+
+/* Sets `out` to a point on a storey as a position. Returns false with `error` if there is no such
+   storey. */
+static bool place_on_storey(const JoWorld *world, uint32_t storey, const double point[3],
+                            double out[3], JoError *error) {
+    if (!jox_world_check_storey(world, storey, error))
+        return false;
+    out[0] = point[0];
+    out[1] = jox_world_move_to_storey(world, storey, point[1]);
+    out[2] = point[2];
+    return true;
+}
+
+bool jo_body_impulse_on(JoWorld *world, JoBody body, const double impulse[3], uint32_t storey,
+                        const double point[3], JoError *error) {
+    JOX_REQUIRE(world && !world->busy && impulse && point, false);
+    double at[3];
+    return place_on_storey(world, storey, point, at, error) &&
+           jo_body_impulse(world, body, impulse, at, error);
+}
+
+bool jo_body_place_on(JoWorld *world, JoBody body, uint32_t storey, const double at[3],
+                      const double turn[4], JoError *error) {
+    JOX_REQUIRE(world && !world->busy && at, false);
+    double position[3];
+    return place_on_storey(world, storey, at, position, error) &&
+           jo_body_place(world, body, position, turn, error);
+}
+
+bool jo_world_add_wall_on(JoWorld *world, const char *name, uint32_t storey, const double *xy,
+                          size_t count, JoError *error) {
+    enum { MOST_POINTS = 4 }; /* jo_world_add_wall refuses other numbers */
+    JOX_REQUIRE(world && !world->busy && name && xy, false);
+    double moved[2 * MOST_POINTS];
+    if (!jox_world_check_storey(world, storey, error))
+        return false;
+    for (size_t k = 0; k < count && k < MOST_POINTS; k++) {
+        moved[2 * k] = xy[2 * k];
+        moved[2 * k + 1] = jox_world_move_to_storey(world, storey, xy[2 * k + 1]);
+    }
+    return jo_world_add_wall(world, name, moved, count, error);
 }

@@ -8,6 +8,8 @@
 JoWhere jox_world_where(const JoWorld *world, JoxV2 at);
 /* Returns whether a world has a storey; without storeys it has the storey 0. */
 bool jox_world_has_storey(const JoWorld *world, uint32_t storey);
+/* The same; false with `error`. */
+bool jox_world_check_storey(const JoWorld *world, uint32_t storey, JoError *error);
 /* Returns y of the position of a point in plan on a storey, m. */
 double jox_world_move_to_storey(const JoWorld *world, uint32_t storey, double y);
 

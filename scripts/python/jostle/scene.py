@@ -458,10 +458,10 @@ class Scene:
             raise ValueError(f"a lift has no mode {mode!r}: {', '.join(LIFT_MODES)}")
         self._do(lib.jo_world_set_lift_mode, self._world, named(lift), LIFT_MODES.index(mode))
 
-    def add_wall(self, name: str, points: Sequence[Sequence[float]]) -> None:
-        """A thin wall between 2 points or a solid with 4 corners, m."""
+    def add_wall(self, name: str, points: Sequence[Sequence[float]], storey: Union[int, str] = 0) -> None:
+        """A thin wall between 2 points or a solid with 4 corners, m, on a storey."""
         flat = [number for point in points for number in point]
-        self._do(lib.jo_world_add_wall, self._world, named(name), _vector(flat, 2 * len(points)), len(points))
+        self._do(lib.jo_world_add_wall_on, self._world, named(name), self.storey(storey), _vector(flat, 2 * len(points)), len(points))
 
     def remove_wall(self, name: str) -> None:
         """Takes out the walls of a name that were added."""
@@ -760,13 +760,17 @@ class Body:
         state = self._state()
         return state.vx, state.vy, state.vz
 
-    def impulse(self, impulse: Sequence[float], at: Optional[Sequence[float]] = None) -> None:
-        """N s, at a point, m, or at its centre of mass."""
-        self.scene._do(lib.jo_body_impulse, self.scene._world, self._body, _vector(impulse, 3), _vector(at, 3))
+    def impulse(self, impulse: Sequence[float], at: Optional[Sequence[float]] = None, storey: Union[int, str] = 0) -> None:
+        """N s, at a point of a storey, m, or at its centre of mass."""
+        world, body, push = self.scene._world, self._body, _vector(impulse, 3)
+        if at is None:
+            self.scene._do(lib.jo_body_impulse, world, body, push, ffi.NULL)
+        else:
+            self.scene._do(lib.jo_body_impulse_on, world, body, push, self.scene.storey(storey), _vector(at, 3))
 
-    def place(self, at: Sequence[float], turn: Optional[Sequence[float]] = None) -> None:
-        """Moves it to a point, m, turned by a unit quaternion x, y, z, w or as it is, at rest."""
-        self.scene._do(lib.jo_body_place, self.scene._world, self._body, _vector(at, 3), _vector(turn, 4))
+    def place(self, at: Sequence[float], turn: Optional[Sequence[float]] = None, storey: Union[int, str] = 0) -> None:
+        """Moves it to a point of a storey, m, turned by a unit quaternion x, y, z, w or as it is, at rest."""
+        self.scene._do(lib.jo_body_place_on, self.scene._world, self._body, self.scene.storey(storey), _vector(at, 3), _vector(turn, 4))
 
     def set_velocity(self, velocity: Sequence[float], spin: Optional[Sequence[float]] = None) -> None:
         """m/s and rad/s."""

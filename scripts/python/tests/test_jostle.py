@@ -274,8 +274,28 @@ walls:
 places:
   hall: {polygon: [[16, 1], [18, 1], [18, 3], [16, 3]], storey: first}
   street: {line: [[-2, 8], [-2, 12]]}
+bodies: [{shape: {sphere: {radius: 0.2}}, mass: 2, at: [5, 5, 0.2], name: ball}]
 groups: {people: {count: 3, in: hall, journey: [{exit: street}]}}
 """
+
+
+def test_bodies_and_walls_of_storeys(path):
+    path.write_text(STOREYS)
+    scene = jostle.Scene(path)
+    ball = scene.body("ball")
+    ball.place((4, 6, 0.2), storey="first")
+    scene.step(2)
+    assert ball.position[:2] == pytest.approx((4, 6), abs=0.05)
+    ball.impulse((4, 0, 0), (4, 6, 0.2), storey=1)
+    scene.step(2)
+    assert ball.velocity[0] > 1
+    ball.place((3, 3, 0.2))
+    scene.add_wall("shut", [(15, 0), (15, 12)], storey="first")
+    for storey in ("cellar", 2):
+        with pytest.raises(KeyError):
+            ball.place((4, 6, 0.2), storey=storey)
+        with pytest.raises(KeyError):
+            scene.add_wall("other", [(15, 0), (15, 12)], storey=storey)
 
 
 def test_storeys(path):
