@@ -136,6 +136,29 @@ static void restored_crowd_field_continues_exactly(void **state) {
     }
 }
 
+static void places_beyond_the_most_fields_are_told(void **state) {
+    (void)state;
+    JoxText text = {0};
+    jox_text_add(&text, "jostle: 1\nplaces:\n");
+    for (int p = 0; p < 514; p++)
+        jox_text_printf(&text, "  p%d: {point: [%g, %g], radius: 0.1}\n", p, 0.4 * (p % 20),
+                        0.4 * (p / 20));
+    jox_text_add(&text, "groups:\n");
+    for (int p = 0; p < 514; p++)
+        jox_text_printf(
+            &text, "  g%d: {behaviour: own.lua, at: [[%g, %g]], set: {goal: p%d, radius: 0.1}}\n",
+            p, 0.4 * (p % 20) + 0.2, 0.4 * (p / 20), p);
+    JoScene *scene = load_scene_text(text.data, MACHINE_START
+                                     "\"Go\", states = { Go = { steer = field(own.goal) } } }\n");
+    step_scene(scene, 3);
+    assert_non_null(scene_messages.data);
+    const char *said = strstr(scene_messages.data, "ways lead to 512 places at most");
+    assert_non_null(said);
+    assert_null(strstr(said + 1, "ways lead to 512 places at most")); /* once */
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(crowd_field_is_made_renewed_and_dropped),
@@ -143,6 +166,7 @@ int main(void) {
         cmocka_unit_test(agents_without_time_gap_request_no_crowd_field),
         cmocka_unit_test(crowd_fields_are_equal_for_any_thread_count),
         cmocka_unit_test(restored_crowd_field_continues_exactly),
+        cmocka_unit_test(places_beyond_the_most_fields_are_told),
     };
     return cmocka_run_group_tests(tests, make_test_folder, remove_scene_folder);
 }

@@ -117,6 +117,13 @@ void jox_obstacles_add(const JoxObstacles *obstacles, uint32_t kinds, JoxWalls *
     }
 }
 
+bool jox_obstacles_may_move(const JoxObstacles *obstacles) {
+    bool any = false;
+    for (uint32_t i = 0; i < obstacles->count; i++)
+        any |= obstacles->items[i].kind != JOX_OBSTACLE_FIXED;
+    return any;
+}
+
 void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "obstacles", obstacles->items, obstacles->count, obstacles->capacity);
     JOX_SECTION(s, "obstacles_version", obstacles->version);

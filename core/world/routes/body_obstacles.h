@@ -34,6 +34,8 @@ typedef struct JoxObstacles {
 void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects);
 /* Adds the bodies of some kinds, one bit per kind, to walls as solids. */
 void jox_obstacles_add(const JoxObstacles *obstacles, uint32_t kinds, JoxWalls *walls);
+/* Returns whether any body may move out of the way. */
+bool jox_obstacles_may_move(const JoxObstacles *obstacles);
 void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *sections);
 void jox_obstacles_free(JoxObstacles *obstacles);
 

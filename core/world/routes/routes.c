@@ -10,7 +10,7 @@
 #include "world/routes/held_up.h"
 #include "world/routes/joined_edges.h"
 
-enum { MOST_FIELDS = 64 };
+enum { MOST_FIELDS = 512, FEW_HELD = 5 * JOX_HELD }; /* fewer agents held up are no crowd */
 /* m: sizes of cells; a field has the smallest with at most MOST_CELLS cells, so that it is done
    within DELAY. The largest still shows doors of half a metre. */
 static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
@@ -26,7 +26,6 @@ static const double PAUSE = 2.0;      /* s: between fields made anew for moving 
 static const double LOOK = 0.25;      /* s: interval at which bodies and crowds are examined */
 static const double CROWD_PAUSE = 1.0;      /* s: between fields made anew for a crowd */
 static const float CROWD_CELLS = 150000.0f; /* cells; larger fields wait longer in proportion */
-enum { FEW_HELD = 5 * JOX_HELD };           /* fewer agents held up are no crowd */
 
 /* One field being made, with copies of all that it is made of, as a worker thread makes it. */
 typedef struct Making {
@@ -55,9 +54,9 @@ typedef struct Route {
 struct JoxRoutes {
     JoxWorker *worker;
     JoxObstacles obstacles;
-    uint32_t walls; /* version of walls */
-    uint32_t seen;  /* world->state.walls_version */
-    bool begun;
+    uint32_t walls;    /* version of walls */
+    uint32_t seen;     /* world->state.walls_version */
+    bool begun, full;  /* full: it was told that some places get no field */
     uint32_t capacity; /* places */
     /* By place and kind, as machines read them: [place * JOX_ROUTE_KINDS + kind]. */
     JoxField **fields;
@@ -283,32 +282,40 @@ static void take_field(JoxRoutes *routes, uint32_t at) {
 
 /* Returns whether a closed gate or a movable body may block ways. */
 static bool can_be_blocked(const JoxRouteStage *w) {
-    for (uint32_t r = 0; r < w->all_walls->ring_count; r++)
-        if (jox_wall_is_shut_gate(w->all_walls, r))
-            return true;
-    for (uint32_t o = 0; o < w->routes->obstacles.count; o++)
-        if (w->routes->obstacles.items[o].kind != JOX_OBSTACLE_FIXED)
-            return true;
-    return false;
+    bool can = jox_obstacles_may_move(&w->routes->obstacles);
+    for (uint32_t r = 0; !can && r < w->all_walls->ring_count; r++)
+        can = jox_wall_is_shut_gate(w->all_walls, r);
+    return can;
+}
+
+/* Tells, once, that a place gets no field. */
+static void tell_full(const JoxRouteStage *w, uint32_t place) {
+    if (!w->routes->full)
+        jox_text_printf(&w->machines->notes,
+                        "t = %.2f s: ways lead to %d places at most; people find none to '%s'\n",
+                        (double)w->tick * w->dt, MOST_FIELDS, w->places[place].name);
+    w->routes->full = true;
 }
 
 static bool is_due(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind) {
     const JoxRoutes *routes = w->routes;
-    uint32_t at = place * JOX_ROUTE_KINDS + kind;
+    const uint32_t at = place * JOX_ROUTE_KINDS + kind;
     const Route *route = &routes->items[at];
+    const bool has = routes->fields[at], room = has || routes->count < MOST_FIELDS;
     if (!(routes->wanted[place] >> kind & 1) || route->making)
         return false;
+    const double since = (double)(w->tick - route->asked) * w->dt;
     if (kind == JOX_ROUTE_CROWD)
-        return routes->held[place] >= FEW_HELD &&
-               (routes->fields[at] || routes->count < MOST_FIELDS) &&
-               (double)(w->tick - route->asked) * w->dt >=
-                   get_crowd_pause(routes->fields[at]) - 1e-9;
-    if (!routes->fields[at])
-        return routes->count < MOST_FIELDS && (kind != JOX_ROUTE_OPEN || can_be_blocked(w));
-    if (route->walls != routes->walls)
-        return true;
+        return routes->held[place] >= FEW_HELD && room &&
+               since >= get_crowd_pause(routes->fields[at]) - 1e-9;
+    if (!has && kind == JOX_ROUTE_OPEN && !can_be_blocked(w))
+        return false;
+    if (!room)
+        tell_full(w, place);
+    if (!has || route->walls != routes->walls)
+        return room;
     return kind != JOX_ROUTE_OPEN && route->obstacles != routes->obstacles.version &&
-           (double)(w->tick - route->asked) * w->dt >= PAUSE - 1e-9;
+           since >= PAUSE - 1e-9;
 }
 
 static void reserve_places(const JoxRouteStage *w) {
