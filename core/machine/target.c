@@ -303,8 +303,7 @@ bool jox_target_means(const JoxMachineRun *run, uint32_t i, int32_t index, int32
            jox_target_named_who(run, target, i) == JOX_WHO_BODY + object->id;
 }
 
-/* Returns the distance to a place, m: straight, through floors if it is on another storey. */
-static float find_place_distance(const JoxMachineRun *run, uint32_t place, JoxV2 p) {
+float jox_distance_to_place(const JoxMachineRun *run, uint32_t place, JoxV2 p) {
     const JoxStoreys *s = run->agents->storeys;
     const JoxV2 nearest = s ? jox_place_nearest(run->places, place, p) : p;
     if (!s || jox_sheet_of(s, nearest.y) == jox_sheet_of(s, p.y))
@@ -317,7 +316,7 @@ float jox_target_distance(const JoxMachineRun *run, uint32_t i, int32_t index) {
     const JoxV2 p = {run->agents->x[i], run->agents->y[i]};
     const int32_t place = jox_target_place(run, i, index);
     if (place >= 0)
-        return find_place_distance(run, (uint32_t)place, p);
+        return jox_distance_to_place(run, (uint32_t)place, p);
     const JoxSpot spot = jox_target_find(run, i, index);
     return spot.found ? jox_distance_between(run->agents->storeys, p, jox_v2(spot.x, spot.y))
                       : INFINITY;

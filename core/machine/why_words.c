@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "machine/way_between.h"
+
 static const char *const UNITS[] = {
 #define X(name, word, unit, ...) unit,
     JOX_MEASURED(X)
@@ -50,7 +52,7 @@ static void measure_place(const JoxMachineRun *run, uint32_t i, const JoxInstruc
             return;
         at = (JoxV2){spot.x, spot.y};
     }
-    const double distance = (double)jox_place_distance(run->places, (uint32_t)place, at);
+    const double distance = (double)jox_distance_to_place(run, (uint32_t)place, at);
     const double reach = jox_place_is_spot(p)    ? (double)p->radius
                          : jox_place_is_queue(p) ? (double)p->spacing / 2.0
                          : jox_place_is_line(p)  ? 0.5
@@ -89,7 +91,7 @@ static void say_side(const JoxMachineRun *run, uint32_t i, const JoxInstruction 
     const JoxV2 at = jox_why_position(run, i), along = jox_sub(line->points[1], line->points[0]);
     const bool left = jox_det(along, jox_sub(at, line->points[0])) > 0.0f;
     jox_text_printf(&term->note, "%.3g m away, on its %s; a crossing counts from right to left",
-                    (double)jox_place_distance(run->places, (uint32_t)place, at),
+                    (double)jox_distance_to_place(run, (uint32_t)place, at),
                     left ? "left" : "right");
 }
 

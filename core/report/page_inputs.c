@@ -5,6 +5,8 @@
 
 #include "base/format/plurals.h"
 #include "base/mem.h"
+#include "geom/lifts.h"
+#include "geom/storey_text.h"
 #include "picture/html.h"
 #include "record/danger/danger_parts.h"
 #include "report/drawn_values.h"
@@ -298,11 +300,17 @@ static void put_source_table(FILE *out, const JoScene *scene, const JoxSubject *
 
 /* Appends what an event does. */
 static void say_event(const JoxSceneSpec *spec, const JoxEvent *event, JoxText *out) {
-    static const char *const VERBS[] = {"throws", "moves", "opens", "closes", "signals", "pushes"};
+    static const char *const VERBS[] = {
+        [JOX_EVENT_THROW] = "throws",   [JOX_EVENT_MOVE] = "moves",
+        [JOX_EVENT_OPEN] = "opens",     [JOX_EVENT_CLOSE] = "closes",
+        [JOX_EVENT_SIGNAL] = "signals", [JOX_EVENT_LIFT] = "sets the mode of lift",
+        [JOX_EVENT_PUSH] = "pushes"};
     jox_text_printf(out, "%s %s", VERBS[event->kind],
                     event->name         ? event->name
                     : event->place >= 0 ? spec->places[event->place].name
                                         : "");
+    if (event->kind == JOX_EVENT_LIFT)
+        jox_text_printf(out, " to %s", jox_lift_mode_names[event->mode]);
     if (event->kind == JOX_EVENT_PUSH)
         jox_text_printf(out, " by (%.4g, %.4g) N for %.4g s", event->force[0], event->force[1],
                         event->lasts);
@@ -328,16 +336,21 @@ static void put_event_table(FILE *out, const JoxSceneSpec *spec, const JoxSubjec
 }
 
 /* Adds a row on a door or a gate: its ends and its width. */
-static void add_opening(JoxPageTable *table, const char *name, const char *what, JoxV2 a, JoxV2 b,
-                        double width) {
+static void add_opening(JoxPageTable *table, const JoxStoreys *storeys, const char *name,
+                        const char *what, const JoxV2 ends[2], double width) {
     char point[48];
+    JoxText of = {0};
     jox_table_text(table, name);
-    jox_table_text(table, what);
-    snprintf(point, sizeof point, "(%.2f, %.2f)", (double)a.x, (double)a.y);
-    jox_table_text(table, point);
-    snprintf(point, sizeof point, "(%.2f, %.2f)", (double)b.x, (double)b.y);
-    jox_table_text(table, point);
+    jox_text_add(&of, what);
+    jox_text_storey(&of, storeys, jox_scale(jox_add(ends[0], ends[1]), 0.5f));
+    jox_table_text(table, of.data);
+    for (int k = 0; k < 2; k++) {
+        const JoxV2 at = jox_in_plan(storeys, ends[k]);
+        snprintf(point, sizeof point, "(%.2f, %.2f)", (double)at.x, (double)at.y);
+        jox_table_text(table, point);
+    }
     jox_table_number(table, width);
+    jox_text_free(&of);
 }
 
 /* Writes the lines that people cross, with what walls leave of them, and the gates. */
@@ -346,18 +359,20 @@ static void put_opening_table(FILE *out, const JoxWalls *walls, const JoxSubject
         jox_page_table(s, "openings", "door, line or gate|what it is|from [m]|to [m]|>width [m]");
     for (uint32_t l = 0; l < s->danger->lines.count; l++) {
         const JoxDangerLine *line = &s->danger->lines.items[l];
-        add_opening(&table, line->name, "line: width that walls leave, at the end", line->a,
-                    line->b, line->width);
+        add_opening(&table, s->storeys, line->name, "line: width that walls leave, at the end",
+                    (JoxV2[]){line->a, line->b}, line->width);
     }
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         if (!ring->name)
             continue;
-        const JoxV2 a = walls->vertices[ring->first].point;
-        const JoxV2 b = walls->vertices[walls->vertices[ring->first].next].point;
-        add_opening(&table, ring->name,
-                    ring->open ? "gate, open at first" : "gate, closed at first", a, b,
-                    (double)jox_length(jox_sub(b, a)));
+        const JoxV2 ends[] = {walls->vertices[ring->first].point,
+                              walls->vertices[walls->vertices[ring->first].next].point};
+        add_opening(&table, s->storeys, ring->name,
+                    ring->is_lift_door ? "door of a lift"
+                    : ring->open       ? "gate, open at first"
+                                       : "gate, closed at first",
+                    ends, (double)jox_length(jox_sub(ends[1], ends[0])));
     }
     table.most_rows = MOST_ROWS;
     jox_table_put(out, &table);

@@ -19,6 +19,7 @@ places:
 groups:
   riders: {behaviour: ride.lua, count: 9, in: low}
   walkers: {count: 30, in: low, journey: [{to: high, wait: 200}]}
+events: [{at: 49.8, lift: east, mode: out_of_use}, {at: 49.9, push: low, force: [1, 0], lasts: 0.1}]
 SCENE
 cat >ride.lua <<'LUA'
 return machine { name = "rider", version = 1, start = "Ride", defaults = { speed = 1.3 }, states = {
@@ -30,6 +31,10 @@ LUA
 expect "a scene with a stair and a lift has a report" 0 "report:" "$program" run tower.yaml --quiet --no-half-step --report page --summary run.json --record run.sqlite
 "$program" report run.sqlite --out again --summary again.json >/dev/null 2>&1
 verdict "  and its recording has one" $?
+grep -q 'sets the mode of lift east to out_of_use' page/table-events.csv && grep -q 'pushes low by (1, 0) N' page/table-events.csv
+verdict "  which says what events did" $?
+grep -q '^east.first,door of a lift on first,"(10.35, 5.00)"' page/table-openings.csv
+verdict "  and where doors are, in plan" $?
 python3 - >check 2>&1 <<'END'
 import csv, json
 run, again = json.load(open("run.json")), json.load(open("again.json"))
