@@ -408,7 +408,7 @@ static void who_cannot_use_stairs_waits_in_a_refuge(void **state) {
         assert_int_equal(plan.x > 22.5f, refuge);
         JoxText lines = {0};
         jox_run_say_lifts(scene, &lines);
-        assert_non_null(strstr(lines.data, refuge ? "wait in a refuge" : "found neither a lift"));
+        assert_non_null(strstr(lines.data, refuge ? "stayed in a refuge" : "found neither a lift"));
         jox_text_free(&lines);
         jox_world_set_lift_mode(scene->world, -1, JOX_LIFT_FIREMEN); /* who fetch them */
         assert_true(wait_for_storey(scene, 0, 90));

@@ -110,12 +110,12 @@ static void say_stranded(uint32_t people, const char *where, JoxText *out) {
 void jox_run_say_lifts(const JoScene *scene, JoxText *out) {
     const JoWorld *w = scene->world;
     const JoxStranded stranded = jox_world_count_stranded(w);
-    say_stranded(stranded.in_refuge, "found no lift that takes them, and wait in a refuge", out);
+    say_stranded(stranded.in_refuge, "found no lift that takes them and stayed in a refuge", out);
     say_stranded(stranded.nowhere,
                  "found neither a lift that takes them nor a refuge on their storey: give a place "
                  "`refuge: true`, or a lift that is in use or left to firemen",
                  out);
-    say_stranded(stranded.on_stairs, "stand on a stair, where others pushed them", out);
+    say_stranded(stranded.on_stairs, "stayed on a stair or ramp with no way on", out);
     for (uint32_t l = 0; l < w->model.lift_count; l++) {
         const JoxLiftResult r = jox_run_lift_result(w, l);
         jox_text_printf(out, " Lift %.60s carried ", r.name);
