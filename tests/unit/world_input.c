@@ -58,8 +58,9 @@ static const char ALL[] = "# a comment\n"
                           "12 wall barrier 0 0 4 0\n"
                           "12 wall barrier 0 0 4 0 4 1 0 1\n"
                           "12 unwall barrier\n"
-                          "13 setting gentle-queue manner \"quite rude\"\n";
-enum { IN_ALL = 34 };
+                          "13 setting gentle-queue manner \"quite rude\"\n"
+                          "14 lift east out_of_use\n";
+enum { IN_ALL = 35 };
 
 static JoxDiagnostics wrong;
 
