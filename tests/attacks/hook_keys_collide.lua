@@ -1,4 +1,4 @@
--- expects: stop far longer
+-- expects: stop too long
 -- Each look-up walks through thousands of keys.
 local step, t = 8191 * 16383 * 32767, {}
 for i = 1, 4000 do t[i * step] = i end
