@@ -12,7 +12,6 @@ static const float TURN = 0.85f;         /* cosine: sharper turns of a path are 
 static const float LEAST_FLIGHT = 0.05f; /* m: shorter flights are flat */
 static const float BETWEEN = 20.0f;      /* m: between the plans of two sheets at least */
 static const float PITCH_UNIT = 9.0f;    /* m: whole cells of fields for most sizes of cells */
-static const float LEAST_PITCH = 45.0f;  /* m: so that people see 20 m */
 static const float MOST_WIDTH = 100.0f;  /* m: of a stair */
 static const float FARTHEST = 1e5f;      /* m: of its points from the origin */
 
@@ -246,7 +245,7 @@ void jox_storeys_lay_out(JoxStoreys *s, JoxV2 low, JoxV2 high) {
         high = jox_v2(jox_maxf(high.x, s->stairs[k].high.x), jox_maxf(high.y, s->stairs[k].high.y));
     }
     const float depth = jox_maxf(high.y - low.y, 0.0f) + BETWEEN;
-    s->pitch = jox_maxf(ceilf(depth / PITCH_UNIT) * PITCH_UNIT, LEAST_PITCH);
+    s->pitch = jox_maxf(ceilf(depth / PITCH_UNIT) * PITCH_UNIT, JOX_LEAST_PITCH);
     s->low = low.y;
     s->high = jox_maxf(high.y, low.y);
     s->origin = s->low - 0.5f * BETWEEN;

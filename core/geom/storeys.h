@@ -15,9 +15,10 @@
 
 enum { JOX_MOST_STOREYS = 200, JOX_MOST_STAIRS = 1000 };
 #define JOX_SEAM_DEPTH                                                                             \
-    2.0f                    /* m: beyond a seam, within which an agent belongs to the other sheet  \
-                             */
-#define JOX_SEAM_REACH 5.0f /* m: walls this near to a seam are seen from its other side */
+    2.0f /* m: beyond a seam, within which an agent belongs to the other sheet                     \
+          */
+#define JOX_LEAST_PITCH 45.0f /* m: so that people see 20 m */
+#define JOX_SEAM_REACH 5.0f   /* m: walls this near to a seam are seen from its other side */
 
 typedef struct JoxStorey {
     char *name;

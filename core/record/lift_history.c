@@ -3,11 +3,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/database.h"
 #include "base/mem.h"
-#include "record/storey_tables.h"
+#include "geom/polygon.h"
+#include "record/table_rows.h"
 
-static const double FARTHEST = 1e5; /* m: of heights */
+enum { MOST_PEOPLE = UINT16_MAX };
+static const double BEYOND = 1.0;     /* m: that a car may be above or below all its storeys */
+static const float NARROWEST = 0.01f; /* m: of doors */
 
 /* A car from a frame on. */
 typedef struct CarRow {
@@ -26,92 +28,116 @@ struct JoxLiftHistory {
     uint32_t applied; /* rows that `cars` have */
 };
 
-static bool read_lift(JoxLiftHistory *h, sqlite3_stmt *row) {
-    const int64_t capacity = sqlite3_column_int64(row, 2);
-    const char *name = (const char *)sqlite3_column_text(row, 1);
-    if (h->lift_count >= JOX_MOST_LIFTS || sqlite3_column_int64(row, 0) != h->lift_count || !name ||
-        capacity < 1 || capacity > UINT16_MAX)
-        return false;
-    JOX_RESERVE(h->lifts, h->lift_capacity, h->lift_count + 1);
+/* Lifts that are being read, and the storeys of the recording. */
+typedef struct Reading {
+    JoxLiftHistory *history;
+    const JoxStoreys *storeys;
+} Reading;
+
+static bool read_lift(JoxTableRow *row, void *context) {
+    JoxLiftHistory *h = ((Reading *)context)->history;
+    const uint32_t n = h->lift_count;
+    if (n >= JOX_MOST_LIFTS)
+        return jox_row_fail(row, 0, "there must be at most 100 lifts");
+    jox_row_whole(row, 0, n, n);
+    JOX_RESERVE(h->lifts, h->lift_capacity, n + 1);
     JoxLift *lift = &h->lifts[h->lift_count++];
-    *lift = (JoxLift){.name = jox_strdup(name), .capacity = (uint32_t)capacity, .first = -1};
+    *lift = (JoxLift){.name = jox_row_name(row, 1),
+                      .capacity = (uint32_t)jox_row_whole(row, 2, 1, MOST_PEOPLE),
+                      .first = -1};
     lift->stops = jox_alloc(JOX_MOST_STOREYS, sizeof *lift->stops);
-    lift->point_count =
-        jox_storey_tables_points((const char *)sqlite3_column_text(row, 3), &lift->outline);
-    return lift->point_count >= 3;
+    lift->point_count = jox_row_points(row, 3, 3, &lift->outline);
+    for (uint32_t k = 0; k < n; k++)
+        if (strcmp(h->lifts[k].name, lift->name) == 0)
+            return jox_row_fail(row, 1, "no other lift must have this name");
+    return jox_row_is_sound(row) &&
+           (jox_polygon_area(lift->outline, lift->point_count) > 0.0 ||
+            jox_row_fail(row, 3, "it must go round an area counter-clockwise"));
 }
 
-static bool read_stop(JoxLiftHistory *h, const JoxStoreys *storeys, sqlite3_stmt *row) {
-    const int64_t number = sqlite3_column_int64(row, 0), storey = sqlite3_column_int64(row, 1);
-    if (number < 0 || number >= h->lift_count || storey < 0 || storey >= storeys->storey_count)
-        return false;
-    JoxLift *lift = &h->lifts[number];
+/* Reads the lift of a row, and a storey of the recording. Returns NULL at damage. */
+static JoxLift *find_lift(JoxTableRow *row, const Reading *reading, int lift, int storey,
+                          uint32_t *at) {
+    const JoxLiftHistory *h = reading->history;
+    const int64_t number = jox_row_whole(row, lift, 0, (int64_t)h->lift_count - 1);
+    *at = (uint32_t)jox_row_whole(row, storey, 0, (int64_t)reading->storeys->storey_count - 1);
+    return jox_row_is_sound(row) ? &h->lifts[number] : NULL;
+}
+
+static bool read_stop(JoxTableRow *row, void *context) {
+    const Reading *reading = context;
+    uint32_t storey;
     JoxV2 *door;
-    const uint32_t ends =
-        jox_storey_tables_points((const char *)sqlite3_column_text(row, 2), &door);
-    const bool sound = ends == 2 && jox_lift_stop_at(lift, (uint32_t)storey) < 0;
+    JoxLift *lift = find_lift(row, reading, 0, 1, &storey);
+    if (!lift)
+        return false;
+    const uint32_t ends = jox_row_points(row, 2, 2, &door);
+    const bool sound = ends == 2 && jox_length(jox_sub(door[1], door[0])) >= NARROWEST;
     if (sound)
-        lift->stops[lift->stop_count++] =
-            (JoxLiftStop){.storey = (uint32_t)storey,
-                          .door = {door[0], door[1]},
-                          .place = -1,
-                          .name = jox_lift_stop_name(lift->name, storeys->storeys[storey].name)};
+        lift->stops[lift->stop_count++] = (JoxLiftStop){
+            .storey = storey,
+            .door = {door[0], door[1]},
+            .place = -1,
+            .name = jox_lift_stop_name(lift->name, reading->storeys->storeys[storey].name)};
     jox_free(door);
-    return sound;
+    return sound || jox_row_fail(row, 2, "it must be the two ends of a door");
 }
 
-static bool read_car(JoxLiftHistory *h, const JoxStoreys *storeys, sqlite3_stmt *row) {
-    const int64_t number = sqlite3_column_int64(row, 1), storey = sqlite3_column_int64(row, 4);
-    const int64_t people = sqlite3_column_int64(row, 5);
-    const double height = sqlite3_column_double(row, 2), open = sqlite3_column_double(row, 3);
-    const char *mode = (const char *)sqlite3_column_text(row, 6);
-    if (number < 0 || number >= h->lift_count || storey < 0 || storey >= storeys->storey_count ||
-        !(fabs(height) < FARTHEST) || !(open >= 0.0 && open <= 1.0) || people < 0 ||
-        people > UINT32_MAX)
-        return false;
-    const int32_t stop = jox_lift_stop_at(&h->lifts[number], (uint32_t)storey);
+static bool read_car(JoxTableRow *row, void *context) {
+    const Reading *reading = context;
+    JoxLiftHistory *h = reading->history;
+    uint32_t storey;
+    const JoxLift *lift = find_lift(row, reading, 1, 4, &storey);
+    const int32_t stop = lift ? jox_lift_stop_at(lift, storey) : -1;
+    if (stop < 0)
+        return jox_row_fail(row, 4, "it must be one that the lift serves");
+    const double lowest = (double)lift->stops[0].height,
+                 highest = (double)lift->stops[lift->stop_count - 1].height;
     JOX_RESERVE(h->rows, h->capacity, h->count + 1);
-    CarRow *car = &h->rows[h->count++];
-    *car = (CarRow){sqlite3_column_int64(row, 0), (uint32_t)number,
-                    (JoxCarLook){(float)height, (float)open, (uint32_t)stop, (uint32_t)people, 0}};
-    for (uint32_t m = 0; mode && m < JOX_LIFT_MODES; m++)
-        if (strcmp(mode, jox_lift_mode_names[m]) == 0)
-            car->look.mode = m;
-    return stop >= 0;
+    h->rows[h->count++] = (CarRow){
+        jox_row_whole(row, 0, INT64_MIN, INT64_MAX), (uint32_t)(lift - h->lifts),
+        (JoxCarLook){.height = (float)jox_row_number(row, 2, lowest - BEYOND, highest + BEYOND),
+                     .open = (float)jox_row_number(row, 3, 0.0, 1.0),
+                     .stop = (uint32_t)stop,
+                     .people = (uint32_t)jox_row_whole(row, 5, 0, MOST_PEOPLE),
+                     .mode = jox_row_choice(row, 6, jox_lift_mode_names, JOX_LIFT_MODES)}};
+    return jox_row_is_sound(row);
+}
+
+/* Lays the lifts out. Returns false with a sentence if one has no stops. */
+static bool lay_lifts_out(JoxLiftHistory *h, const JoxStoreys *storeys, JoxText *why) {
+    for (uint32_t l = 0; l < h->lift_count; l++) {
+        if (h->lifts[l].stop_count == 0) {
+            jox_text_printf(why, "table jostle_stop has no storeys of lift %u, '%.60s'", l,
+                            h->lifts[l].name);
+            return false;
+        }
+        jox_lift_lay_out(&h->lifts[l], storeys);
+    }
+    return true;
 }
 
 /* Returns whether the rows of all three tables make sense. */
-static bool read_tables(JoxLiftHistory *h, struct JoxDatabase *db, const JoxStoreys *storeys) {
-    bool good = true;
-    sqlite3_stmt *rows = jox_database_prepare(
-        db, "SELECT number, name, capacity, points FROM jostle_lift ORDER BY number");
-    while (good && rows && sqlite3_step(rows) == SQLITE_ROW)
-        good = read_lift(h, rows);
-    jox_database_finalize(db, rows);
-    rows = jox_database_prepare(db,
-                                "SELECT lift, storey, door FROM jostle_stop ORDER BY lift, storey");
-    while (good && rows && sqlite3_step(rows) == SQLITE_ROW)
-        good = read_stop(h, storeys, rows);
-    jox_database_finalize(db, rows);
-    for (uint32_t l = 0; good && l < h->lift_count; l++) {
-        good = h->lifts[l].stop_count > 0;
-        if (good)
-            jox_lift_lay_out(&h->lifts[l], storeys);
-    }
-    rows = jox_database_prepare(db, "SELECT frame, lift, height, open, storey, people, mode FROM "
-                                    "jostle_car ORDER BY frame, lift");
-    while (good && rows && sqlite3_step(rows) == SQLITE_ROW)
-        good = read_car(h, storeys, rows);
-    jox_database_finalize(db, rows);
-    return good;
+static bool read_tables(JoxLiftHistory *h, struct JoxDatabase *db, const JoxStoreys *storeys,
+                        JoxText *why) {
+    Reading reading = {h, storeys};
+    return jox_table_read(db, "jostle_lift",
+                          "SELECT number, name, capacity, points FROM jostle_lift ORDER BY number",
+                          1, read_lift, &reading, why) &&
+           jox_table_read(db, "jostle_stop",
+                          "SELECT lift, storey, door FROM jostle_stop ORDER BY lift, storey", 2,
+                          read_stop, &reading, why) &&
+           lay_lifts_out(h, storeys, why) &&
+           jox_table_read(db, "jostle_car",
+                          "SELECT frame, lift, height, open, storey, people, mode FROM "
+                          "jostle_car ORDER BY frame, lift",
+                          2, read_car, &reading, why);
 }
 
 JoxLiftHistory *jox_lift_history_read(struct JoxDatabase *db, const JoxStoreys *storeys,
                                       JoxText *why) {
     JoxLiftHistory *h = jox_alloc(1, sizeof *h);
-    const bool good = !jox_has_storeys(storeys) || read_tables(h, db, storeys);
-    if (!good)
-        jox_text_add(why, "its lifts are damaged");
+    const bool good = storeys->storey_count == 0 || read_tables(h, db, storeys, why);
     if (!good || !h->lift_count) {
         jox_lift_history_free(h);
         return NULL;

@@ -11,7 +11,7 @@ struct JoxDatabase;
 typedef struct JoxLiftHistory JoxLiftHistory;
 
 /* Reads the lifts; `storeys` are those of the recording, laid out. Returns NULL where there are
-   none, or with a sentence in `why` if they are damaged. */
+   none, or with a sentence in `why` that names the table, row and column if they are damaged. */
 JoxLiftHistory *jox_lift_history_read(struct JoxDatabase *db, const JoxStoreys *storeys,
                                       JoxText *why);
 /* Returns the lifts, laid out, and sets their number; NULL and 0 for NULL. */

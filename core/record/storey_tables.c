@@ -2,147 +2,151 @@
 #include "record/storey_tables.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/database.h"
 #include "base/mem.h"
 #include "record/recorder_schema.h"
+#include "record/table_rows.h"
 
-enum { MOST_POINTS = 1000 };
-static const double FARTHEST = 1e5; /* m: of heights, of where sheets begin, and of the pitch */
+static const double FARTHEST = 1e5;     /* m: of heights, of where sheets begin, and of the pitch */
+static const double FASTEST_BELT = 100; /* m/s */
 
 const char *const jox_stair_kind_names[] = {"stairs", "ramp", "escalator"};
 const char *const jox_stair_way_names[] = {"both", "up", "down"};
 
-uint32_t jox_storey_tables_points(const char *text, JoxV2 **pairs) {
-    uint32_t count = 0;
-    JoxV2 *read = jox_alloc(MOST_POINTS, sizeof *read);
-    for (bool more = text != NULL && *text; more; text++) {
-        int used = 0;
-        if (count == MOST_POINTS ||
-            sscanf(text, "%f %f%n", &read[count].x, &read[count].y, &used) != 2) {
-            count = 0;
-            break;
-        }
-        count++;
-        text += used;
-        more = *text == ',';
-    }
-    *pairs = read;
-    return count;
+/* Storeys or stairs that are being read. */
+typedef struct Reading {
+    JoxStoreys *out;
+    size_t capacity;
+} Reading;
+
+static bool read_storey(JoxTableRow *row, void *context) {
+    Reading *reading = context;
+    JoxStoreys *s = reading->out;
+    const uint32_t n = s->storey_count;
+    if (n >= JOX_MOST_STOREYS)
+        return jox_row_fail(row, 0, "there must be at most 200 storeys");
+    jox_row_whole(row, 0, n, n);
+    JOX_RESERVE(s->storeys, reading->capacity, n + 1);
+    s->storeys[s->storey_count++] =
+        (JoxStorey){jox_row_name(row, 1), (float)jox_row_number(row, 2, -FARTHEST, FARTHEST)};
+    for (uint32_t k = 0; k < n; k++)
+        if (strcmp(s->storeys[k].name, s->storeys[n].name) == 0)
+            return jox_row_fail(row, 1, "no other storey must have this name");
+    return n == 0 || s->storeys[n].height > s->storeys[n - 1].height ||
+           jox_row_fail(row, 2, "it must be above the storey before");
 }
 
-static uint32_t find_name(const char *text, const char *const *names, uint32_t count) {
-    uint32_t found = 0;
-    for (uint32_t n = 0; text && n < count; n++)
-        found = strcmp(text, names[n]) == 0 ? n : found;
-    return found;
-}
-
-static char *copy_column(sqlite3_stmt *row, int column) {
-    const char *text = (const char *)sqlite3_column_text(row, column);
-    return jox_strdup(text ? text : "");
-}
-
-static bool read_storey_row(sqlite3_stmt *row, JoxStoreys *s, size_t *capacity) {
-    const double height = sqlite3_column_double(row, 2);
-    const bool sound =
-        s->storey_count < JOX_MOST_STOREYS && sqlite3_column_int64(row, 0) == s->storey_count &&
-        fabs(height) < FARTHEST &&
-        (s->storey_count == 0 || height > (double)s->storeys[s->storey_count - 1].height);
-    if (!sound)
-        return false;
-    JOX_RESERVE(s->storeys, *capacity, s->storey_count + 1);
-    s->storeys[s->storey_count++] = (JoxStorey){copy_column(row, 1), (float)height};
-    return true;
-}
-
-/* Reads the landings of a stair. Returns false unless they ascend. */
-static bool read_landings(sqlite3_stmt *row, int column, JoxStair *stair) {
+/* Reads the landings of a stair, from one length along its path to another each. */
+static void read_landings(JoxTableRow *row, int column, JoxStair *stair) {
     JoxV2 *pairs;
-    bool sound = true;
-    stair->landing_count =
-        jox_storey_tables_points((const char *)sqlite3_column_text(row, column), &pairs);
+    float end = 0.0f;
+    stair->landing_count = jox_row_points(row, column, 0, &pairs);
     stair->landings = jox_alloc((size_t)stair->landing_count + 1, sizeof *stair->landings);
     for (uint32_t k = 0; k < stair->landing_count; k++) {
         stair->landings[k] = (JoxLanding){pairs[k].x, pairs[k].y};
-        sound = sound && pairs[k].x < pairs[k].y && (k == 0 || pairs[k].x >= pairs[k - 1].y);
+        if (!(pairs[k].x >= end && pairs[k].x < pairs[k].y))
+            jox_row_fail(row, column, "each landing must begin after the one before it");
+        end = pairs[k].y;
     }
     jox_free(pairs);
-    return sound;
 }
 
-static bool read_stair_row(sqlite3_stmt *row, JoxStoreys *s, size_t *capacity) {
-    const int64_t lower = sqlite3_column_int64(row, 4), upper = sqlite3_column_int64(row, 5);
-    const double rise = sqlite3_column_double(row, 9), belt = sqlite3_column_double(row, 10);
-    if (s->stair_count >= JOX_MOST_STAIRS || sqlite3_column_int64(row, 0) != s->stair_count ||
-        lower < 0 || lower > upper || upper >= s->storey_count || !(fabs(rise) < FARTHEST) ||
-        !(fabs(belt) < FARTHEST))
-        return false;
-    JOX_RESERVE(s->stairs, *capacity, s->stair_count + 1);
+static bool read_stair(JoxTableRow *row, void *context) {
+    Reading *reading = context;
+    JoxStoreys *s = reading->out;
+    const uint32_t n = s->stair_count, top = s->storey_count - 1;
+    if (n >= JOX_MOST_STAIRS)
+        return jox_row_fail(row, 0, "there must be at most 1000 stairs");
+    jox_row_whole(row, 0, n, n);
+    JOX_RESERVE(s->stairs, reading->capacity, n + 1);
     JoxStair *stair = &s->stairs[s->stair_count++];
-    *stair = (JoxStair){.name = copy_column(row, 1),
-                        .lower = (uint32_t)lower,
-                        .upper = (uint32_t)upper,
-                        .width = (float)sqlite3_column_double(row, 7),
-                        .rise = (float)rise,
-                        .belt = (float)belt};
-    stair->kind =
-        (JoxStairKind)find_name((const char *)sqlite3_column_text(row, 2), jox_stair_kind_names, 3);
-    stair->way =
-        (JoxStairWay)find_name((const char *)sqlite3_column_text(row, 3), jox_stair_way_names, 3);
-    stair->path_count =
-        jox_storey_tables_points((const char *)sqlite3_column_text(row, 6), &stair->path);
-    return read_landings(row, 8, stair) && jox_stair_is_sound(stair);
+    *stair = (JoxStair){.name = jox_row_name(row, 1)};
+    stair->kind = (JoxStairKind)jox_row_choice(row, 2, jox_stair_kind_names, 3);
+    stair->way = (JoxStairWay)jox_row_choice(row, 3, jox_stair_way_names, 3);
+    stair->lower = (uint32_t)jox_row_whole(row, 4, 0, top);
+    stair->upper = (uint32_t)jox_row_whole(row, 5, 0, top);
+    stair->path_count = jox_row_points(row, 6, 2, &stair->path);
+    stair->width = (float)jox_row_number(row, 7, 0.0, FARTHEST);
+    read_landings(row, 8, stair);
+    stair->rise = (float)jox_row_number(row, 9, -FARTHEST, FARTHEST);
+    stair->belt = (float)jox_row_number(row, 10, -FASTEST_BELT, FASTEST_BELT);
+    if (stair->lower > stair->upper)
+        return jox_row_fail(row, 5, "it must not be below `lower`");
+    if ((stair->kind == JOX_STAIR_ESCALATOR) != (stair->belt != 0.0f))
+        return jox_row_fail(row, 10, "it must be a speed of an escalator, and 0 of others");
+    return jox_row_is_sound(row) &&
+           (jox_stair_is_sound(stair) ||
+            jox_row_fail(row, 6, "a strip of the stair's width about it must enclose an area"));
 }
 
-/* Reads all rows of a query. Returns false at the first unsound one. */
-static bool read_rows(struct JoxDatabase *db, const char *sql, JoxStoreys *out,
-                      bool (*read)(sqlite3_stmt *, JoxStoreys *, size_t *)) {
-    sqlite3_stmt *rows = jox_database_prepare(db, sql);
-    size_t capacity = 0;
-    bool sound = rows != NULL;
-    while (sound && sqlite3_step(rows) == SQLITE_ROW)
-        sound = read(rows, out, &capacity);
-    jox_database_finalize(db, rows);
-    return sound;
-}
-
-/* Reads a number of the metadata. Returns false unless it is there and finite. */
-static bool read_number(struct JoxDatabase *db, const char *key, float *out) {
-    sqlite3_stmt *row =
-        jox_database_prepare(db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = ?");
+/* Reads a number of the metadata. Returns false unless it is a number from `least` on. */
+static bool read_metadata(JoxDatabase *db, const char *key, double least, float *out,
+                          JoxText *why) {
+    sqlite3_stmt *row = jox_database_prepare(db, "SELECT value FROM metadata WHERE key = ?");
     if (row)
         sqlite3_bind_text(row, 1, key, -1, SQLITE_STATIC);
-    const bool found = row && sqlite3_step(row) == SQLITE_ROW;
-    *out = found ? (float)sqlite3_column_double(row, 0) : NAN;
+    const char *text =
+        row && sqlite3_step(row) == SQLITE_ROW ? (const char *)sqlite3_column_text(row, 0) : NULL;
+    char *end = NULL;
+    const double value = text ? strtod(text, &end) : 0.0;
+    const bool sound = end && end != text && !*end && value >= least && value <= FARTHEST;
+    *out = (float)value;
+    if (!sound)
+        jox_text_printf(why,
+                        "table metadata, key %s: value is %s%.40s%s: it must be a number from "
+                        "%.9g to %.9g",
+                        key, text ? "'" : "", text ? text : "missing", text ? "'" : "", least,
+                        FARTHEST);
     jox_database_finalize(db, row);
-    return fabs((double)*out) < FARTHEST;
+    return sound;
 }
 
-bool jox_storey_tables_read(struct JoxDatabase *db, JoxStoreys *out, JoxText *why) {
-    sqlite3_stmt *there = jox_database_prepare(db, "SELECT number FROM jostle_storey LIMIT 1");
+/* Returns whether all stairs lie on the sheets that the metadata give them. */
+static bool check_layout(const JoxStoreys *s, JoxText *why) {
+    for (uint32_t k = 0; k < s->stair_count; k++) {
+        const JoxStair *stair = &s->stairs[k];
+        if (stair->low.y >= s->origin && stair->high.y < s->origin + s->pitch)
+            continue;
+        jox_text_printf(why,
+                        "table metadata: keys " JOX_RECORDED_ORIGIN " and " JOX_RECORDED_PITCH
+                        " give storeys from y = %g to %g m: the stair %.60s lies outside",
+                        (double)s->origin, (double)(s->origin + s->pitch), stair->name);
+        return false;
+    }
+    return true;
+}
+
+/* Returns whether a query can be prepared and has a row, or, if `any` is false, can be prepared. */
+static bool answers(JoxDatabase *db, const char *query, bool any) {
+    sqlite3_stmt *row = jox_database_prepare(db, query);
+    const bool found = row && (!any || sqlite3_step(row) == SQLITE_ROW);
+    jox_database_finalize(db, row);
+    return found;
+}
+
+bool jox_storey_tables_read(JoxDatabase *db, JoxStoreys *out, JoxText *why) {
     float origin, pitch;
+    Reading storeys = {.out = out}, stairs = {.out = out};
     *out = (JoxStoreys){0};
-    const bool any = there && sqlite3_step(there) == SQLITE_ROW;
-    jox_database_finalize(db, there);
-    if (!any)
-        return true;
-    bool sound = read_rows(db, "SELECT number, name, height FROM jostle_storey ORDER BY number",
-                           out, read_storey_row) &&
-                 read_rows(db,
-                           "SELECT number, name, kind, way, lower, upper, path, width, landings, "
-                           "rise, belt FROM jostle_stair ORDER BY number",
-                           out, read_stair_row);
-    sound = sound && read_number(db, JOX_RECORDED_ORIGIN, &origin) &&
-            read_number(db, JOX_RECORDED_PITCH, &pitch) && pitch > 1.0f;
-    if (sound)
-        jox_storeys_lay_out_again(out, origin, pitch);
-    else
-        jox_text_add(why, "its storeys or stairs are damaged");
-    return sound;
+    if (!answers(db, "SELECT number FROM jostle_storey LIMIT 1", true)) {
+        if (answers(db, "SELECT storey FROM jostle_row", false))
+            jox_text_add(why, "table jostle_storey has no rows, though people stand on storeys");
+        return why->length == 0;
+    }
+    if (!jox_table_read(db, "jostle_storey",
+                        "SELECT number, name, height FROM jostle_storey ORDER BY number", 1,
+                        read_storey, &storeys, why) ||
+        !jox_table_read(db, "jostle_stair",
+                        "SELECT number, name, kind, way, lower, upper, path, width, landings, "
+                        "rise, belt FROM jostle_stair ORDER BY number",
+                        1, read_stair, &stairs, why) ||
+        !read_metadata(db, JOX_RECORDED_ORIGIN, -FARTHEST, &origin, why) ||
+        !read_metadata(db, JOX_RECORDED_PITCH, (double)JOX_LEAST_PITCH, &pitch, why))
+        return false;
+    jox_storeys_lay_out_again(out, origin, pitch);
+    return check_layout(out, why);
 }
 
 bool jox_storey_tables_place(const JoxStoreys *s, int64_t storey, int64_t stair, float *y) {

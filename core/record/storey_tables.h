@@ -10,11 +10,9 @@ struct JoxDatabase;
 extern const char *const jox_stair_kind_names[]; /* by JoxStairKind: "stairs", ... */
 extern const char *const jox_stair_way_names[];  /* by JoxStairWay: "both", ... */
 
-/* Reads "x y, x y, ..." into points, of which the caller frees the array. Returns their number; 0
-   if the text has another form. */
-uint32_t jox_storey_tables_points(const char *text, JoxV2 **points);
 /* Reads and lays out the storeys of a recording, which the caller frees; leaves them empty where
-   there are none. Returns false with a sentence in `why` if they are damaged. */
+   there are none. Returns false with a sentence in `why` that names the table, row and column if
+   they are damaged. */
 bool jox_storey_tables_read(struct JoxDatabase *db, JoxStoreys *out, JoxText *why);
 /* Moves a point in plan to the sheet of a row's storey, and stair if that is not 0. Returns false
    if there are no such storey and stair. */

@@ -87,9 +87,10 @@ bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostic
 bool jox_trajectories_add_text(JoxTrajectories *t, const char *path, const char *text,
                                size_t length, const JoxTrajectoryOptions *options,
                                JoxDiagnostics *diagnostics);
-/* Reads only walls and groups from an open file (trajectory_plan.c), whose storeys are set. */
+/* Reads only walls and groups from an open file (trajectory_plan.c), whose storeys are set. Returns
+   false with a sentence in `why` if a wall is damaged. */
 struct JoxDatabase;
-void jox_trajectories_read_walls(JoxTrajectories *t, struct JoxDatabase *db);
+bool jox_trajectories_read_walls(JoxTrajectories *t, struct JoxDatabase *db, JoxText *why);
 /* Returns the colour in a column of a row; 0 for none. */
 struct sqlite3_stmt;
 JoxColour jox_trajectory_colour(struct sqlite3_stmt *row, int column);

@@ -4,13 +4,14 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "record/table_rows.h"
 #include "record/trajectories.h"
 #include "record/trajectory_reader_parts.h"
 
-static bool add_recording_error(JoxDiagnostics *diagnostics, const char *path,
+static bool add_recording_error(JoxDiagnostics *diagnostics, const char *path, const char *hint,
                                 const char *message) {
     JoxPosition at = {path, 0, 0, 0};
-    jox_diag_error(diagnostics, at, "bad-recording", NULL, "%s", message);
+    jox_diag_error(diagnostics, at, "bad-recording", hint, "%s", message);
     return false;
 }
 
@@ -104,10 +105,10 @@ static bool read_all_frames(JoxTrajectories *t, JoxTrajectoryReader *r, const ch
             add_person_row(t, r, frame, &f, i, capacities);
     }
     if (!good)
-        add_recording_error(diagnostics, path, why.data);
+        add_recording_error(diagnostics, path, JOX_ROW_HINT, why.data);
     jox_text_free(&why);
-    return good &&
-           (t->count > 0 || add_recording_error(diagnostics, path, "nobody is in this recording"));
+    return good && (t->count > 0 ||
+                    add_recording_error(diagnostics, path, NULL, "nobody is in this recording"));
 }
 
 JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
@@ -126,11 +127,11 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     jox_storeys_copy(&t->storeys, &r->outlines.storeys);
     t->lifts = r->outlines.lifts;
     r->outlines.lifts = NULL;
-    bool good = read_all_frames(t, r, path, diagnostics);
-    if (good) {
-        jox_trajectories_read_walls(t, r->db);
-        good = jox_trajectories_finish(t, path, diagnostics);
-    }
+    JoxText why = {0}; /* none: the reader has read the walls before */
+    const bool good = read_all_frames(t, r, path, diagnostics) &&
+                      jox_trajectories_read_walls(t, r->db, &why) &&
+                      jox_trajectories_finish(t, path, diagnostics);
+    jox_text_free(&why);
     jox_trajectory_reader_close(r);
     if (good)
         return t;

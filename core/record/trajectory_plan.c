@@ -82,13 +82,14 @@ static void read_groups(JoxTrajectories *t, JoxDatabase *db) {
     jox_database_finalize(db, statement);
 }
 
-void jox_trajectories_read_walls(JoxTrajectories *t, JoxDatabase *db) {
+bool jox_trajectories_read_walls(JoxTrajectories *t, JoxDatabase *db, JoxText *why) {
     uint32_t lift_count;
     const JoxLift *lifts = jox_lift_history_lifts(t->lifts, &lift_count);
-    t->history = jox_wall_history_read(db, &t->storeys, lifts, lift_count);
+    t->history = jox_wall_history_read(db, &t->storeys, lifts, lift_count, why);
     if (t->history)
         jox_wall_history_first(t->history, &t->walls);
-    else
+    else if (why->length == 0)
         read_geometry(t, db);
     read_groups(t, db);
+    return why->length == 0;
 }

@@ -65,6 +65,17 @@ static bool set_damage(JoxText *why, const char *format, const char *detail) {
     return false;
 }
 
+/* Tells that the storey in a column of a row, or the stair in the next, is not in the recording. */
+static bool set_unplaced(JoxText *why, const char *table, int64_t frame, int64_t id,
+                         sqlite3_stmt *row, int column) {
+    jox_text_printf(why,
+                    "table %s, frame %lld, id %lld: storey is '%.20s' and stair '%.20s': they must "
+                    "be in tables jostle_storey and jostle_stair",
+                    table, (long long)frame, (long long)id, sqlite3_column_text(row, column),
+                    sqlite3_column_text(row, column + 1));
+    return false;
+}
+
 static void reserve_frame_columns(JoxTrajectoryReader *r, size_t need) {
     if (need <= r->capacity)
         return;
@@ -174,7 +185,7 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
         }
         store_person_row(r, n);
         if (isnan(r->y[n]))
-            return set_damage(why, "%s is on a storey that the recording lacks", "a person");
+            return set_unplaced(why, "jostle_row", r->number[frame], r->id[n], r->rows, 15);
         if (!(fabsf(r->x[n]) < 1e6f && fabsf(r->y[n]) < 1e6f))
             return set_damage(why, "%s is more than 1000 km from the origin", "a person");
         if (n > 0 && r->id[n] <= r->id[n - 1]) { /* smaller ids come from a damaged index */
@@ -249,7 +260,7 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
         if (r->placed &&
             !jox_storey_tables_place(&r->outlines.storeys, sqlite3_column_int64(r->bodies, 9),
                                      sqlite3_column_int64(r->bodies, 10), &body->y))
-            return set_damage(why, "%s is on a storey that the recording lacks", "a body");
+            return set_unplaced(why, "jostle_body", number, body->id, r->bodies, 9);
         for (int k = 0; k < 7; k++)
             if (!isfinite(values[k]))
                 return set_damage(why, "the %s of a body is not finite", "position or turn");

@@ -9,6 +9,7 @@
 #include "machine/machine.h"
 #include "record/recorder_schema.h"
 #include "record/storey_tables.h"
+#include "record/table_rows.h"
 #include "record/trajectory_reader_parts.h"
 
 enum {
@@ -326,7 +327,7 @@ static bool read_properties(JoxTrajectoryReader *r, const char *path,
         placed = why.length == 0;
     }
     if (!placed) {
-        add_open_error(diagnostics, path, NULL, why.data);
+        add_open_error(diagnostics, path, JOX_ROW_HINT, why.data);
         jox_text_free(&why);
         return false;
     }
@@ -366,8 +367,11 @@ static bool read_properties(JoxTrajectoryReader *r, const char *path,
     read_bounds(r);
     read_look(r);
     read_state_names(r);
-    jox_trajectories_read_walls(&r->outlines, r->db);
-    return true;
+    if (!jox_trajectories_read_walls(&r->outlines, r->db, &why))
+        add_open_error(diagnostics, path, JOX_ROW_HINT, why.data);
+    const bool good = why.length == 0;
+    jox_text_free(&why);
+    return good;
 }
 
 static bool open_sqlite_recording(JoxTrajectoryReader *r, const char *path,

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/database.h"
 #include "base/mem.h"
 #include "record/storey_tables.h"
+#include "record/table_rows.h"
 
 enum { MOST_POINTS = 100000, MOST_WALLS = 1000000 };
 
@@ -39,10 +39,11 @@ struct JoxWallHistory {
 
 /* ---- reading ---- */
 
-/* Parses "x y, x y, ..." and returns how many points there are; 0 if the text has another form. */
+/* Parses "x y, x y, ..." and returns how many points there are; 0 if the text is empty or has
+   another form. */
 static uint32_t parse_wall_points(const char *text, JoxV2 *points) {
     uint32_t count = 0;
-    for (bool more = text != NULL; more; text++) {
+    for (bool more = text && *text; more; text++) {
         float x, y;
         int used = 0;
         if (count == MOST_POINTS || sscanf(text, "%f %f%n", &x, &y, &used) != 2 ||
@@ -67,12 +68,12 @@ static const RecordedWall *find_previous_row(const JoxWallHistory *h, uint32_t n
     return number < h->walls && h->latest[number] ? &h->rows[h->latest[number] - 1] : NULL;
 }
 
-/* Adds a row of the table. A ring with too few points is stored without any, as a removed wall. */
-static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
+/* Adds a row of the table. A ring without points is stored as a removed wall. Returns false with a
+   sentence if the row is damaged. */
+static bool add_wall_row(JoxWallHistory *h, const JoxTableRow *told, JoxV2 *points,
                          size_t *latest_capacity) {
-    const int64_t number = sqlite3_column_int64(list, 1);
-    if (number < 0 || number >= MOST_WALLS || h->count == UINT32_MAX - 1)
-        return;
+    sqlite3_stmt *list = told->values;
+    const int64_t number = jox_row_whole(told, 1, 0, MOST_WALLS);
     const float given = (float)sqlite3_column_double(list, 6);
     const float drawn = (float)sqlite3_column_double(list, 8);
     const char *name = (const char *)sqlite3_column_text(list, 2);
@@ -94,24 +95,29 @@ static void add_wall_row(JoxWallHistory *h, sqlite3_stmt *list, JoxV2 *points,
         row.count = parse_wall_points(text, points);
         store_points(h, &row, points);
     }
-    if (row.count < (row.solid || row.closed ? 3 : 2))
+    if (row.count < (row.solid || row.closed ? 3 : 2)) {
         row.count = 0;
+        if (text && *text)
+            jox_row_fail(told, 7, "it must be 'x y, x y, ...' with 2 points, of a ring 3, or more");
+    }
     JOX_RESERVE(h->rows, h->capacity, h->count + 1);
     h->rows[h->count++] = row;
     JOX_RESERVE(h->latest, *latest_capacity, (size_t)number + 1);
     for (; h->walls <= (uint32_t)number; h->walls++)
         h->latest[h->walls] = 0;
     h->latest[number] = h->count;
+    return jox_row_is_sound(told);
 }
 
-/* Moves the points of a wall from plan to the sheet of its row; a wall elsewhere is left without
-   points. */
-static void place_wall(JoxWallHistory *h, sqlite3_stmt *list, const JoxStoreys *storeys) {
-    RecordedWall *row = &h->rows[h->count - 1];
-    for (uint32_t k = 0; k < row->count && !row->same_points; k++)
-        if (!jox_storey_tables_place(storeys, sqlite3_column_int64(list, 9),
-                                     sqlite3_column_int64(list, 10), &h->points[row->first + k].y))
-            row->count = 0;
+/* Moves the points of a wall from plan to the sheet of its row. Returns false with a sentence if
+   the recording lacks that. */
+static bool place_wall(JoxWallHistory *h, const JoxTableRow *told, const JoxStoreys *storeys) {
+    const RecordedWall *row = &h->rows[h->count - 1];
+    const int64_t storey = jox_row_whole(told, 9, 0, (int64_t)storeys->storey_count - 1);
+    const int64_t stair = jox_row_whole(told, 10, 0, storeys->stair_count);
+    for (uint32_t k = 0; jox_row_is_sound(told) && k < row->count && !row->same_points; k++)
+        jox_storey_tables_place(storeys, storey, stair, &h->points[row->first + k].y);
+    return jox_row_is_sound(told);
 }
 
 /* Marks the walls that are doors of lifts. */
@@ -124,7 +130,7 @@ static void mark_lift_doors(JoxWallHistory *h, const JoxLift *lifts, uint32_t co
 }
 
 JoxWallHistory *jox_wall_history_read(JoxDatabase *db, const JoxStoreys *storeys,
-                                      const JoxLift *lifts, uint32_t lift_count) {
+                                      const JoxLift *lifts, uint32_t lift_count, JoxText *why) {
     /* Older recordings have no drawn heights, still older ones no frames. */
     static const char *const QUERIES[] = {
         "SELECT frame, number, name, solid, closed, open, height, points, drawn, storey, stair "
@@ -133,25 +139,31 @@ JoxWallHistory *jox_wall_history_read(JoxDatabase *db, const JoxStoreys *storeys
         "ORDER BY frame, number",
         "SELECT frame, number, name, solid, closed, open, height, points, NULL FROM jostle_wall "
         "ORDER BY frame, number",
-        "SELECT 0, rowid - 1, name, solid, closed, open, height, points, NULL FROM jostle_wall "
+        "SELECT 0 AS frame, rowid - 1 AS number, name, solid, closed, open, height, points, NULL "
+        "FROM jostle_wall "
         "ORDER BY rowid"};
     sqlite3_stmt *list = NULL;
-    const bool placed = jox_has_storeys(storeys);
-    for (int q = placed ? 0 : 1; q < 4 && !list; q++)
+    const bool placed = storeys->storey_count > 0;
+    for (int q = placed ? 0 : 1; q < (placed ? 1 : 4) && !list; q++)
         list = jox_database_prepare(db, QUERIES[q]);
+    if (!list && placed)
+        jox_text_printf(why, "table jostle_wall cannot be read: %s", sqlite3_errmsg(db->sqlite));
     if (!list)
         return NULL;
     JoxWallHistory *h = jox_alloc(1, sizeof *h);
     JoxV2 *points = jox_alloc(MOST_POINTS, sizeof *points);
     size_t latest_capacity = 0;
-    while (sqlite3_step(list) == SQLITE_ROW) {
-        const uint32_t had = h->count;
-        add_wall_row(h, list, points, &latest_capacity);
-        if (placed && h->count > had && sqlite3_column_count(list) > 10)
-            place_wall(h, list, storeys);
-    }
+    const JoxTableRow told = {list, "jostle_wall", 2, why};
+    bool good = true;
+    while (good && sqlite3_step(list) == SQLITE_ROW)
+        good = add_wall_row(h, &told, points, &latest_capacity) &&
+               (!placed || place_wall(h, &told, storeys));
     jox_free(points);
     jox_database_finalize(db, list);
+    if (!good) {
+        jox_wall_history_free(h);
+        return NULL;
+    }
     mark_lift_doors(h, lifts, lift_count);
     return h;
 }

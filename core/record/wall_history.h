@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/text.h"
 #include "geom/lifts.h"
 #include "geom/storeys.h"
 #include "geom/walls.h"
@@ -17,9 +18,10 @@ struct JoxDatabase;
 typedef struct JoxWallHistory JoxWallHistory;
 
 /* Reads the table; storeys and lifts are those of the recording. Returns NULL where the recording
-   has none, as in files of other programs. */
+   has none, as in files of other programs, or with a sentence in `why` if a wall is on a storey
+   that the recording lacks. */
 JoxWallHistory *jox_wall_history_read(struct JoxDatabase *db, const JoxStoreys *storeys,
-                                      const JoxLift *lifts, uint32_t lift_count);
+                                      const JoxLift *lifts, uint32_t lift_count, JoxText *why);
 /* Sets `out` to the walls of the first frame; the caller frees them. */
 void jox_wall_history_first(JoxWallHistory *history, JoxWalls *out);
 /* Returns the walls in a frame, open gates included, valid until the next call. Ring numbers are

@@ -114,8 +114,8 @@ static void recording_is_in_plan_and_reads_back_on_sheets(void **state) {
     unlink(path);
 }
 
-/* Changes a recording and returns whether it can still be read, with errors if not. */
-static bool reads_after(const char *sql) {
+/* Changes a recording and reads it; returns the error, which the caller frees, NULL without one. */
+static char *read_after(const char *sql) {
     const JoxTrajectoryOptions options = {0};
     JoxDiagnostics diagnostics = {0};
     sqlite3 *db;
@@ -127,32 +127,72 @@ static bool reads_after(const char *sql) {
     sqlite3_close(db);
     JoxTrajectories *t = jox_trajectories_read(path, &options, &diagnostics);
     assert_int_equal(t == NULL, diagnostics.errors > 0);
-    const bool read = t != NULL;
+    char *error = t ? NULL : jox_strdup(diagnostics.items[0].message);
+    if (!t)
+        assert_non_null(diagnostics.items[0].hint);
     jox_trajectories_free(t);
     jox_diag_free(&diagnostics);
-    return read;
+    return error;
 }
 
-static void damaged_storeys_are_refused(void **state) {
+static void damaged_storeys_are_refused_with_table_row_and_column(void **state) {
     (void)state;
-    static const char *const DAMAGES[] = {
-        "UPDATE jostle_row SET storey = 2 WHERE frame = 3",
-        "UPDATE jostle_row SET stair = -1 WHERE frame = 3",
-        "UPDATE jostle_storey SET height = 0",
-        "UPDATE jostle_storey SET number = number + 5",
-        "UPDATE jostle_stair SET upper = 9",
-        "UPDATE jostle_stair SET path = '8 5'",
-        "UPDATE jostle_stair SET path = '8 5, 8 5'",
-        "UPDATE jostle_stair SET path = '8 5, nan 5'",
-        "UPDATE jostle_stair SET width = 0",
-        "UPDATE jostle_stair SET landings = '3 2'",
-        "DELETE FROM metadata WHERE key = 'jostle_pitch'",
-        "UPDATE metadata SET value = 0 WHERE key = 'jostle_pitch'",
+#define STOREY(set) "UPDATE jostle_storey SET " set " WHERE number = 1"
+#define STAIR(set) "UPDATE jostle_stair SET " set
+    static const struct {
+        const char *sql, *says;
+    } DAMAGES[] = {
+        {"UPDATE jostle_row SET storey = 2 WHERE frame = 3",
+         "table jostle_row, frame 3, id 4: storey is '2'"},
+        {"UPDATE jostle_row SET stair = -1 WHERE frame = 3",
+         "table jostle_row, frame 3, id 4: storey is '0' and stair '-1'"},
+        {"UPDATE jostle_wall SET storey = 9 WHERE number = 1",
+         "table jostle_wall, frame 0, number 1: storey is '9'"},
+        {"UPDATE jostle_wall SET points = '1 2, x' WHERE number = 1",
+         "table jostle_wall, frame 0, number 1: points is '1 2, x'"},
+        {"DELETE FROM jostle_storey", "table jostle_storey has no rows"},
+        {"DELETE FROM jostle_storey WHERE number = 1",
+         "table jostle_stair, number 0: upper is '1'"},
+        {"DELETE FROM jostle_stair", "number 6: stair is '1'"},
+        {"DROP TABLE jostle_stair", "table jostle_stair cannot be read"},
+        {"DROP TABLE jostle_car", "table jostle_car cannot be read"},
+        {STOREY("height = 0"), "table jostle_storey, number 1: height is '0.0'"},
+        {STOREY("height = 'nan'"), "number 1: height is 'nan'"},
+        {STOREY("name = NULL"), "number 1: name is NULL"},
+        {STOREY("name = 'ground'"), "number 1: name is 'ground'"},
+        {"UPDATE jostle_storey SET number = number + 5", "number 5: number is '5'"},
+        {STAIR("kind = 55"), "table jostle_stair, number 0: kind is '55'"},
+        {STAIR("way = -8"), "way is '-8'"},
+        {STAIR("upper = 9"), "upper is '9'"},
+        {STAIR("lower = 1, upper = 0"), "upper is '0'"},
+        {STAIR("path = '8 5'"), "path is '8 5'"},
+        {STAIR("path = '8 5, 8 5'"), "path is '8 5, 8 5'"},
+        {STAIR("path = '8 5, nan 5'"), "path is '8 5, nan 5'"},
+        {STAIR("path = '8 5, 14 5 and'"), "path is '8 5, 14 5 and'"},
+        {STAIR("width = 0"), "path is '8 5, 14 5'"},
+        {STAIR("width = 'wide'"), "width is 'wide'"},
+        {STAIR("landings = '3 2'"), "landings is '3 2'"},
+        {STAIR("landings = 'garbage'"), "landings is 'garbage'"},
+        {STAIR("belt = 'inf'"), "belt is 'inf'"},
+        {STAIR("belt = 9e999"), "belt is 'Inf'"},
+        {STAIR("belt = 0.5"), "belt is '0.5'"},
+        {STAIR("kind = 'escalator'"), "belt is '0.0'"},
+        {STAIR("rise = 'high'"), "rise is 'high'"},
+        {"UPDATE metadata SET value = 'x' WHERE key = 'jostle_origin'",
+         "table metadata, key jostle_origin: value is 'x'"},
+        {"UPDATE metadata SET value = 7 WHERE key = 'jostle_origin'",
+         "the stair north lies outside"},
+        {"DELETE FROM metadata WHERE key = 'jostle_pitch'", "jostle_pitch: value is missing"},
+        {"UPDATE metadata SET value = 0 WHERE key = 'jostle_pitch'", "jostle_pitch: value is '0'"},
+        {"UPDATE metadata SET value = '45 m' WHERE key = 'jostle_pitch'", "value is '45 m'"},
     };
-    assert_true(reads_after("SELECT 1"));
-    for (size_t k = 0; k < sizeof DAMAGES / sizeof *DAMAGES; k++)
-        if (reads_after(DAMAGES[k]))
-            fail_msg("read after %s", DAMAGES[k]);
+    assert_null(read_after("SELECT 1"));
+    for (size_t k = 0; k < sizeof DAMAGES / sizeof *DAMAGES; k++) {
+        char *error = read_after(DAMAGES[k].sql);
+        if (!error || !strstr(error, DAMAGES[k].says))
+            fail_msg("%s: %s", DAMAGES[k].sql, error ? error : "read");
+        jox_free(error);
+    }
     unlink(path);
 }
 
@@ -191,7 +231,7 @@ static void recordings_of_others_may_have_a_column_of_storeys(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(recording_is_in_plan_and_reads_back_on_sheets),
-        cmocka_unit_test(damaged_storeys_are_refused),
+        cmocka_unit_test(damaged_storeys_are_refused_with_table_row_and_column),
         cmocka_unit_test(recordings_of_others_may_have_a_column_of_storeys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
