@@ -6,7 +6,7 @@
 
 #include "geom/storeys.h"
 
-enum { JOX_MOST_LIFTS = 100 };
+enum { JOX_MOST_LIFTS = 100, JOX_MOST_CAPACITY = 200 };
 
 /* The use of a lift. */
 typedef enum JoxLiftMode {

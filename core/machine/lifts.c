@@ -62,12 +62,13 @@ int32_t jox_machines_walk_goal(const JoxMachineRun *run, uint32_t agent) {
 
 bool jox_has_ridden(const JoxMachineRun *run, uint32_t agent) {
     const JoxRider *rider = jox_rider_find(run->lifts, run->agents->id[agent]);
-    return rider && !rider->itself && rider->phase == JOX_RIDE_OVER;
+    return rider && !rider->itself && !rider->stray && rider->phase == JOX_RIDE_OVER;
 }
 
 bool jox_is_riding(const JoxMachineRun *run, uint32_t agent) {
     const JoxRider *rider = jox_rider_find(run->lifts, run->agents->id[agent]);
-    return rider && (rider->phase == JOX_RIDE_INSIDE || rider->phase == JOX_RIDE_LEAVE);
+    return rider && !rider->stray &&
+           (rider->phase == JOX_RIDE_INSIDE || rider->phase == JOX_RIDE_LEAVE);
 }
 
 bool jox_is_lift_in_use(const JoxMachineRun *run, int32_t place) {

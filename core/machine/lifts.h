@@ -54,9 +54,12 @@ typedef struct JoxRider {
     uint32_t lift;
     uint32_t from, to; /* stops */
     uint32_t phase;    /* JoxRidePhase */
-    uint32_t since;    /* tick: when it called; once inside, when it boarded */
+    uint32_t since;    /* tick: when it called */
+    uint32_t boarded;  /* tick: when it came in */
+    uint32_t carried;  /* 1: the car has departed with it */
     int32_t spot;      /* index of its spot before the door or in the car; -1: none */
     float x, y;        /* m: position that it goes to, unless it approaches */
+    uint32_t stray;    /* 1: it got in without wanting to, and is let out; `goal` is -1 */
     uint32_t itself;   /* 1: it walks to `goal`, on another storey, and chose the lift by itself */
 } JoxRider;
 

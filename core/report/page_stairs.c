@@ -192,7 +192,7 @@ void jox_page_put_lifts(FILE *out, const JoxSubject *s) {
         "trips|>mean wait [s]|>90 % waited up to [s]|>longest wait [s]|>mean time in the car "
         "[s]|>most people waiting at a time|>time of that [s]|>found no room when the door "
         "closed|>still "
-        "waiting at the end|>the first of them for [s]");
+        "waiting at the end|>the first of them for [s]|>longest time with an open door [s]");
     table.zero_rows = "Nobody rode in";
     for (uint32_t l = 0; l < s->lift_count; l++) {
         const JoxLiftResult *r = &s->rides[l];
@@ -213,6 +213,7 @@ void jox_page_put_lifts(FILE *out, const JoxSubject *s) {
         jox_table_number(&table, (double)r->count.left_behind);
         jox_table_number(&table, r->waiting);
         jox_table_number(&table, r->waiting ? r->waiting_longest : NAN);
+        jox_table_number(&table, r->count.open_most);
         if (r->count.carried && r->count.carried < JOX_STAIR_FEW)
             add_to_list(&few, "Too few people for means, fewer than ten, rode: ", r->name);
         if (r->waiting)

@@ -349,6 +349,8 @@ static void put_lift_summary(FILE *out, const JoxSubject *s) {
         if (r->waiting)
             jox_text_printf(&text, ", and %u still do, for up to %.0f s", r->waiting,
                             r->waiting_longest);
+        if (r->count.open_most > JOX_LONG_OPEN)
+            jox_text_printf(&text, "; its door stood open for up to %.0f s", r->count.open_most);
         jox_text_add(&text, ".");
     }
     if (text.length)

@@ -15,7 +15,7 @@
     {"lift", "door", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_read_lift_door, JoxLiftDraft, door, has_door), .content = "xy[2]", .meaning = "ends of its door, on the outline of the area: that of each storey for which `doors` has none"}, \
     {"lift", "doors", TABLE, "m", -FAR, FAR, "", READ(jox_key_read_lift_doors), .content = "xy[2]*", .example = "doors: {first: [[0.4, 0], [1.2, 0]]}", .meaning = "ends of the doors of single storeys"}, \
     {"lift", "storeys", NAMES, "", 0, 0, "", READ(jox_key_read_lift_storeys), .meaning = "storeys that it serves; default: all. The shaft passes the others, without a door"}, \
-    {"lift", "capacity", WHOLE, "", 1, 200, "8", TO(JoxLiftDraft, lift.capacity), .meaning = "people for whom there is room"}, \
+    {"lift", "capacity", WHOLE, "", 1, JOX_MOST_CAPACITY, "8", TO(JoxLiftDraft, lift.capacity), .meaning = "people for whom there is room"}, \
     {"lift", "load", NUMBER, "kg", 50, 1e5, "", TO(JoxLiftDraft, load), .meaning = "greatest mass of its people; default: 100 kg for each of `capacity`"}, \
     {"lift", "speed", NUMBER, "m/s", 0.05, 20, "1.6", TO(JoxLiftDraft, lift.speed), .meaning = "greatest speed of the car"}, \
     {"lift", "acceleration", NUMBER, "m/s2", 0.05, 3, "0.8", TO(JoxLiftDraft, lift.acceleration), .meaning = "with which it starts and stops"}, \

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
 #include "world/lift_parts.h"
 
 static const double HOLD = 1.5;     /* s: for which the door stays open after a passage, at least */
@@ -181,6 +182,8 @@ static void set_door(JoxLiftTurn *t, JoxLiftDoor phase, double seconds) {
     const bool open = phase == JOX_DOOR_OPEN;
     if (open || phase == JOX_DOOR_CLOSING)
         jox_world_set_lift_door(t->world, t->lift->stops[car->stop].name, open);
+    if (open)
+        t->figures->open_now = 0.0;
     car->door = phase;
     car->left = seconds;
     car->quiet = 0.0;
@@ -198,6 +201,16 @@ static void arrive_at_stop(JoxLiftTurn *t) {
         set_door(t, JOX_DOOR_OPENING, (double)t->lift->opening);
 }
 
+/* Counts a rider that came in since the last departure. */
+static void count_carried(JoxLiftTurn *t, JoxRider *rider) {
+    JoxLiftFigures *f = t->figures;
+    const double waited = (double)(rider->boarded - rider->since) * t->world->model.def.dt;
+    JOX_RESERVE(f->waits, f->wait_capacity, f->wait_count + 1);
+    f->waits[f->wait_count++] = (float)waited;
+    f->carried++;
+    rider->carried = 1;
+}
+
 static void depart(JoxLiftTurn *t, uint32_t to) {
     JoxLiftCar *car = t->car;
     car->target = (int32_t)to;
@@ -206,6 +219,11 @@ static void depart(JoxLiftTurn *t, uint32_t to) {
     car->refuses = 0;
     if (!car->people)
         return;
+    JoxLiftState *state = &t->world->state.lifts;
+    for (uint32_t r = 0; r < state->rider_count; r++)
+        if (state->riders[r].lift == t->number && state->riders[r].phase == JOX_RIDE_INSIDE &&
+            !state->riders[r].carried)
+            count_carried(t, &state->riders[r]);
     t->figures->trips++;
     t->figures->full_trips += !has_room(t);
     t->figures->filled += (double)car->people / t->lift->capacity;
@@ -249,15 +267,20 @@ static bool holds_door(JoxLiftTurn *t) {
 
 static void run_open_door(JoxLiftTurn *t) {
     JoxLiftCar *car = t->car;
-    car->quiet += t->world->model.def.dt;
-    car->left -= t->world->model.def.dt;
+    const double dt = t->world->model.def.dt;
+    t->figures->open_now += dt;
+    t->figures->open_most = fmax(t->figures->open_most, t->figures->open_now);
+    car->quiet += dt;
+    car->left -= dt;
     if (car->quiet < HOLD && car->left < HOLD - car->quiet && car->people)
         car->left = HOLD - car->quiet;
     if (car->left > 0.0 || holds_door(t))
         return;
-    if (t->blocked) {
+    const bool overloaded = jox_lift_is_overloaded(t);
+    if (t->blocked || overloaded) {
         t->figures->reopened++;
         car->left = REOPEN;
+        jox_lift_arrange_inside(t); /* who stands in the door gets in */
         return;
     }
     t->figures->left_behind += count_left_behind(t);

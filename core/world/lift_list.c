@@ -185,6 +185,59 @@ static bool update_ride(const JoWorld *w, uint32_t i, int32_t goal, JoxRider *ri
     return true;
 }
 
+/* Returns the lift in whose car, with its door open, an agent stands; -1: none. */
+static int32_t find_open_car(const JoWorld *w, uint32_t i) {
+    const JoxStoreys *storeys = &w->model.storeys;
+    const JoxV2 at = {w->state.agents.x[i], w->state.agents.y[i]};
+    for (uint32_t l = 0; l < w->model.lift_count; l++) {
+        const JoxLift *lift = &w->model.lifts[l];
+        const JoxLiftCar *car = &w->state.lifts.cars[l];
+        const float shift = (float)lift->stops[car->stop].storey * storeys->pitch;
+        if (car->door == JOX_DOOR_OPEN && jox_lift_contains(lift, (JoxV2){at.x, at.y - shift}))
+            return (int32_t)l;
+    }
+    return -1;
+}
+
+static JoxRider make_rider(uint32_t id) {
+    return (JoxRider){.id = id, .goal = -1, .phase = JOX_RIDE_APPROACH, .spot = -1};
+}
+
+/* Makes an agent a stray of the car in which it stands and does not want to ride, its door being
+   open: pushed in, or passing. `rides`: it is a rider. False: it is none. */
+static bool begin_straying(const JoWorld *w, uint32_t i, bool rides, JoxRider *rider) {
+    const int32_t l = rides && rider->phase > JOX_RIDE_WAIT ? -1 : find_open_car(w, i);
+    if (l < 0 || (rides && rider->lift == (uint32_t)l))
+        return false;
+    *rider = make_rider(rider->id);
+    rider->lift = (uint32_t)l;
+    rider->phase = JOX_RIDE_LEAVE;
+    rider->from = w->state.lifts.cars[l].stop;
+    rider->stray = 1;
+    return true;
+}
+
+/* Updates the rider of an agent that walks or rides somewhere; false: it rides in no lift. */
+static bool update_rider(const JoWorld *w, uint32_t i, JoxRider *rider, bool has) {
+    const int32_t ride = jox_machines_ride_goal(&w->machines, i);
+    const int32_t walk = ride < 0 ? jox_machines_walk_goal(&w->machines, i) : -1;
+    if (ride < 0 && walk < 0)
+        return false;
+    if (rider->stray && rider->phase == JOX_RIDE_OVER) {
+        *rider = make_rider(rider->id);
+        has = false;
+    }
+    if (!rider->stray) {
+        const bool rides =
+            ride >= 0 ? update_ride(w, i, ride, rider, has) : update_walker(w, i, walk, rider, has);
+        if (!begin_straying(w, i, rides, rider))
+            return rides;
+    }
+    const JoxLiftCar *car = &w->state.lifts.cars[rider->lift];
+    rider->to = car->target >= 0 ? (uint32_t)car->target : car->stop; /* where it gets out */
+    return true;
+}
+
 void jox_lifts_list_riders(JoWorld *w) {
     JoxLiftState *state = &w->state.lifts;
     JoxLiftScratch *scratch = &w->scratch.lifts;
@@ -197,12 +250,8 @@ void jox_lifts_list_riders(JoWorld *w) {
         while (old < state->rider_count && state->riders[old].id < id)
             old++;
         const bool has = old < state->rider_count && state->riders[old].id == id;
-        JoxRider rider =
-            has ? state->riders[old] : (JoxRider){.id = id, .phase = JOX_RIDE_APPROACH, .spot = -1};
-        const int32_t ride = jox_machines_ride_goal(&w->machines, i);
-        if (!(ride >= 0
-                  ? update_ride(w, i, ride, &rider, has)
-                  : update_walker(w, i, jox_machines_walk_goal(&w->machines, i), &rider, has)))
+        JoxRider rider = has ? state->riders[old] : make_rider(id);
+        if (!update_rider(w, i, &rider, has))
             continue;
         JOX_RESERVE(scratch->next, scratch->next_capacity, count + 1);
         JOX_RESERVE(scratch->index, scratch->index_capacity, count + 1);

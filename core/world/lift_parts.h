@@ -1,5 +1,5 @@
-/* Declarations shared by lifts.c, lift_list.c, lift_riders.c and lift_cars.c, and by nothing else.
- */
+/* Declarations shared by lifts.c, lift_list.c, lift_riders.c, lift_spots.c and lift_cars.c, and by
+   nothing else. */
 #ifndef JOX_WORLD_LIFT_PARTS_H
 #define JOX_WORLD_LIFT_PARTS_H
 
@@ -12,7 +12,9 @@ typedef struct JoxLiftTurn {
     const JoxLift *lift;
     JoxLiftCar *car;
     JoxLiftFigures *figures;
-    bool blocked; /* somebody stands in the doorway */
+    bool blocked;     /* somebody stands in the doorway */
+    uint32_t others;  /* people in the car who are no riders of this lift; and their mass, kg; */
+    float other_mass; /* both are counted while the door is not shut */
 } JoxLiftTurn;
 
 /* lift_list.c: brings the list of agents that ride up to date. */
@@ -21,10 +23,26 @@ void jox_lifts_list_riders(JoWorld *world);
 void jox_lift_count_people(JoxLiftTurn *turn);
 /* Sets the phases of the riders of a lift by where they are, and admits those who wait. */
 void jox_lift_update_riders(JoxLiftTurn *turn);
-/* Writes the positions that riders of a lift go to. */
-void jox_lift_place_riders(JoxLiftTurn *turn);
+/* Returns whether more people, or a greater mass, are in the car than it takes; then one steps out.
+ */
+bool jox_lift_is_overloaded(JoxLiftTurn *turn);
 /* Moves all agents in a car from the storey of one stop to that of another. */
 void jox_lift_shift_people(JoxLiftTurn *turn, uint32_t from, uint32_t to);
+
+/* lift_spots.c: returns an agent's point of the plan. */
+JoxV2 jox_lift_plan_of(const JoWorld *world, uint32_t agent);
+/* Returns whether an agent stands in the car. */
+bool jox_lift_holds(const JoxLiftTurn *turn, uint32_t agent);
+/* Returns how far beside the middle of a door (x), and before it (y), a point of the plan is, m. */
+JoxV2 jox_lift_before_door(const JoxLiftStop *stop, JoxV2 plan);
+/* Returns the point of the plan that is so far beside the middle of a door, and before it, m. */
+JoxV2 jox_lift_point_at_door(const JoxLiftStop *stop, float beside, float before);
+/* Gives a rider that waits a spot before the door; -1: none is free. */
+void jox_lift_take_lobby_spot(JoxLiftTurn *turn, JoxRider *rider);
+/* Gives riders in the car spots, such that none has to pass others. */
+void jox_lift_arrange_inside(JoxLiftTurn *turn);
+/* Writes the positions that riders of a lift go to. */
+void jox_lift_place_riders(JoxLiftTurn *turn);
 
 /* lift_cars.c: runs doors and motion of a car for one step. */
 void jox_lift_run_car(JoxLiftTurn *turn);

@@ -1,6 +1,7 @@
 /* Agents that ride in lifts: how far each has come, who may go in, and where each stands. Those
    inside leave first; then those who wait go in, in the order in which they called, as far as there
-   is room. Riders that stand in the way of others who leave step out for them. */
+   is room. Riders that stand in the way of others who leave step out for them. Whoever gets in
+   without a turn, pushed or passing, stays if there is room, else goes out again. */
 #include <math.h>
 #include <string.h>
 
@@ -12,40 +13,12 @@
 
 static const float LOBBY = 4.0f;    /* m from the door: an agent this near and in sight calls */
 static const float LOST = 9.0f;     /* m: one that waits and is moved this far has to come anew */
-static const float OUTSIDE = 0.6f;  /* m beyond the door: an agent there has left the car */
+static const float OUTSIDE = 1.0f;  /* m beyond the door: an agent there has left the car */
 static const float DOORWAY = 0.05f; /* m: gap of an agent to a door that may shut */
 static const float STANDING = 0.7f; /* radii to a wall, as people are moved out of new walls */
 static const float CROWDED = 0.5f;  /* share of the capacity from which riders step out */
 
-/* ---- geometry ---- */
-
-static uint32_t get_sheet(const JoxLiftTurn *t) {
-    return t->lift->stops[t->car->stop].storey;
-}
-
-static JoxV2 get_plan(const JoWorld *w, uint32_t i) {
-    return jox_in_plan(&w->model.storeys, (JoxV2){w->state.agents.x[i], w->state.agents.y[i]});
-}
-
-/* Returns whether agent i stands in the car. */
-static bool is_in_car(const JoxLiftTurn *t, uint32_t i) {
-    const JoWorld *w = t->world;
-    const JoxStoreys *s = &w->model.storeys;
-    const JoxV2 at = {w->state.agents.x[i], w->state.agents.y[i] - (float)get_sheet(t) * s->pitch};
-    return jox_lift_contains(t->lift, at);
-}
-
-/* Returns how far an agent is before a door, and how far beside its middle, m. */
-static JoxV2 get_before_door(const JoxLiftStop *stop, JoxV2 plan) {
-    const JoxV2 from = jox_sub(plan, stop->middle);
-    return (JoxV2){jox_dot(from, jox_left(stop->out)), jox_dot(from, stop->out)};
-}
-
-/* Returns the point of the plan that is so far beside the middle of a door, and before it. */
-static JoxV2 get_point_at_door(const JoxLiftStop *stop, float beside, float before) {
-    return jox_add(stop->middle,
-                   jox_add(jox_scale(jox_left(stop->out), beside), jox_scale(stop->out, before)));
-}
+/* ---- people in the car ---- */
 
 void jox_lift_count_people(JoxLiftTurn *t) {
     const JoxAgents *a = &t->world->state.agents;
@@ -54,7 +27,8 @@ void jox_lift_count_people(JoxLiftTurn *t) {
         return;
     t->car->people = 0;
     t->car->mass = 0.0f;
-    const float shift = (float)get_sheet(t) * t->world->model.storeys.pitch;
+    const uint32_t sheet = t->lift->stops[t->car->stop].storey;
+    const float shift = (float)sheet * t->world->model.storeys.pitch;
     double mass = 0.0;
     for (uint32_t rank = 0; rank < a->count;
          rank++) { /* in an order that does not depend on memory */
@@ -64,10 +38,16 @@ void jox_lift_count_people(JoxLiftTurn *t) {
                            jox_add(t->lift->high, jox_v2(1.0f, 1.0f))))
             continue;
         if (jox_lift_contains(t->lift, plan)) {
+            const float its = jox_param(a, JOX_PARAM_mass, i);
+            const JoxRider *rider = jox_rider_find(&t->world->scratch.lifts.view, a->id[i]);
             t->car->people++;
-            mass += (double)jox_param(a, JOX_PARAM_mass, i);
+            mass += (double)its;
+            if (!rider || rider->lift != t->number) {
+                t->others++;
+                t->other_mass += its;
+            }
         }
-        const JoxV2 at = get_before_door(stop, plan);
+        const JoxV2 at = jox_lift_before_door(stop, plan);
         const float clear = STANDING * jox_param(a, JOX_PARAM_radius, i) + DOORWAY;
         t->blocked |= fabsf(at.y) < clear && fabsf(at.x) < stop->half + clear;
     }
@@ -82,7 +62,7 @@ void jox_lift_shift_people(JoxLiftTurn *t, uint32_t from, uint32_t to) {
     const float by =
         ((float)t->lift->stops[to].storey - (float)t->lift->stops[from].storey) * s->pitch;
     for (uint32_t i = 0; i < a->count; i++) {
-        if (!is_in_car(t, i))
+        if (!jox_lift_holds(t, i))
             continue;
         a->y[i] += by;
         a->prev_y[i] += by;
@@ -91,97 +71,24 @@ void jox_lift_shift_people(JoxLiftTurn *t, uint32_t from, uint32_t to) {
     jox_nav_invalidate_order(w->scratch.nav);
 }
 
-/* ---- waiting ---- */
-
-/* Returns whether a standing wall, open gates and doors of lifts aside, lies between two positions.
- */
-static bool is_walled_off(const JoWorld *w, JoxV2 from, JoxV2 to) {
-    return jox_walls_lie_between(jox_world_walls(w), from, to, NULL);
-}
-
-/* Lays out the spots where people wait before a door: to either side of the way out, and behind one
-   another. */
-static const JoxLobby *get_lobby(const JoxLiftTurn *t, uint32_t s) {
-    const float GRID = 0.7f, BEFORE = 0.65f, FAR = 4.2f, WAY_OUT = 2.6f, SIDE = 0.25f;
-    JoWorld *w = t->world;
-    JoxLobby *lobby = &w->scratch.lifts.lobbies[t->number * w->scratch.lifts.stride + s];
-    const JoxLiftStop *stop = &t->lift->stops[s];
-    const JoxStoreys *storeys = &w->model.storeys;
-    if (lobby->laid && lobby->walls_version == w->state.walls_version)
-        return lobby;
-    *lobby = (JoxLobby){.laid = true, .walls_version = w->state.walls_version};
-    const JoxV2 front = jox_on_sheet(storeys, stop->storey, get_point_at_door(stop, 0.0f, BEFORE));
-    float costs[JOX_MOST_LOBBY_SPOTS];
-    const int columns = (int)(FAR / GRID), rows = columns;
-    for (int row = 0; row < rows; row++)
-        for (int column = -columns; column <= columns; column++) {
-            const float before = BEFORE + (float)row * GRID;
-            const float beside = (float)column * GRID;
-            if (fabsf(beside) < stop->half + 0.15f && before < WAY_OUT)
-                continue;
-            const float cost = before + fabsf(beside);
-            const JoxV2 at =
-                jox_on_sheet(storeys, stop->storey, get_point_at_door(stop, beside, before));
-            const JoxV2 aside = jox_scale(jox_left(stop->out), beside < 0.0f ? -SIDE : SIDE);
-            if (is_walled_off(w, front, jox_add(at, aside)) ||
-                is_walled_off(w, at, jox_add(at, jox_scale(stop->out, SIDE))) ||
-                !jox_is_floor(storeys, at))
-                continue;
-            uint32_t n = lobby->count < JOX_MOST_LOBBY_SPOTS ? lobby->count++ : lobby->count - 1;
-            if (n == lobby->count - 1 && lobby->count == JOX_MOST_LOBBY_SPOTS && cost >= costs[n] &&
-                n > 0 && lobby->spots[n].x != 0.0f)
-                continue;
-            for (; n > 0 && costs[n - 1] > cost; n--) {
-                costs[n] = costs[n - 1];
-                lobby->spots[n] = lobby->spots[n - 1];
-            }
-            costs[n] = cost;
-            lobby->spots[n] = at;
-        }
-    return lobby;
-}
-
-/* Returns the first spot, of `count`, that no other rider of this lift has who is at the same stop
-   and inside or outside as this one; -1: none. */
-static int32_t find_free_spot(const JoxLiftTurn *t, const JoxRider *rider, bool inside,
-                              uint32_t count) {
-    const JoxLiftState *state = &t->world->state.lifts;
-    for (uint32_t k = 0; k < count; k++) {
-        bool taken = false;
-        for (uint32_t r = 0; r < state->rider_count && !taken; r++) {
-            const JoxRider *other = &state->riders[r];
-            const bool in = other->phase == JOX_RIDE_INSIDE || other->phase == JOX_RIDE_LEAVE ||
-                            other->phase == JOX_RIDE_ASIDE;
-            const bool waits = other->phase == JOX_RIDE_WAIT || other->phase == JOX_RIDE_BOARD;
-            taken = other != rider && other->lift == t->number && other->spot == (int32_t)k &&
-                    (inside ? in : waits && other->from == rider->from);
-        }
-        if (!taken)
-            return (int32_t)k;
-    }
-    return -1;
-}
-
 /* ---- phases ---- */
 
 static void begin_waiting(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     const JoWorld *w = t->world;
     rider->phase = JOX_RIDE_WAIT;
     rider->since = (uint32_t)w->state.tick;
-    rider->spot = find_free_spot(t, rider, false, get_lobby(t, rider->from)->count);
+    jox_lift_take_lobby_spot(t, rider);
     rider->x = w->state.agents.x[i]; /* stays where it is if there is no spot */
     rider->y = w->state.agents.y[i];
 }
 
 static void come_in(JoxLiftTurn *t, JoxRider *rider) {
-    JoxLiftFigures *f = t->figures;
-    const double dt = t->world->model.def.dt;
-    JOX_RESERVE(f->waits, f->wait_capacity, f->wait_count + 1);
-    f->waits[f->wait_count++] = (float)((double)(t->world->state.tick - rider->since) * dt);
-    f->carried++;
     rider->phase = JOX_RIDE_INSIDE;
-    rider->since = (uint32_t)t->world->state.tick;
-    rider->spot = find_free_spot(t, rider, true, t->lift->spot_count);
+    rider->from = t->car->stop;
+    rider->boarded = (uint32_t)t->world->state.tick;
+    rider->carried = 0;
+    rider->spot = -1;
+    jox_lift_arrange_inside(t);
     t->car->quiet = 0.0;
     if (t->car->direction == 0 && rider->to != t->car->stop)
         t->car->direction = rider->to > t->car->stop ? 1 : -1;
@@ -195,12 +102,12 @@ static void update_outside(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     if (rider->phase == JOX_RIDE_APPROACH)
         rider->from = jox_lift_near_stop(&w->scratch.lifts.view, t->number, at);
     const JoxLiftStop *stop = &t->lift->stops[rider->from];
-    const JoxV2 front = jox_on_sheet(s, stop->storey, get_point_at_door(stop, 0.0f, 0.3f));
+    const JoxV2 front = jox_on_sheet(s, stop->storey, jox_lift_point_at_door(stop, 0.0f, 0.3f));
     const float way = jox_length(jox_sub(at, front));
     if (rider->phase == JOX_RIDE_APPROACH) {
         if (rider->from == rider->to && jox_sheet_of(s, at.y) == stop->storey)
             rider->phase = JOX_RIDE_OVER;
-        else if (way < LOBBY && !is_walled_off(w, at, front))
+        else if (way < LOBBY && !jox_walls_lie_between(jox_world_walls(w), at, front, NULL))
             begin_waiting(t, rider, i);
     } else if (way > LOST) {
         rider->phase = JOX_RIDE_APPROACH;
@@ -218,7 +125,6 @@ static void update_inside(JoxLiftTurn *t, JoxRider *rider) {
         if (rider->phase == JOX_RIDE_APPROACH || rider->phase == JOX_RIDE_OVER)
             rider->since =
                 (uint32_t)t->world->state.tick; /* it began here, and waited for nothing */
-        rider->from = t->car->stop;
         come_in(t, rider);
     }
     if (t->car->mode == JOX_LIFT_FIREMEN)
@@ -234,35 +140,145 @@ static void update_inside(JoxLiftTurn *t, JoxRider *rider) {
 static void let_out(JoxLiftTurn *t, JoxRider *rider) {
     rider->phase = JOX_RIDE_OVER;
     rider->spot = -1;
-    t->figures->let_out++;
-    t->figures->ride_s += (double)(t->world->state.tick - rider->since) * t->world->model.def.dt;
     t->car->quiet = 0.0;
+    if (!rider->carried)
+        return;
+    t->figures->let_out++;
+    t->figures->ride_s += (double)(t->world->state.tick - rider->boarded) * t->world->model.def.dt;
 }
 
 /* Returns whether a rider that stays in the car stands between the door and one who leaves. */
 static bool stands_in_way(const JoxLiftTurn *t, JoxV2 at) {
     const JoWorld *w = t->world;
     const JoxLiftStop *stop = &t->lift->stops[t->car->stop];
-    const float before = get_before_door(stop, at).y;
+    const float before = jox_lift_before_door(stop, at).y;
     for (uint32_t r = 0; r < w->state.lifts.rider_count; r++) {
         const JoxRider *rider = &w->state.lifts.riders[r];
         if (rider->lift != t->number || rider->phase != JOX_RIDE_LEAVE)
             continue;
-        const JoxV2 leaver = get_before_door(stop, get_plan(w, w->scratch.lifts.index[r]));
+        const JoxV2 leaver =
+            jox_lift_before_door(stop, jox_lift_plan_of(w, w->scratch.lifts.index[r]));
         if (leaver.y < before)
             return true;
     }
     return false;
 }
 
+/* ---- room ---- */
+
+/* People whom a car holds or has promised a place, and their mass, kg. */
+typedef struct Aboard {
+    uint32_t people;
+    float mass;
+} Aboard;
+
+static Aboard sum_aboard(const JoxLiftTurn *t) {
+    const JoWorld *w = t->world;
+    Aboard sum = {t->others, t->other_mass};
+    for (uint32_t r = 0; r < w->state.lifts.rider_count; r++) {
+        const JoxRider *rider = &w->state.lifts.riders[r];
+        const uint32_t i = w->scratch.lifts.index[r];
+        if (rider->lift != t->number)
+            continue;
+        if (rider->phase != JOX_RIDE_BOARD && rider->phase != JOX_RIDE_INSIDE &&
+            rider->phase != JOX_RIDE_ASIDE &&
+            !(rider->phase == JOX_RIDE_LEAVE && jox_lift_holds(t, i)))
+            continue;
+        sum.people++;
+        sum.mass += jox_param(&w->state.agents, JOX_PARAM_mass, i);
+    }
+    return sum;
+}
+
+static bool is_within(const JoxLiftTurn *t, Aboard sum) {
+    return sum.people <= t->lift->capacity && sum.mass <= t->lift->load;
+}
+
+/* Returns the rider that was let in last and is not yet in; NULL: none. */
+static JoxRider *find_last_to_board(const JoxLiftTurn *t) {
+    JoxLiftState *state = &t->world->state.lifts;
+    JoxRider *last = NULL;
+    for (uint32_t r = 0; r < state->rider_count; r++) {
+        JoxRider *rider = &state->riders[r];
+        if (rider->lift == t->number && rider->phase == JOX_RIDE_BOARD &&
+            !jox_lift_holds(t, t->world->scratch.lifts.index[r]) &&
+            (!last || rider->since >= last->since))
+            last = rider;
+    }
+    return last;
+}
+
+/* Returns whether agent i, which got in without a turn, may stay: there is room, or that of one who
+   is still outside and waits on. */
+static bool takes_in(const JoxLiftTurn *t, uint32_t i) {
+    const JoxAgents *a = &t->world->state.agents;
+    Aboard sum = sum_aboard(t);
+    sum.people++;
+    sum.mass += jox_param(a, JOX_PARAM_mass, i);
+    if (is_within(t, sum))
+        return true;
+    JoxRider *last = find_last_to_board(t);
+    if (!last)
+        return false;
+    sum.people--;
+    sum.mass -= jox_param(a, JOX_PARAM_mass,
+                          t->world->scratch.lifts.index[last - t->world->state.lifts.riders]);
+    if (!is_within(t, sum))
+        return false;
+    last->phase = JOX_RIDE_WAIT;
+    last->spot = -1;
+    return true;
+}
+
+/* Makes a rider without room wait; it goes out again. */
+static void keep_out(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
+    if (rider->phase == JOX_RIDE_WAIT)
+        return;
+    rider->from = t->car->stop;
+    begin_waiting(t, rider, i);
+}
+
+bool jox_lift_is_overloaded(JoxLiftTurn *t) {
+    JoxLiftState *state = &t->world->state.lifts;
+    const JoxLiftStop *stop = &t->lift->stops[t->car->stop];
+    Aboard stay = {t->car->people, t->car->mass};
+    JoxRider *nearest = NULL;
+    float least = -INFINITY;
+    if (is_within(t, stay))
+        return false;
+    for (uint32_t r = 0; r < state->rider_count; r++) {
+        JoxRider *rider = &state->riders[r];
+        const uint32_t i = t->world->scratch.lifts.index[r];
+        if (rider->lift != t->number || !jox_lift_holds(t, i))
+            continue;
+        const float before = jox_lift_before_door(stop, jox_lift_plan_of(t->world, i)).y;
+        if (rider->phase == JOX_RIDE_WAIT) { /* it goes out already */
+            stay.people--;
+            stay.mass -= jox_param(&t->world->state.agents, JOX_PARAM_mass, i);
+        } else if (rider->phase == JOX_RIDE_INSIDE && before > least) {
+            least = before;
+            nearest = rider;
+        }
+    }
+    if (nearest && !is_within(t, stay)) {
+        nearest->phase = JOX_RIDE_WAIT;
+        nearest->spot = -1;
+        t->figures->turned_away++;
+    }
+    t->car->refuses = 1;
+    return true;
+}
+
+/* ---- updates ---- */
+
 static void update_phase(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     const JoxLiftStop *stop = &t->lift->stops[t->car->stop];
-    const bool inside = is_in_car(t, i), open = t->car->door == JOX_DOOR_OPEN;
+    const bool inside = jox_lift_holds(t, i), open = t->car->door == JOX_DOOR_OPEN;
     switch ((JoxRidePhase)rider->phase) {
     case JOX_RIDE_LEAVE:
         if (inside)
             update_inside(t, rider);
-        else if (get_before_door(stop, get_plan(t->world, i)).y > OUTSIDE || !open)
+        else if (jox_lift_before_door(stop, jox_lift_plan_of(t->world, i)).y > OUTSIDE || !open)
             let_out(t, rider);
         break;
     case JOX_RIDE_INSIDE:
@@ -275,14 +291,18 @@ static void update_phase(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
             begin_waiting(t, rider, i); /* the car left without it */
         break;
     case JOX_RIDE_OVER:
+        if (inside && !open) /* it was pushed in again, and rides anew */
+            update_inside(t, rider);
         break;
     case JOX_RIDE_APPROACH:
     case JOX_RIDE_WAIT:
     case JOX_RIDE_BOARD:
-        if (inside && (open || rider->phase == JOX_RIDE_APPROACH))
+        if (!inside)
+            update_outside(t, rider, i);
+        else if (rider->phase == JOX_RIDE_BOARD || !open || takes_in(t, i))
             update_inside(t, rider);
         else
-            update_outside(t, rider, i);
+            keep_out(t, rider, i);
         break;
     }
 }
@@ -330,35 +350,29 @@ static bool has_work_ahead(const JoxLiftTurn *t) {
 static void admit_waiting(JoxLiftTurn *t) {
     JoxLiftCar *car = t->car;
     JoxLiftState *state = &t->world->state.lifts;
-    uint32_t coming = car->people;
-    float mass = car->mass;
     for (uint32_t r = 0; r < state->rider_count; r++) {
         const JoxRider *rider = &state->riders[r];
-        if (rider->lift != t->number)
-            continue;
-        if (rider->phase == JOX_RIDE_LEAVE)
+        if (rider->lift == t->number && (rider->phase == JOX_RIDE_LEAVE ||
+                                         (rider->phase == JOX_RIDE_WAIT &&
+                                          jox_lift_holds(t, t->world->scratch.lifts.index[r]))))
             return;
-        if (rider->phase == JOX_RIDE_BOARD || rider->phase == JOX_RIDE_ASIDE) {
-            coming++;
-            mass += jox_param(&t->world->state.agents, JOX_PARAM_mass,
-                              t->world->scratch.lifts.index[r]);
-        }
     }
+    Aboard sum = sum_aboard(t);
     if (car->mode == JOX_LIFT_OUT_OF_USE || car->refuses ||
         (car->mode == JOX_LIFT_FIREMEN && car->stop == t->lift->home))
         return;
     if (car->mode == JOX_LIFT_IN_USE && car->direction != 0 && !has_work_ahead(t))
         car->direction = 0;
     JoxRider *next;
-    while (coming < t->lift->capacity && (next = find_next_to_board(t))) {
+    while (sum.people < t->lift->capacity && (next = find_next_to_board(t))) {
         const uint32_t i = t->world->scratch.lifts.index[next - state->riders];
-        mass += jox_param(&t->world->state.agents, JOX_PARAM_mass, i);
-        if (mass > t->lift->load) {
+        sum.people++;
+        sum.mass += jox_param(&t->world->state.agents, JOX_PARAM_mass, i);
+        if (!is_within(t, sum)) {
             car->refuses = 1;
             break;
         }
         next->phase = JOX_RIDE_BOARD;
-        coming++;
         if (car->mode == JOX_LIFT_IN_USE && car->direction == 0)
             car->direction = next->to > next->from ? 1 : -1;
     }
@@ -377,79 +391,8 @@ void jox_lift_update_riders(JoxLiftTurn *t) {
          r++) {
         JoxRider *rider = &state->riders[r];
         if (rider->lift == t->number && rider->phase == JOX_RIDE_INSIDE &&
-            stands_in_way(t, get_plan(w, w->scratch.lifts.index[r])))
+            stands_in_way(t, jox_lift_plan_of(w, w->scratch.lifts.index[r])))
             rider->phase = JOX_RIDE_ASIDE;
     }
     admit_waiting(t);
-}
-
-/* ---- where they go ---- */
-
-static void send_to(const JoxLiftTurn *t, JoxRider *rider, uint32_t stop, JoxV2 plan) {
-    const JoxV2 at = jox_on_sheet(&t->world->model.storeys, t->lift->stops[stop].storey, plan);
-    rider->x = at.x;
-    rider->y = at.y;
-}
-
-/* Sends an agent in through the door: round the corner of the shaft, in line with the door, in. */
-static void send_in(const JoxLiftTurn *t, JoxRider *rider, JoxV2 plan) {
-    const JoxLiftStop *stop = &t->lift->stops[t->car->stop];
-    const JoxV2 at = get_before_door(stop, plan);
-    JoxV2 to = {0.0f, -0.5f};
-    if (at.y < 0.1f && fabsf(at.x) > stop->half)
-        to = (JoxV2){at.x, 0.6f};
-    else if (fabsf(at.x) > stop->half - 0.2f)
-        to = (JoxV2){at.x > 0.0f ? 0.1f : -0.1f, 0.3f};
-    send_to(t, rider, t->car->stop, get_point_at_door(stop, to.x, to.y));
-}
-
-/* Sends an agent out: in line with the door, out. */
-static void send_out(const JoxLiftTurn *t, JoxRider *rider, JoxV2 plan) {
-    const JoxLiftStop *stop = &t->lift->stops[t->car->stop];
-    const JoxV2 at = get_before_door(stop, plan);
-    JoxV2 to = {0.0f, 1.8f};
-    if (at.y < 0.0f && fabsf(at.x) > stop->half - 0.2f)
-        to = (JoxV2){at.x > 0.0f ? 0.1f : -0.1f, -0.25f};
-    send_to(t, rider, t->car->stop, get_point_at_door(stop, to.x, to.y));
-}
-
-static void place_rider(const JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
-    const JoxV2 plan = get_plan(t->world, i);
-    const JoxLobby *lobby;
-    switch ((JoxRidePhase)rider->phase) {
-    case JOX_RIDE_APPROACH:
-        break;
-    case JOX_RIDE_WAIT:
-        lobby = get_lobby(t, rider->from);
-        if (rider->spot < 0)
-            rider->spot = find_free_spot(t, rider, false, lobby->count);
-        if (rider->spot >= 0 && (uint32_t)rider->spot < lobby->count) {
-            rider->x = lobby->spots[rider->spot].x;
-            rider->y = lobby->spots[rider->spot].y;
-        }
-        break;
-    case JOX_RIDE_BOARD:
-        send_in(t, rider, plan);
-        break;
-    case JOX_RIDE_INSIDE:
-        if (rider->spot >= 0)
-            send_to(t, rider, t->car->stop, t->lift->spots[rider->spot]);
-        else
-            send_to(t, rider, t->car->stop, plan);
-        break;
-    case JOX_RIDE_ASIDE:
-    case JOX_RIDE_LEAVE:
-        send_out(t, rider, plan);
-        break;
-    case JOX_RIDE_OVER:
-        send_to(t, rider, rider->to, get_point_at_door(&t->lift->stops[rider->to], 0.0f, 1.8f));
-        break;
-    }
-}
-
-void jox_lift_place_riders(JoxLiftTurn *t) {
-    JoxLiftState *state = &t->world->state.lifts;
-    for (uint32_t r = 0; r < state->rider_count; r++)
-        if (state->riders[r].lift == t->number)
-            place_rider(t, &state->riders[r], t->world->scratch.lifts.index[r]);
 }

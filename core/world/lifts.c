@@ -57,6 +57,7 @@ void jox_world_run_lifts(JoWorld *w) {
         return;
     jox_world_apply_walls(w); /* lobbies are laid by the standing walls */
     jox_lifts_list_riders(w);
+    show_lifts(w);
     for (uint32_t l = 0; l < w->model.lift_count; l++) {
         JoxLiftTurn turn = {.world = w,
                             .number = l,
@@ -69,7 +70,6 @@ void jox_world_run_lifts(JoWorld *w) {
         jox_lift_place_riders(&turn);
         measure_queue(&turn);
     }
-    show_lifts(w);
 }
 
 /* Returns the share of a car's door that is open, 0 to 1. */
@@ -198,6 +198,8 @@ void jox_lift_figures_sections(JoWorld *w, JoxSections *s) {
         JOX_SECTION(s, "filled", f->filled);
         JOX_SECTION(s, "ride_s", f->ride_s);
         JOX_SECTION(s, "metres", f->metres);
+        JOX_SECTION(s, "open_now", f->open_now);
+        JOX_SECTION(s, "open_most", f->open_most);
         JOX_SECTION(s, "queue_most", f->queue_most);
         JOX_SECTION(s, "queue_tick", f->queue_tick);
         JOX_SECTION_ARRAY(s, "waits", f->waits, f->wait_count, f->wait_capacity);

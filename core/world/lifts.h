@@ -21,6 +21,8 @@ typedef struct JoxLiftFigures {
     double filled;        /* sum over trips: share of the capacity */
     double ride_s;        /* sum over people let out: time in the car */
     double metres;        /* way of the car */
+    double open_now;      /* s: for which the door has stood open, or last stood open */
+    double open_most;     /* s: the longest of these */
     uint32_t queue_most;  /* most people who waited before its doors at a time */
     uint32_t queue_tick;  /* tick of that */
     float *waits;         /* s: of each person who came in, from the call to the way in */

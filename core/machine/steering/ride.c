@@ -14,8 +14,8 @@ void jox_steer_ride(const JoxMachineRun *run, const JoxMachine *machine, const J
     jox_steer_to_places(run, term, s, places);
     for (uint32_t n = 0; n < s->count; n++) {
         const JoxRider *rider = jox_rider_find(run->lifts, a->id[s->index[n]]);
-        if (rider && rider->goal == goals[n] && rider->phase != JOX_RIDE_APPROACH &&
-            jox_weight_counts(s->by[n]))
+        if (rider && (rider->stray || rider->goal == goals[n]) &&
+            rider->phase != JOX_RIDE_APPROACH && jox_weight_counts(s->by[n]))
             jox_steer_rider(run, rider, s, n);
     }
 }

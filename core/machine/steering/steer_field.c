@@ -226,7 +226,7 @@ static void lead_over_storeys(Asking *q, int32_t *left) {
         if (left[n] < 0)
             continue;
         const JoxRider *rider = jox_rider_find(run->lifts, run->agents->id[i]);
-        const bool rides = rider && rider->itself && rider->goal == left[n];
+        const bool rides = rider && (rider->stray || (rider->itself && rider->goal == left[n]));
         if (rides && rider->phase != JOX_RIDE_APPROACH) {
             jox_steer_rider(run, rider, q->s, n);
             left[n] = -1;

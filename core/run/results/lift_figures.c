@@ -92,6 +92,7 @@ void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
         jox_json_number(json, "queue_max_s", r.queue_most_time);
         jox_json_whole(json, "waiting", r.waiting);
         jox_json_number(json, "waiting_longest_s", r.waiting_longest);
+        jox_json_number(json, "door_open_max_s", r.count.open_most);
         jox_json_number(json, "metres", r.count.metres);
         jox_json_end(json);
     }
@@ -133,6 +134,9 @@ void jox_run_say_lifts(const JoScene *scene, JoxText *out) {
             jox_text_noun(out, r.waiting, "person waits|people wait");
             jox_text_printf(out, " before it, for up to %.0f s", r.waiting_longest);
         }
+        if (r.count.open_most > JOX_LONG_OPEN)
+            jox_text_printf(out, "; its door stood open for up to %.0f s, held by people in it",
+                            r.count.open_most);
         jox_text_add(out, ".");
     }
 }

@@ -5,6 +5,9 @@
 #include "base/format/json_writer.h"
 #include "run/run.h"
 
+/* s: a door that stands open for longer is told in the last lines of a run and in its report. */
+#define JOX_LONG_OPEN 60.0
+
 /* Figures of a lift up to now. Times are in s; NAN where nobody came in, or was let out. */
 typedef struct JoxLiftResult {
     const char *name; /* borrowed */

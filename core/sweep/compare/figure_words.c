@@ -153,6 +153,8 @@ static const struct {
     {"lifts.*.waiting", "people before the lift %s at the end", "", false},
     {"lifts.*.waiting_longest_s", "longest that one of them had waited for the lift %s", "s",
      false},
+    {"lifts.*.door_open_max_s", "longest time for which the door of the lift %s stood open", "s",
+     false},
     {"lifts.*.metres", "way of the lift %s", "m", false},
     {"probes.*.specific_flow", "flow per metre through %s", "1/(m s)", false},
     {"probes.*.passages", "passages of %s", "", false},
