@@ -186,14 +186,29 @@ static void send_to(const JoxLiftTurn *t, JoxRider *rider, uint32_t stop, JoxV2 
     rider->y = at.y;
 }
 
+/* Returns whether an agent stands beside the shaft, not yet before its front. */
+static bool is_beside_shaft(const JoxLiftStop *stop, JoxV2 plan) {
+    const JoxV2 at = jox_lift_before_door(stop, plan);
+    return at.y < 0.1f && fabsf(at.x) > stop->half;
+}
+
+/* Sends an agent from beside the shaft straight on to before its front. */
+static void send_before(const JoxLiftTurn *t, JoxRider *rider, JoxV2 plan) {
+    const JoxLiftStop *stop = &t->lift->stops[rider->from];
+    const JoxV2 at = jox_lift_before_door(stop, plan);
+    send_to(t, rider, rider->from, jox_lift_point_at_door(stop, at.x, 0.6f));
+}
+
 /* Sends an agent in through the door: round the corner of the shaft, in line with the door, in. */
 static void send_in(const JoxLiftTurn *t, JoxRider *rider, JoxV2 plan) {
     const JoxLiftStop *stop = &t->lift->stops[t->car->stop];
     const JoxV2 at = jox_lift_before_door(stop, plan);
     JoxV2 to = {0.0f, -0.5f};
-    if (at.y < 0.1f && fabsf(at.x) > stop->half)
-        to = (JoxV2){at.x, 0.6f};
-    else if (fabsf(at.x) > stop->half - 0.2f)
+    if (is_beside_shaft(stop, plan)) {
+        send_before(t, rider, plan);
+        return;
+    }
+    if (fabsf(at.x) > stop->half - 0.2f)
         to = (JoxV2){at.x > 0.0f ? 0.1f : -0.1f, 0.3f};
     send_to(t, rider, t->car->stop, jox_lift_point_at_door(stop, to.x, to.y));
 }
@@ -273,7 +288,9 @@ static void place_rider(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     case JOX_RIDE_WAIT:
         if (rider->spot < 0)
             jox_lift_take_lobby_spot(t, rider);
-        if (rider->spot >= 0 && (uint32_t)rider->spot < get_lobby(t, rider->from)->count) {
+        if (is_beside_shaft(&t->lift->stops[rider->from], plan)) {
+            send_before(t, rider, plan);
+        } else if (rider->spot >= 0 && (uint32_t)rider->spot < get_lobby(t, rider->from)->count) {
             const JoxV2 spot = get_lobby(t, rider->from)->spots[rider->spot];
             rider->x = spot.x;
             rider->y = spot.y;
