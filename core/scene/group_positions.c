@@ -190,9 +190,9 @@ static JoxV2 get_period(const JoxSceneSpec *s) {
                    s->periodic_y ? s->high.y - s->low.y : 0.0f};
 }
 
-/* Copies the walls that agents keep clear of at the start: with open gates, and with images of
-   walls beyond periodic bounds. To be freed by jox_walls_free. */
-static JoxWalls copy_shut_walls(const JoxSceneSpec *s) {
+/* Copies the walls that agents keep clear of at the start: with open gates, shafts of lifts, and
+   images of walls beyond periodic bounds. To be freed by jox_walls_free. */
+static JoxWalls copy_shut_walls(const JoxSceneSpec *s, const struct JoxFillDraft *fill) {
     JoxWalls shut = s->walls, walls = {0};
     shut.rings = jox_alloc((size_t)shut.ring_count + 1, sizeof *shut.rings);
     for (uint32_t r = 0; r < shut.ring_count; r++) {
@@ -200,6 +200,7 @@ static JoxWalls copy_shut_walls(const JoxSceneSpec *s) {
         shut.rings[r].open = false;
     }
     jox_walls_standing(&walls, &shut, true);
+    jox_scene_add_shafts(s, fill, &walls);
     jox_wall_images_add(&walls, (JoxV2){s->low.x, s->low.y}, get_period(s), (JoxV2){0.0f, 0.0f});
     jox_free(shut.rings);
     return walls;
@@ -246,13 +247,13 @@ void jox_place_group(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
         return; /* wrong, and reported already */
     if (count && group->count == 0 && has_source(r, group))
         return; /* nobody is there at the start */
-    if (fill->in_count == 0) {
+    if (fill->in_count == 0 || !jox_scene_check_fill(r, map, fill)) {
         if (!jox_yaml_get(map, "in"))
             jox_scene_error(r, map, "missing-key", "in: NAME", "a group needs `in`, places");
         group->count = 0;
         return;
     }
-    JoxWalls walls = copy_shut_walls(s);
+    JoxWalls walls = copy_shut_walls(s, fill);
     JoxArea a = {.places = s->places,
                  .in = fill->in,
                  .out = fill->outside,

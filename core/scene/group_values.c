@@ -48,6 +48,27 @@ static bool read_parameter_word(const JoxYaml *value, JoxGroupValue *set) {
     return true;
 }
 
+/* Returns whether values of a parameter have words. */
+static bool has_parameter_words(const char *name) {
+    const int parameter = jox_parameter_find(name);
+    return parameter >= 0 && jox_parameter_word((JoxParameter)parameter, 0);
+}
+
+/* Reports a word that a parameter does not have, with those that it has. */
+static void report_parameter_word(const JoxReader *r, const JoxYaml *value, const char *name) {
+    const int parameter = jox_parameter_find(name);
+    JoxText words = {0};
+    const char *word;
+    jox_text_add(&words, "Write ");
+    for (uint32_t n = 0; (word = jox_parameter_word((JoxParameter)parameter, n)); n++)
+        jox_text_printf(&words, "%s, ", word);
+    jox_text_printf(&words, "or a number from %g to %g", jox_parameters[parameter].least,
+                    jox_parameters[parameter].greatest);
+    jox_scene_error(r, value, "bad-value", words.data, "%s has no value '%.60s'", name,
+                    value->text);
+    jox_text_free(&words);
+}
+
 /* Reads a parameter's number with a unit, as in speed: 5 km/h; false if it is none. */
 static bool read_parameter_quantity(const JoxReader *r, const JoxYaml *value, JoxGroupValue *set) {
     const int parameter = jox_parameter_find(set->name);
@@ -80,6 +101,9 @@ static bool read_group_value(const JoxReader *r, const JoxYaml *value, bool numb
               jox_place_find(s->places, s->place_count, value->text) < 0)) {
         jox_scene_error(r, value, "bad-type", "uniform(0, 6)",
                         "this must be a finite number without a unit, or a distribution");
+        return false;
+    } else if (has_parameter_words(set->name)) {
+        report_parameter_word(r, value, set->name);
         return false;
     } else {
         set->kind = strcmp(value->text, "antipode") ? JOX_SET_PLACE : JOX_SET_ANTIPODE;

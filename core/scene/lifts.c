@@ -8,6 +8,7 @@
 
 static const float ON_OUTLINE = 0.05f; /* m: ends of doors may be this far from the outline */
 static const double NARROWEST = 0.6;   /* m: of doors */
+static const double ROUNDING = 1e-4;   /* m: error of a width that is computed from points */
 static const double DENSEST = 7.0;     /* people per m2 of the car's floor */
 static const double PERSON = 100.0;    /* kg, for the load that is not given */
 
@@ -66,7 +67,10 @@ void jox_key_read_lift_storeys(const JoxReader *r, const JoxKey *key, const JoxY
     const uint32_t count = jox_read_names(r, node, &names);
     for (uint32_t n = 0; n < count; n++) {
         const int32_t storey = jox_scene_find_storey(r, names[n]);
-        if (storey >= 0)
+        if (storey >= 0 && serves[storey])
+            jox_scene_error(r, names[n], "duplicate-name", "Keep one of them",
+                            "the storey '%.60s' is named twice", names[n]->text);
+        else if (storey >= 0)
             serves[storey] = true;
     }
     draft->lift.stops = jox_arena_take(r->arena, (size_t)storeys + 1, sizeof *draft->lift.stops);
@@ -139,11 +143,11 @@ static bool fit_door(const JoxReader *r, const JoxYaml *map, const JoxLift *lift
         return false;
     }
     const double width = (double)jox_length(jox_sub(stop->door[1], stop->door[0]));
-    if (width < NARROWEST)
+    if (width < NARROWEST - ROUNDING)
         jox_scene_error(r, map, "bad-lift", "0.8 to 1.1 m are usual",
                         "the door of '%.60s' on storey '%.60s' is %.2f m wide: people need %g m",
                         lift->name, storey, width, NARROWEST);
-    return width >= NARROWEST;
+    return width >= NARROWEST - ROUNDING;
 }
 
 /* Gives each stop its door; false with an error if one has none. */
@@ -287,7 +291,8 @@ void jox_key_read_lifts(const JoxReader *r, const JoxKey *key, const JoxYaml *no
                         "lifts need at least two `storeys`");
     if (draft->lift_count > JOX_MOST_LIFTS)
         jox_scene_error(r, node, "too-many", NULL, "a scene has at most %d lifts", JOX_MOST_LIFTS);
-    if (!draft->lift_count || r->diagnostics->errors > errors || !s->storeys.sheet_count)
+    draft->lifts_wrong = r->diagnostics->errors > errors;
+    if (!draft->lift_count || draft->lifts_wrong || !s->storeys.sheet_count)
         return;
     uint32_t stops = 0;
     for (uint32_t l = 0; l < draft->lift_count; l++)
@@ -315,6 +320,17 @@ bool jox_scene_is_lift_place(const JoxSceneSpec *scene, int32_t place) {
     return false;
 }
 
+bool jox_scene_is_wrong_lift(const JoxReader *r, const char *text) {
+    const JoxYaml *lifts = jox_yaml_get(r->draft->root, "lifts");
+    for (uint32_t k = 0; r->draft->lifts_wrong && lifts->kind == JOX_YAML_MAP && k < lifts->count;
+         k++) {
+        const size_t n = strlen(lifts->keys[k]);
+        if (strncmp(text, lifts->keys[k], n) == 0 && (text[n] == '.' || text[n] == 0))
+            return true;
+    }
+    return false;
+}
+
 void jox_scene_check_lift(const JoxReader *r, const JoxYaml *name) {
     const JoxSceneSpec *s = r->draft->scene;
     const char *names[JOX_MOST_LIFTS + 1];
@@ -325,7 +341,7 @@ void jox_scene_check_lift(const JoxReader *r, const JoxYaml *name) {
         names[count++] = s->lifts[l].name;
     }
     names[count++] = "all";
-    if (s->lift_count && strcmp(name->text, "all") == 0)
+    if ((s->lift_count && strcmp(name->text, "all") == 0) || jox_scene_is_wrong_lift(r, name->text))
         return;
     jox_scene_error(r, name, "unknown-lift",
                     s->lift_count ? jox_scene_suggest(r, name->text, names, count)

@@ -12,7 +12,7 @@ int32_t jox_scene_find_place(const JoxReader *r, const JoxYaml *name) {
     const uint32_t count = s->place_count < MOST_NAMES ? s->place_count : MOST_NAMES;
     int place = jox_place_find(s->places, s->place_count, name->text);
     JOX_ASSERT(place < (int)s->place_count);
-    if (place >= 0)
+    if (place >= 0 || jox_scene_is_wrong_lift(r, name->text))
         return place;
     for (uint32_t i = 0; i < count; i++)
         names[i] = s->places[i].name;
@@ -55,7 +55,7 @@ void jox_scene_check_wall(const JoxReader *r, const JoxYaml *name, bool stairs) 
         if (stairs && count < MOST_NAMES)
             names[count++] = storeys->stairs[k].stair.name;
     }
-    if (r->draft->walls_wrong)
+    if (r->draft->walls_wrong || jox_scene_is_wrong_lift(r, name->text))
         return;
     jox_scene_error(r, name, "unknown-wall",
                     count ? jox_scene_suggest(r, name->text, names, count)

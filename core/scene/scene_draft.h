@@ -50,8 +50,9 @@ typedef struct JoxSceneDraft {
     JoxStoreysDraft storeys; /* as they are written */
     JoxLiftDraft *lifts;     /* likewise */
     uint32_t lift_count;
-    bool measuring; /* only the extent of all points is of interest: no groups are placed */
-    double pieces;  /* bodies read so far, counting their blocks and parts: bounded in all */
+    bool lifts_wrong; /* some lifts could not be read: their places are missing, and not reported */
+    bool measuring;   /* only the extent of all points is of interest: no groups are placed */
+    double pieces;    /* bodies read so far, counting their blocks and parts: bounded in all */
     /* Values of the body or group that is being read, until it is complete. */
     double block_mass; /* kg, of each block of the body; NAN: not given */
     struct JoxFillDraft {
@@ -124,6 +125,18 @@ JoxOwnerFinish jox_finish_storey, jox_finish_stair;
 void jox_scene_check_stair(const JoxReader *reader, const JoxYaml *map, const JoxStair *stair);
 void jox_scene_check_storeys(const JoxReader *reader);
 
+/* floor_checks.c. Checks that people, bodies, sources and places of a whole scene have floor; warns
+   of a wall, of the rings from `first` on, that leads into a stair or shaft. */
+void jox_scene_check_floors(const JoxReader *reader);
+void jox_scene_check_wall_floor(const JoxReader *reader, const JoxYaml *wall, uint32_t first);
+struct JoxFillDraft;
+/* Reports a place in a shaft that a group would fill; false with an error. */
+bool jox_scene_check_fill(const JoxReader *reader, const JoxYaml *map,
+                          const struct JoxFillDraft *fill);
+/* Appends the shafts of lifts as solid walls, but for a car that a group fills where it stands. */
+void jox_scene_add_shafts(const JoxSceneSpec *scene, const struct JoxFillDraft *fill,
+                          JoxWalls *walls);
+
 /* places.c */
 JoxKeyRead jox_key_read_place_points, jox_key_read_place_start, jox_key_read_regions;
 JoxOwnerFinish jox_finish_place;
@@ -169,6 +182,8 @@ void jox_scene_add_lift_walls(const JoxSceneSpec *scene, JoxWalls *walls);
 bool jox_scene_is_lift_place(const JoxSceneSpec *scene, int32_t place);
 /* Reports a name that no lift has. */
 void jox_scene_check_lift(const JoxReader *reader, const JoxYaml *name);
+/* Returns whether a text names a lift, or one of its places, that could not be read. */
+bool jox_scene_is_wrong_lift(const JoxReader *reader, const char *text);
 
 /* journeys.c */
 JoxKeyRead jox_key_read_duration, jox_key_read_queues, jox_key_read_gate, jox_key_read_ride;

@@ -1,12 +1,10 @@
 /* Checks of storeys and stairs: each stair alone once its keys are read (storeys.c calls it), and
-   all of them among walls, places and people once the scene is read (read_specification.c). */
+   all of them among each other and walls once the scene is read (read_specification.c). */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "geom/polygon.h"
-#include "geom/storey_text.h"
 #include "geom/wall_grid.h"
 #include "scene/scene_draft.h"
 
@@ -205,53 +203,6 @@ static void check_front(const JoxReader *r, const JoxStoreys *s, const JoxSeam *
         }
 }
 
-/* Reports a point of something that stands where there is no floor. */
-static bool check_floor(const JoxReader *r, const JoxYaml *node, JoxV2 at, const char *what) {
-    const JoxStoreys *s = &r->draft->scene->storeys;
-    JoxText where = {0};
-    if (jox_is_floor(s, at))
-        return true;
-    jox_text_position(&where, s, at, 2);
-    const bool on_stair = jox_stair_at(s, at) >= 0;
-    jox_scene_error(r, node, "no-floor",
-                    on_stair ? "Move it onto the stair"
-                             : "Move it, or write the name of the stair as its `storey`",
-                    on_stair ? "%s at %s is beside the stair"
-                             : "%s at %s is where a stair leads through the storey",
-                    what, where.data);
-    jox_text_free(&where);
-    return false;
-}
-
-/* Returns whether there is floor at the centre or at any point of a place. */
-static bool has_any_floor(const JoxStoreys *s, const JoxPlace *place) {
-    bool floor = jox_is_floor(s, place->centre);
-    for (uint32_t k = 0; k < place->count; k++)
-        floor |= jox_is_floor(s, place->points[k]);
-    return floor;
-}
-
-static void check_floors(const JoxReader *r, const JoxSceneSpec *s) {
-    char what[100];
-    for (uint32_t p = 0; p < s->place_count; p++) {
-        const JoxPlace *place = &s->places[p];
-        snprintf(what, sizeof what, "the place %.60s", place->name);
-        if (place->count > 0 && !jox_place_is_set(place) && !has_any_floor(&s->storeys, place))
-            check_floor(r, jox_yaml_get(jox_yaml_get(r->draft->root, "places"), place->name),
-                        place->centre, what);
-    }
-    for (uint32_t g = 0; g < s->group_count; g++) {
-        const JoxGroup *group = &s->groups[g];
-        const JoxYaml *map = jox_yaml_get(jox_yaml_get(r->draft->root, "groups"), group->name);
-        snprintf(what, sizeof what, "a person of group %.60s", group->name);
-        bool good = true;
-        for (uint32_t i = 0; good && group->positions && i < group->count; i++)
-            good = check_floor(r, map, group->positions[i], what);
-        for (uint32_t i = 0; good && i < group->start_count; i++)
-            good = check_floor(r, map, group->starts[i].at, what);
-    }
-}
-
 /* Warns of storeys that nothing joins to another, though others are joined. */
 static void check_joined(const JoxReader *r, const JoxStoreys *s) {
     const JoxSceneSpec *scene = r->draft->scene;
@@ -287,6 +238,5 @@ void jox_scene_check_storeys(const JoxReader *r) {
     for (uint32_t k = 0; k < s->seam_count; k++)
         if (s->seams[k].enters)
             check_front(r, s, &s->seams[k]);
-    if (jox_has_storeys(s))
-        check_floors(r, scene);
+    jox_scene_check_floors(r);
 }

@@ -49,10 +49,16 @@ int32_t jox_scene_find_storey(const JoxReader *r, const JoxYaml *name) {
 void jox_key_read_storey(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const JoxStoreys *laid = &r->draft->scene->storeys;
     (void)item;
-    if (node && node->kind == JOX_YAML_LIST && key->type == JOX_TYPE_NAMES && node->count)
+    const JoxYaml *list = node;
+    const bool several = node && node->kind == JOX_YAML_LIST && key->type == JOX_TYPE_NAMES;
+    if (several && node->count)
         node = node->items[r->placing->copy];
     if (!jox_key_read_scalar(r, key, node, "name"))
         return;
+    for (uint32_t k = 0; several && k < r->placing->copy; k++)
+        if (list->items[k]->kind == JOX_YAML_SCALAR && !strcmp(list->items[k]->text, node->text))
+            jox_scene_error(r, node, "duplicate-name", "Keep one of them",
+                            "the storey '%.60s' is named twice", node->text);
     const int32_t storey = find_storey(r->draft, node->text);
     const int32_t stair = storey < 0 ? find_stair(r->draft, node->text) : -1;
     if (storey < 0 && stair < 0)

@@ -156,6 +156,7 @@ void jox_key_read_walls(const JoxReader *r, const JoxKey *key, const JoxYaml *li
         const size_t before = r->diagnostics->errors;
         for (uint32_t copy = 0; copy < copies && r->diagnostics->errors == before; copy++)
             read_wall(r, list->items[i], copy);
+        jox_scene_check_wall_floor(r, list->items[i], first);
         length += measure_walls(walls, first);
         if (length > LONGEST) {
             jox_scene_error(r, list->items[i], "too-large", "A length may be in millimetres: unit",

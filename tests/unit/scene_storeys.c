@@ -1,4 +1,5 @@
 /* Storeys and stairs of scenes: errors, positions on sheets, and walls of stairs. */
+#include "geom/polygon.h"
 #include "geom/storey_text.h"
 #include "unit/scene_texts.h"
 
@@ -10,6 +11,7 @@
 #define LIFT(keys) STOREYS "lifts: {e: {" keys "}}\n" GROUP
 #define SHAFT "area: [[10, 5], [11.6, 6.8]]"
 #define DOOR "door: [[10.3, 5], [11.2, 5]]"
+#define IN_LIFT STOREYS "lifts: {e: {" SHAFT ", " DOOR "}}\n"
 
 static const JoxErrorCase CASES[] = {
     {"lifts: @{e: {" SHAFT ", " DOOR "}}\n" GROUP, "missing-key", "storeys: {"},
@@ -39,6 +41,33 @@ static const JoxErrorCase CASES[] = {
     {STOREYS "lifts: {e: {" SHAFT ", " DOOR "}}\n"
              "groups: {g: {at: [[0, 0]], journey: [{ride: @e.frist}]}}\n",
      "unknown-place", "Did you mean 'e.first'?"},
+    {STOREYS "lifts: {e: @{" SHAFT ", door: [[10.3, 5], [10.89, 5]]}}\n" GROUP, "bad-lift",
+     "0.8 to 1.1 m"},
+    {STOREYS "lifts: {e: {" SHAFT ", " DOOR ", storeys: [ground, first, @ground]}}\n" GROUP,
+     "duplicate-name", "Keep one"},
+    {STOREYS "walls: [{line: [[0, 0], [9, 0]], storey: [first, @first]}]\n" GROUP, "duplicate-name",
+     "Keep one"},
+    /* The one error is that of the lift: its places and its name are not missed. */
+    {STOREYS "lifts: {e: @{" SHAFT ", door: [[10.3, 4], [11.2, 4]]}}\n"
+             "events: [{at: 5, lift: e, mode: firemen}, {at: 6, open: e.first}]\n"
+             "groups: {g: {at: [[0, 0]], journey: [{ride: e.first}]}}\n",
+     "bad-lift", "one side"},
+    {IN_LIFT "groups: {g: @{behaviour: stander, at: [[11, 6]], storey: first}}\n", "no-floor",
+     "`home`"},
+    {IN_LIFT "groups: {g: @{behaviour: stander, starts: [[3, 11, 6]]}}\n", "no-floor",
+     "out of the shaft"},
+    {IN_LIFT "groups: {g: @{behaviour: stander, count: 1, in: e.first}}\n", "no-floor", "`home`"},
+    {IN_LIFT "bodies: [@{shape: {sphere: {radius: 0.2}}, mass: 9, at: [11, 6, 1]}]\n", "no-floor",
+     "out of the shaft"},
+    {IN_LIFT GROUP "sources: [@{like: g, at: e.ground, rate: 1}]\n", "no-floor", "outside"},
+    {IN_LIFT "places: {a: {polygon: [[9.9, 4.9], [11.7, 4.9], [11.7, 6.9], [9.9, 6.9]]}}\n" GROUP
+             "sources: [@{like: g, at: a, rate: 1}]\n",
+     "no-floor", "outside"},
+    {STOREYS "stairs: {n: {from: ground, to: first, " PLAIN "}}\n"
+             "bodies: [@{shape: {sphere: {radius: 0.2}}, mass: 9, at: [6, 0, 1]}]\n",
+     "no-floor", "name of the stair"},
+    {STOREYS "groups: {g: {behaviour: stander, at: [[0, 0]], set: {lifts: @sometimes}}}\n",
+     "bad-value", "never, either, only, or a number from 0 to 1"},
     {STOREYS "places: {a: {point: [0, 0], storey: @frist}}\n" GROUP, "unknown-storey",
      "Did you mean 'first'?"},
     {"walls: [{line: [[0, 0], [9, 0]], storey: [@first]}]\n" GROUP, "unknown-storey", "storeys: {"},
@@ -118,6 +147,51 @@ static void unjoined_storeys_and_steep_ramps_are_warnings(void **state) {
     jox_diag_free(&d);
 }
 
+static void walls_in_stairs_and_shafts_are_warnings(void **state) {
+    (void)state;
+    JoxDiagnostics d = {0};
+    JoxSceneSpec *scene = read_scene_text(
+        "jostle: 1\n" IN_LIFT "stairs: {n: {from: ground, to: first, " PLAIN "}}\n"
+        "walls:\n"
+        "  - {line: [[6, -3], [6, 3]], storey: first}\n"        /* across the stair */
+        "  - {solid: [[9, 6], [12, 6], [12, 6.2], [9, 6.2]]}\n" /* through the shaft */
+        "  - {line: [[3, 0.6], [9, 0.6]], storey: first}\n"     /* along the stair's edge */
+        "  - {line: [[9.95, 4], [9.95, 7]]}\n"                  /* along the shaft */
+        "  - {line: [[6, -3], [6, -1]], storey: n}\n" GROUP,    /* on the stair's sheet */
+        NULL, 0, &d);
+    if (d.count != 2)
+        print_diagnostics(&d, "two warnings are due");
+    assert_non_null(scene);
+    assert_int_equal(d.count, 2);
+    assert_true(is_diagnostic(&d.items[0], "wall-without-effect", 6, 5, "End it at the stair"));
+    assert_true(is_diagnostic(&d.items[1], "wall-without-effect", 7, 5, "End it at the shaft"));
+    jox_scene_free(scene);
+    jox_diag_free(&d);
+}
+
+static void nobody_is_placed_in_a_shaft_without_a_car(void **state) {
+    (void)state;
+    JoxDiagnostics d = {0};
+    JoxSceneSpec *scene = read_scene_text(
+        "jostle: 1\n" STOREYS "lifts: {e: {" SHAFT
+        ", door: [[10.3, 5], [10.9, 5]]}}\n" /* as narrow as doors may be */
+        "places: {a: {polygon: [[9, 4], [13, 4], [13, 8], [9, 8]], storey: first}}\n"
+        "groups: {g: {behaviour: stander, count: 60, fill: random, in: a}, "
+        "h: {behaviour: stander, count: 4, in: e.ground}}\n",
+        NULL, 0, &d);
+    if (!scene || d.count)
+        print_diagnostics(&d, "nothing is wrong");
+    assert_non_null(scene);
+    for (uint32_t g = 0; g < 2; g++)
+        for (uint32_t i = 0; i < scene->groups[g].count; i++)
+            assert_int_equal(
+                jox_polygon_contains(scene->lifts[0].outline, 4,
+                                     jox_in_plan(&scene->storeys, scene->groups[g].positions[i])),
+                g);
+    jox_scene_free(scene);
+    jox_diag_free(&d);
+}
+
 #define PLACED                                                                                     \
     "jostle: 1\n" STOREYS "stairs: {n: {from: ground, to: first, " PLAIN "}}\n"                    \
     "places: {low: {point: [20, 7]}, high: {point: [20, 7], storey: first}, "                      \
@@ -187,6 +261,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_error_has_position_and_hint),
         cmocka_unit_test(unjoined_storeys_and_steep_ramps_are_warnings),
+        cmocka_unit_test(walls_in_stairs_and_shafts_are_warnings),
+        cmocka_unit_test(nobody_is_placed_in_a_shaft_without_a_car),
         cmocka_unit_test(points_are_positions_on_their_sheet),
         cmocka_unit_test(positions_are_told_with_their_storey),
     };
