@@ -176,39 +176,49 @@ static void check_firing(JoxBuild *b, const JoxState *state) {
     }
 }
 
-/* Returns whether an agent in a state may stand in the queue that a target means. */
-static bool may_queue(const JoxMachine *m, const JoxState *state, int16_t queue) {
+/* Returns whether an agent in a state may steer by a term, to the place that a target means; -1:
+   any. */
+static bool may_steer(const JoxMachine *m, const JoxState *state, JoxSteerKind kind,
+                      int16_t place) {
     for (uint32_t t = 0; t < state->steer_count; t++) {
         const JoxSteerTerm *term = &state->steer[t];
-        if (term->kind != JOX_STEER_QUEUE && term->kind != JOX_STEER_FUNCTION)
+        if (term->kind != kind && term->kind != JOX_STEER_FUNCTION)
             continue;
-        if (term->kind == JOX_STEER_FUNCTION || term->target < 0 || queue < 0 ||
+        if (term->kind == JOX_STEER_FUNCTION || term->target < 0 || place < 0 ||
             m->targets[term->target].kind != JOX_TARGET_PLACE ||
-            m->targets[queue].kind != JOX_TARGET_PLACE || term->target == queue)
+            m->targets[place].kind != JOX_TARGET_PLACE || term->target == place)
             return true;
     }
     return false;
 }
 
-/* Warns of transitions that wait for a queue in which the agents of the state do not stand. */
-static void check_queues(JoxBuild *b, const JoxState *state) {
+/* Warns of transitions that wait for a queue or a lift by which the agents of the state do not
+   steer. */
+static void check_waits(JoxBuild *b, const JoxState *state) {
     static const struct {
         JoxOp op;
-        const char *word;
-    } ASKS[] = {{JOX_OP_FIRST_IN, "first_in"}, {JOX_OP_JOINED, "joined"}};
+        JoxSteerKind steer;
+        const char *word, *lacks, *hint;
+    } ASKS[] = {
+        {JOX_OP_FIRST_IN, JOX_STEER_QUEUE, "first_in", "queue", "Let it: steer = queue(place)"},
+        {JOX_OP_JOINED, JOX_STEER_QUEUE, "joined", "queue", "Let it: steer = queue(place)"},
+        {JOX_OP_RODE, JOX_STEER_RIDE, "rode", "ride", "Let it: steer = ride \"LIFT.STOREY\""}};
     const JoxMachine *m = b->machine;
     char item[256], full[256], text[160];
+    if (b->script->diagnostics->errors > 0) /* a term that is wrong is missing */
+        return;
     for (uint32_t t = 0; t < state->transition_count; t++)
         for (size_t k = 0; k < sizeof ASKS / sizeof *ASKS; k++) {
             const JoxTransition *taken = &state->transitions[t];
             const JoxInstruction *in = find_required(m, taken->when, ASKS[k].op);
-            if (!in || taken->level < state->depth || may_queue(m, state, in->place))
+            if (!in || taken->level < state->depth || may_steer(m, state, ASKS[k].steer, in->place))
                 continue;
             jox_read_item_path(m, state, taken, item);
             jox_read_join(full, item, "when");
             snprintf(text, sizeof text,
-                     "`%s` never holds here: the agent does not queue in this state", ASKS[k].word);
-            add_warning(b, full, "never-fires", "Let it: steer = queue(place)", text);
+                     "`%s` never holds here: the agent does not %s in this state", ASKS[k].word,
+                     ASKS[k].lacks);
+            add_warning(b, full, "never-fires", ASKS[k].hint, text);
         }
 }
 
@@ -331,7 +341,7 @@ void jox_lint(JoxBuild *b) {
         char path[256];
         jox_state_path(state, path);
         check_firing(b, state);
-        check_queues(b, state);
+        check_waits(b, state);
         check_cycle(b, state, path);
         check_distances(b, state);
     }

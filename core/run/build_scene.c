@@ -46,6 +46,14 @@ static void add_bodies(JoScene *scene, JoxDiagnostics *diagnostics) {
                             spec->groups[g].position, diagnostics);
 }
 
+/* Returns the number of places that are floors of lifts' cars: the first ones of a scene. */
+static uint32_t count_cars(const JoxSceneSpec *spec) {
+    uint32_t count = 0;
+    for (uint32_t l = 0; l < spec->lift_count; l++)
+        count += spec->lifts[l].stop_count;
+    return count;
+}
+
 /* Copies places to the world, which owns them, and reserves one more for each agent whose goal
    is the opposite side of its circle. */
 static void add_places(JoScene *scene) {
@@ -66,6 +74,7 @@ static void add_places(JoScene *scene) {
                             spec->groups[g].team ? jox_strdup(spec->groups[g].team) : NULL};
     scene->scope = (JoxScope){.places = places,
                               .place_count = spec->place_count,
+                              .car_count = count_cars(spec),
                               .groups = scene->scope_groups,
                               .group_count = spec->group_count,
                               .walls = &scene->world->model.all_walls,

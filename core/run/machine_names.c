@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/format/path.h"
-#include "machine/lifts.h"
 #include "run/machine_names.h"
 #include "run/run.h"
 #include "run/scene_machines.h"
@@ -319,40 +318,6 @@ static const char *find_new_name_used(const JoxMachineRun *machines, const JoxNa
     return now;
 }
 
-/* Returns whether a place is the car's floor of a lift, or a set that has one. */
-static bool is_lift_place(const JoScene *scene, int32_t place) {
-    const JoWorld *w = scene->world;
-    const JoxPlace *of = &w->model.places[place];
-    uint32_t lift, stop;
-    bool is = jox_lift_find_place(w->machines.lifts, place, &lift, &stop);
-    for (uint32_t m = 0; jox_place_is_set(of) && m < of->member_count; m++)
-        is |= jox_lift_find_place(w->machines.lifts, of->members[m], &lift, &stop);
-    return is;
-}
-
-/* Reports states that ride to places which are no lift's. */
-static void check_rides(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
-                        uint32_t count, JoxDiagnostics *diagnostics) {
-    const JoWorld *w = scene->world;
-    char hint[JOX_HINT] = "Add `lifts` to the scene";
-    if (w->model.lift_count)
-        snprintf(hint, sizeof hint, "Places of lifts are LIFT.STOREY: \"%.80s\"",
-                 w->model.lifts[0].stops[0].name);
-    for (uint32_t s = 0; s < machine->state_count; s++) {
-        const JoxState *state = &machine->states[s];
-        for (uint32_t t = 0; t < state->steer_count; t++) {
-            const int32_t index = state->steer[t].target;
-            const JoxTarget *target = index < 0 ? NULL : &machine->targets[index];
-            if (state->steer[t].kind != JOX_STEER_RIDE || target->kind != JOX_TARGET_PLACE ||
-                target->arg < 0 || is_lift_place(scene, target->arg))
-                continue;
-            const char *file = state->source < count ? files[state->source].path : machine->path;
-            jox_diag_error(diagnostics, ((JoxPosition){file, state->line, 0, 0}), "bad-place", hint,
-                           "ride: the place '%.60s' is no lift's", target->name);
-        }
-    }
-}
-
 void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++) {
@@ -364,7 +329,6 @@ void jox_run_check_machine_names(const JoScene *scene, JoxDiagnostics *diagnosti
         size_t before = diagnostics->count;
         jox_run_check_own_values(scene, machine, files, count, diagnostics);
         check_unset_memory(scene, machine, files, count, diagnostics);
-        check_rides(scene, machine, files, count, diagnostics);
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             const bool others = name->uses & (JOX_NAME_STATE | JOX_NAME_MEMORY);

@@ -59,7 +59,7 @@ void jox_key_read_queues(const JoxReader *r, const JoxKey *key, const JoxYaml *n
     }
 }
 
-/* Reads a place of a lift, or a set that has one. */
+/* Reads a place of a lift, or a set of such places. */
 void jox_key_read_ride(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     JoxJourneyStep *step = item;
     const JoxSceneSpec *s = r->draft->scene;
@@ -69,14 +69,16 @@ void jox_key_read_ride(const JoxReader *r, const JoxKey *key, const JoxYaml *nod
     const int32_t place = jox_scene_find_place(r, node);
     if (place < 0)
         return;
-    bool good = jox_scene_is_lift_place(s, place);
-    for (uint32_t m = 0; m < s->places[place].member_count; m++)
-        good |= jox_scene_is_lift_place(s, s->places[place].members[m]);
-    if (good)
+    const uint32_t members = s->places[place].member_count;
+    int32_t other = members || jox_scene_is_lift_place(s, place) ? -1 : place;
+    for (uint32_t m = 0; m < members && other < 0; m++)
+        if (!jox_scene_is_lift_place(s, s->places[place].members[m]))
+            other = s->places[place].members[m];
+    if (other < 0)
         step->ride = place;
     else
         jox_scene_error(r, node, "bad-place", "Places of lifts are LIFT.STOREY: ride: east.first",
-                        "the place '%.60s' is no lift's", node->text);
+                        "the place '%.60s' is no lift's", s->places[other].name);
 }
 
 /* Reads the name of walls. */

@@ -39,6 +39,7 @@ typedef struct JoxScopeGroup {
 typedef struct JoxScope {
     const JoxPlace *places;
     uint32_t place_count;
+    uint32_t car_count;      /* places, the first ones, that are floors of lifts' cars */
     const char *const *tags; /* the index is the tag's bit */
     uint32_t tag_count;
     const JoxScopeGroup *groups; /* the index is the group's number */

@@ -383,6 +383,9 @@ size_t jox_word_names(const char **names, size_t capacity);
 /* Reads argument `index` of a word as the letter of the vocabulary says. NULL with an error value
    pushed if it does not fit. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
+/* Pushes and returns the place that a string names, an argument of a word, as a target; NULL with
+   an error pushed (place_words.c). */
+JoxNode *jox_read_place_name(lua_State *L, const char *word, const char *name);
 /* Pushes the value of a word; false with nothing pushed if there is none of that name. */
 bool jox_word_lookup(lua_State *L, const char *name);
 

@@ -18,62 +18,6 @@ size_t jox_word_names(const char **names, size_t capacity) {
 
 /* ---- arguments ---- */
 
-/* Warns of the place that a word is given if it is of a form with which the word does nothing of
-   its own. */
-static void warn_of_form(lua_State *L, const char *word, const char *name, int32_t index) {
-    static const struct {
-        const char *word;
-        JoxPlaceForm form;
-        const char *what, *hint;
-    } WANTED[] = {
-        {"queue", JOX_FORM_QUEUE, "a queue", "Example: places: {row: {queue: [[0, 0], [6, 0]]}}"},
-        {"first_in", JOX_FORM_QUEUE, "a queue", "For who is there: inside, near or arrived"},
-        {"joined", JOX_FORM_QUEUE, "a queue", "For who is there: inside, near or arrived"},
-        {"queued", JOX_FORM_QUEUE, "a queue", "For the people in a place: count"},
-        {"gather", JOX_FORM_AREA, "a polygon", NULL},
-        {"spread_over", JOX_FORM_AREA, "a polygon", NULL},
-        {"one_of", JOX_FORM_SET, "a set of places",
-         "Example: places: {gates: {set: [east, west]}}"},
-        {"best_place", JOX_FORM_SET, "a set of places",
-         "Example: places: {gates: {set: [east, west]}}"}};
-    JoxScript *script = jox_script_of(L);
-    const JoxPlace *place = index < 0 ? NULL : &script->scope->places[index];
-    for (size_t k = 0; place && k < sizeof WANTED / sizeof *WANTED; k++)
-        if (strcmp(WANTED[k].word, word) == 0 && jox_place_form(place) != WANTED[k].form)
-            jox_diag_warn(script->diagnostics, jox_word_position(L, name), "wrong-place",
-                          WANTED[k].hint, "%s needs %s, and the scene's '%s' is a %s", word,
-                          WANTED[k].what, name, jox_place_kinds[place->kind].name);
-}
-
-/* Pushes and returns the place that a string names, an argument of a word, as a target; NULL with
-   an error pushed. */
-static JoxNode *read_place_name(lua_State *L, const char *word, const char *name) {
-    JoxScript *script = jox_script_of(L);
-    int32_t index = -1;
-    if (script->scope->places)
-        index = jox_place_find(script->scope->places, script->scope->place_count, name);
-    if (index < 0 && script->scope->complete) {
-        const char *names[256];
-        size_t count = script->scope->place_count < 256 ? script->scope->place_count : 256;
-        for (size_t i = 0; i < count; i++)
-            names[i] = script->scope->places[i].name;
-        char hint[JOX_HINT];
-        const char *near = jox_did_you_mean(name, names, count, hint);
-        if (strcmp(name, "goal") == 0 || strcmp(name, "home") == 0) {
-            snprintf(hint, sizeof hint, "The word stands without quotes: %s(%s)", word, name);
-            near = hint;
-        }
-        jox_word_error(L, name, "unknown-place", near, "the scene has no place '%s'", name);
-        return NULL;
-    }
-    warn_of_form(L, word, name, index);
-    JoxNode *node = jox_node_push(L, JOX_NODE_TARGET);
-    node->target_kind = JOX_TARGET_PLACE;
-    node->target_arg = index;
-    node->name = jox_vm_intern(&script->vm, name);
-    return node;
-}
-
 /* Returns whether a value may stand for a place. */
 static bool can_be_place(const JoxNode *node) {
     return node->kind == JOX_NODE_OWN ||
@@ -197,7 +141,7 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
         node = jox_node_target(L, node);
     JoxNode *result = NULL;
     if ((letter == 'p' || letter == 't') && lua_type(L, index) == LUA_TSTRING)
-        return read_place_name(L, word, lua_tostring(L, index));
+        return jox_read_place_name(L, word, lua_tostring(L, index));
     if (letter == 'p' && node && can_be_place(node))
         result = node;
     if (letter == 't' && node && (node->kind == JOX_NODE_TARGET || node->kind == JOX_NODE_OWN))
