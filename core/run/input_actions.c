@@ -103,9 +103,14 @@ void jox_run_perform_due_inputs(JoScene *scene) {
     while ((next = jox_input_take_due(&scene->world->state.input, scene->world->state.tick))) {
         JoxInputEntry entry = *next;
         JoError error = {0};
-        if (!perform_and_log(scene, &entry, &error))
-            jox_run_say(scene, "%s:%d: t = %.2f s: %s\n", scene->input_path, entry.line,
-                        jo_world_time(scene->world), error.text);
+        if (perform_and_log(scene, &entry, &error))
+            continue;
+        jox_run_say(scene, "%s:%d: t = %.2f s: %s\n", scene->input_path, entry.line,
+                    jo_world_time(scene->world), error.text);
+        if (scene->input_failed++ == 0) {
+            scene->input_failed_line = entry.line;
+            scene->input_failed_why = jox_strdup(error.text);
+        }
     }
 }
 

@@ -311,6 +311,7 @@ static void free_scene(JoScene *scene) {
     }
     jox_free(scene->scope_groups);
     jox_free(scene->input_path);
+    jox_free(scene->input_failed_why);
     jox_input_free(&scene->input);
     jox_files_free(&scene->logged_files);
     jox_overlay_free(&scene->overlay);

@@ -46,7 +46,10 @@ struct JoScene {
     struct JoxRunFrame *frame; /* frame of the present step (present_frame.c); NULL before its
                                   first use */
     bool finished;
-    char *input_path; /* input log that is played; NULL: none */
+    char *input_path;      /* input log that is played; NULL: none */
+    uint32_t input_failed; /* entries of it that could not be done, since the load */
+    int input_failed_line; /* line of the first of them */
+    char *input_failed_why;
     char input_sha256[65];
     FILE *log; /* input log that is written; NULL: none */
     char *log_path;

@@ -50,6 +50,9 @@ drive "a log that drives a person without player says so" '0 player 1 1 0\n' 'dr
 drive "a log that goes on after the run says so" '0 player 0 1 0\n100 player 0 0 0\n' 'The run ended before 1 entry of the input log: the next, in line 2, was due at 5.00 s.'
 drive "an empty log says so" '# nothing\n' 'The input log is empty'
 drive "a log that drives a person who has left says so" '20 remove 0\n30 player 0 1 0\n' 'drive.input:2: t = 1.50 s: agent 0 has left'
+drive "entries that could not be done are counted at the end" '1 open gate\n2 push 77 1 1\n3 lift east firemen\n' 'The run skipped 3 entries of the input log: the first, in line 1, as there is no wall named'
+drive "a lift that a scene lacks is told" '3 lift east firemen\n' 'drive.input:1: t = 0.15 s: there are no lifts'
+drive "a mode that lifts do not have is bad input" '3 lift east broken\n' "drive.input:1:13: a lift has no mode 'broken'"
 drive "a log that drives a player says nothing" '0 player 0 1 0\n' ''
 ! grep -q 'input log' "$work/said"; verdict "  and none of this" $?
 

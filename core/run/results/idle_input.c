@@ -1,5 +1,5 @@
-/* What of a played input log had no effect: entries that the run did not come to, and players whose
-   agent never came or does not steer by `player`. */
+/* Tells what of a played input log had no effect: entries that could not be done or that the run
+   did not come to, and players whose agent never came or does not steer by `player`. */
 #include "run/results/idle_input.h"
 
 #include "base/format/plurals.h"
@@ -55,6 +55,12 @@ void jox_run_say_idle_input(const JoScene *scene, JoxText *out) {
         jox_text_add(out, " The input log is empty: it drove nobody.");
     for (uint32_t p = 0; p < log->present_count; p++)
         say_idle_player(scene, log->present[p].agent_id, out);
+    if (scene->input_failed) {
+        jox_text_add(out, " The run skipped ");
+        jox_text_noun(out, scene->input_failed, "entry|entries");
+        jox_text_printf(out, " of the input log: the first, in line %d, as %s.",
+                        scene->input_failed_line, scene->input_failed_why);
+    }
     if (log->next == log->count)
         return;
     const JoxInputEntry *first = &log->entries[log->next];

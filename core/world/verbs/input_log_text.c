@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "geom/lifts.h"
 #include "world/verbs/verb_table.h"
 
 enum { LONGEST_LINE = 1200 };
@@ -94,6 +95,14 @@ static bool read_number(Reader *r, const JoxInputWord *word, double *out) {
     return true;
 }
 
+/* Checks the present word, the mode of a lift. */
+static bool check_lift_mode(Reader *r) {
+    for (uint32_t m = 0; m < JOX_LIFT_MODES; m++)
+        if (strcmp(r->word, jox_lift_mode_names[m]) == 0)
+            return true;
+    return refuse(r, NULL, "a lift has no mode '%.60s': in_use, out_of_use or firemen", r->word);
+}
+
 /* Reads one word of a verb into the entry. */
 static bool read_word(Reader *r, const JoxInputWord *word, JoxInputEntry *entry) {
     double value;
@@ -106,7 +115,7 @@ static bool read_word(Reader *r, const JoxInputWord *word, JoxInputEntry *entry)
         if (n == 0 || n > most || names == JOX_INPUT_NAMES)
             return refuse(r, NULL, "%s must have from 1 to %zu bytes", word->name, most);
         entry->names[names] = jox_strdup(r->word);
-        return true;
+        return entry->verb != JOX_INPUT_LIFT || names == 0 || check_lift_mode(r);
     }
     if (!read_number(r, word, &value))
         return false;
