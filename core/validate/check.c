@@ -14,6 +14,7 @@
 #include "base/mem.h"
 #include "base/zip.h"
 #include "jostle_tools.h"
+#include "run/lift_checks.h"
 #include "run/load_scene.h"
 #include "run/orca_flow_note.h"
 #include "run/read_scene.h"
@@ -47,6 +48,7 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     if (scene) {
         jox_run_note_orca_flow(scene, all);
         jox_run_check_goals(scene, all);
+        jox_run_check_lifts(scene, all); /* after goals, which adds a person for each source */
         jox_run_check_scenery(scene, all);
         jox_diag_move(all, &scene->mod_problems);
     }

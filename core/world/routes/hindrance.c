@@ -67,6 +67,10 @@ JoxHindrances *jox_hindrances_create(const JoxRouteStage *stage, uint32_t place,
     return h;
 }
 
+float jox_hindrance_narrowest(float radius) {
+    return 2.0f * SQUEEZE * radius;
+}
+
 void jox_hindrances_free(JoxHindrances *h) {
     jox_field_free(h->thin);
     for (int c = 0; c < CLASSES; c++)

@@ -26,6 +26,9 @@ typedef struct JoxHindrance {
    it is closed; UINT32_MAX: none. */
 uint32_t jox_hindrance_find_gate(const JoxRouteStage *stage, uint32_t place);
 
+/* Returns the width of the narrowest gap through which an agent of a radius squeezes, m. */
+float jox_hindrance_narrowest(float radius);
+
 /* Fields to one place, made as needed. */
 typedef struct JoxHindrances JoxHindrances;
 
