@@ -22,6 +22,13 @@ void jox_neighbours_reserve(JoxNeighbours *n, uint32_t agents, uint32_t stride) 
     n->touch_count = jox_alloc_aligned(n->agents, sizeof *n->touch_count);
 }
 
+void jox_neighbours_reserve_belts(JoxNeighbours *n) {
+    if (n->belt_x)
+        return;
+    n->belt_x = jox_alloc_aligned(n->agents, sizeof *n->belt_x);
+    n->belt_y = jox_alloc_aligned(n->agents, sizeof *n->belt_y);
+}
+
 void jox_neighbours_free(JoxNeighbours *n) {
     jox_free(n->index);
     jox_free(n->count);
@@ -29,6 +36,8 @@ void jox_neighbours_free(JoxNeighbours *n) {
     jox_free(n->crowding2);
     jox_free(n->motions);
     jox_free(n->shapes);
+    jox_free(n->belt_x);
+    jox_free(n->belt_y);
     jox_free(n->touch_index);
     jox_free(n->touch_count);
     *n = (JoxNeighbours){0};

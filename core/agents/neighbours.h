@@ -38,9 +38,13 @@ typedef struct JoxNeighbours {
     uint8_t *close;     /* per agent: of these, how many it may touch, at least */
     float *crowding2;   /* squared distance of neighbour JOX_CROWD_RANK, m2, where there is one */
     float widest;       /* greatest distance of a surface from its agent's centre, m */
-    JoxMotion *motions; /* motion per agent, as perceived; valid until they move */
-    JoxTorsoShape *shapes; /* torso per agent; likewise */
-    bool has_torsos;       /* some agent is no disc */
+    JoxMotion *motions; /* motion per agent, as perceived, on a belt with the belt's; valid until
+                           they move */
+    JoxTorsoShape *shapes;  /* torso per agent; likewise */
+    bool has_torsos;        /* some agent is no disc */
+    bool has_belts;         /* some escalator runs; then: */
+    float *belt_x, *belt_y; /* per agent: velocity at which a belt carries it, m/s in plan; its own
+                               velocity leaves it out */
     /* Contacts do not depend on perception. If the list above may lack an agent within touching
        range, the JOX_MOST_NEIGHBOURS that reach nearest to its centre, within that range, are
        stored here, from i * JOX_MOST_NEIGHBOURS on, nearest first; else touch_count[i] is
@@ -51,6 +55,8 @@ typedef struct JoxNeighbours {
 
 /* Makes room; the contents are lost if it grows. */
 void jox_neighbours_reserve(JoxNeighbours *neighbours, uint32_t agents, uint32_t stride);
+/* Makes room for the velocities of belts, for as many agents. */
+void jox_neighbours_reserve_belts(JoxNeighbours *neighbours);
 void jox_neighbours_free(JoxNeighbours *neighbours);
 
 enum { JOX_TOUCH_AMONG_NEIGHBOURS = 255 };

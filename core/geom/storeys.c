@@ -316,6 +316,21 @@ const JoxFlight *jox_flight_at(const JoxStoreys *s, JoxV2 at) {
     return NULL;
 }
 
+bool jox_has_belts(const JoxStoreys *s) {
+    for (uint32_t k = 0; s && k < s->stair_count; k++)
+        if (s->stairs[k].belt != 0.0f)
+            return true;
+    return false;
+}
+
+JoxV2 jox_belt_at(const JoxStoreys *s, JoxV2 at) {
+    const JoxFlight *flight = jox_flight_at(s, at);
+    const float belt = flight ? s->stairs[flight->stair].belt : 0.0f;
+    if (belt == 0.0f)
+        return (JoxV2){0.0f, 0.0f};
+    return jox_scale(flight->along, belt / sqrtf(1.0f + flight->slope * flight->slope));
+}
+
 int32_t jox_stair_at(const JoxStoreys *s, JoxV2 at) {
     if (!jox_has_storeys(s))
         return -1;

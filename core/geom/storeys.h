@@ -145,6 +145,10 @@ static inline JoxV2 jox_in_plan(const JoxStoreys *s, JoxV2 at) {
 }
 /* Returns the flight at a position, NULL where the floor is level. */
 const JoxFlight *jox_flight_at(const JoxStoreys *storeys, JoxV2 at);
+/* Returns whether an escalator runs; and the velocity at which a running one carries who is at a
+   position, m/s in plan. */
+bool jox_has_belts(const JoxStoreys *storeys);
+JoxV2 jox_belt_at(const JoxStoreys *storeys, JoxV2 at);
 /* Returns the stair between storeys on whose sheet a position is, -1 on a storey. */
 int32_t jox_stair_at(const JoxStoreys *storeys, JoxV2 at);
 /* Returns the elevation of the floor at a position, m. */

@@ -22,7 +22,11 @@ void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *a) {
 
 void jox_motions_check(const JoxNeighbours *n, const JoxAgents *a) {
     for (uint32_t i = 0; i < a->count; i++) {
-        const JoxMotion own = {a->x[i], a->y[i], a->vx[i], a->vy[i]};
+        JoxMotion own = {a->x[i], a->y[i], a->vx[i], a->vy[i]};
+        if (n->has_belts) {
+            own.vx += n->belt_x[i];
+            own.vy += n->belt_y[i];
+        }
         JOX_ASSERT(memcmp(&n->motions[i], &own, sizeof own) == 0);
     }
 }

@@ -20,6 +20,19 @@ static const float STIFFNESS =
 static const float STIFF_STEP = 0.05f; /* s; shorter steps resolve proportionally less */
 enum { SWEEPS = 2 };
 
+/* Adds to positions how far escalators carry agents: no motion of their own nor one by others, so
+   velocities, contacts and displacements leave it out. */
+static void carry_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxMove *m = context;
+    const JoxNeighbours *n = m->step.neighbours;
+    const float dt = (float)m->step.timing.dt;
+    for (uint32_t i = begin; i < end; i++) {
+        const JoxV2 belt = {n->belt_x[i], n->belt_y[i]};
+        m->position[0][i] = jox_add(m->position[0][i], jox_scale(belt, dt));
+    }
+}
+
 static void integrate_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxMove *m = context;
@@ -139,18 +152,14 @@ void jox_nav_move(JoxNav *nav, const JoxStep *step) {
                     .step = jox_nav_step(step),
                     .unhidden2 = jox_nav_unhidden2(nav),
                     .served = jox_minf(nav->grid.reach, jox_wall_images_reach(agents->period))};
-    const bool belts = jox_nav_has_belts(agents);
-    jox_stage_memory_begin(nav->memory,
-                           (2 + belts) * jox_stage_memory_bytes(agents->count, sizeof(JoxV2)));
+    jox_stage_memory_begin(nav->memory, 2 * jox_stage_memory_bytes(agents->count, sizeof(JoxV2)));
     for (int i = 0; i < 2; i++)
         move.position[i] =
             jox_stage_memory_take(nav->memory, agents->count, sizeof *move.position[i]);
-    if (belts)
-        move.carried = jox_stage_memory_take(nav->memory, agents->count, sizeof *move.carried);
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)timing->dt / STIFF_STEP);
     jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN, integrate_range, &move);
-    if (belts)
-        jox_nav_carry(&move);
+    if (step->neighbours->has_belts)
+        jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN, carry_range, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {
         jox_parallel_for(step->pool, agents->count, JOX_NAV_GRAIN,
                          move.step.touched ? sweep_contacts : sweep_neighbours, &move);

@@ -14,17 +14,11 @@ typedef struct JoxMove {
     float stiffness;        /* share of an overlap that one sweep removes */
     JoxV2 *position[2];     /* m: before and after a sweep */
     int from;               /* index of the positions that a sweep reads */
-    JoxV2 *carried;         /* m: how far belts carry agents in this step; NULL: no belt runs */
 } JoxMove;
 
 /* Returns where walls let a disc of `radius` m get on its way to a point. A way longer than
    `served` is split into pieces; pieces that cross joined edges go on at the other side. */
 JoxV2 jox_nav_move_past_walls(const JoxMove *move, JoxV2 from, JoxV2 to, float radius);
-
-/* belts.c: returns whether an escalator runs. */
-bool jox_nav_has_belts(const JoxAgents *agents);
-/* Fills `carried`, and adds it to the positions. */
-void jox_nav_carry(JoxMove *move);
 
 #define JOX_STILL_REACH 0.25f /* m: lesser movement counts as standing still */
 

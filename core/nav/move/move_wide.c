@@ -60,16 +60,6 @@ static inline void update_still_time(const JoxMove *m, uint32_t i, JoxVector at)
     jv_store(a->still_x, a->still_y, i, jv_select(moved, at, still));
 }
 
-/* Returns how far belts carried the lanes `there` (bits) in this step, m. */
-static JoxVector load_carried(const JoxMove *m, uint32_t i, uint32_t there) {
-    float x[JOX_WIDTH] = {0.0f}, y[JOX_WIDTH] = {0.0f};
-    for (uint32_t lane = 0; there >> lane; lane++) {
-        x[lane] = m->carried[i + lane].x;
-        y[lane] = m->carried[i + lane].y;
-    }
-    return jv_load(x, y, 0);
-}
-
 /* Returns the lanes outside of the period from `origin` on, m; none where there is no period
    (0). */
 static inline JoxMask find_outside(JoxFloats x, float origin, float period) {
@@ -181,9 +171,14 @@ JoxDrift JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t en
         if (!m->nav->literal) {
             JoxFloats motion[4]; /* of before the step */
             jf_fours((const float *)&m->step.neighbours->motions[i], 4, motion);
-            const JoxVector own = m->carried ? jv_sub(way, load_carried(m, i, there)) : way;
-            jox_note_displacement_lanes(a, i, own, (JoxVector){motion[2], motion[3]},
-                                        (float)m->step.timing.dt);
+            JoxVector own = way, before = {motion[2], motion[3]};
+            const JoxNeighbours *n = m->step.neighbours;
+            if (n->has_belts) { /* they displace nobody */
+                const JoxVector belt = jv_load(n->belt_x, n->belt_y, i);
+                own = jv_sub(own, jv_scale(belt, jf_set((float)m->step.timing.dt)));
+                before = jv_sub(before, belt);
+            }
+            jox_note_displacement_lanes(a, i, own, before, (float)m->step.timing.dt);
         }
         const uint32_t out = there & jm_bits(jm_or(find_outside(at.x, a->origin.x, a->period.x),
                                                    find_outside(at.y, a->origin.y, a->period.y)));

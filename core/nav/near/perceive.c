@@ -4,6 +4,7 @@
 
 #include "agents/torso.h"
 #include "base/assert.h"
+#include "geom/storeys.h"
 #include "simd/four.h"
 
 #define X(name, isa) [isa] = jox_perceive_packets_##name,
@@ -14,12 +15,25 @@ static JoxPerceiveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 static JoxPerceiveKernel *const SHAPES[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
 
+/* Adds to motions how belts carry agents [begin, end), and notes it. */
+static void add_belts(JoxNeighbours *out, const JoxAgents *a, uint32_t begin, uint32_t end) {
+    for (uint32_t i = begin; i < end; i++) {
+        const JoxV2 belt = jox_belt_at(a->flights, (JoxV2){a->x[i], a->y[i]});
+        out->belt_x[i] = belt.x;
+        out->belt_y[i] = belt.y;
+        out->motions[i].vx += belt.x;
+        out->motions[i].vy += belt.y;
+    }
+}
+
 static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxPerceive *p = context;
     const JoxAgents *a = p->agents;
     jox_interleave(&p->out->motions[begin], a->x + begin, a->y + begin, a->vx + begin,
                    a->vy + begin, end - begin);
+    if (p->out->has_belts)
+        add_belts(p->out, a, begin, end);
     SHAPES[p->nav->isa](p, begin, end);
     KERNELS[p->nav->isa](p, begin, end);
 }
@@ -29,6 +43,9 @@ static void reserve_neighbours(const JoxNav *nav, JoxNeighbours *out, const JoxA
     jox_neighbours_reserve(out, a->count, most > 0 ? most : 1);
     out->widest = jox_agents_widest(a, nav->literal);
     out->has_torsos = !nav->literal && jox_agents_have_torsos(a);
+    out->has_belts = jox_has_belts(a->flights);
+    if (out->has_belts)
+        jox_neighbours_reserve_belts(out);
 }
 
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {

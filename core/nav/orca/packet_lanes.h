@@ -191,6 +191,20 @@ static inline JoxFloats jox_fit_radii(const JoxPacket *p, uint32_t most, uint32_
     return widest;
 }
 
+/* Makes the velocities of the `most` first neighbours those that agents see from their own belts.
+ */
+static inline void jox_see_from_belts(const JoxPacket *p, uint32_t most, uint32_t walkers,
+                                      JoxNeighbour *out) {
+    const JoxNeighbours *near = p->s->step.neighbours;
+    const JoxVector belt = jv_load(near->belt_x, near->belt_y, p->first);
+    for (uint32_t k = 0; k < most; k++) {
+        out[k].pair.vx += belt.x;
+        out[k].pair.vy += belt.y;
+        if (walkers)
+            out[k].velocity = jv_sub(out[k].velocity, belt);
+    }
+}
+
 /* Loads the pairs with the `most` first neighbours of the lanes. A lane with fewer gets arbitrary
    ones. Returns the greatest sum of radii, m. */
 static inline __attribute__((always_inline)) JoxFloats
@@ -218,6 +232,8 @@ jox_fetch_pairs(const JoxPacket *p, const JoxSelf *self, uint32_t most, const ui
         if (walkers)
             out[k].velocity = (JoxVector){motion[2], motion[3]};
     }
+    if (near->has_belts)
+        jox_see_from_belts(p, most, walkers, out);
     if (jox_may_be_pressed(&p->s->step))
         return jox_fit_radii(p, most, walkers, out);
     return widest;

@@ -166,7 +166,10 @@ static inline __attribute__((always_inline)) bool take_nearest(const Packet *p, 
     JoxFloats record[4];
     jf_records(&n->motions[0].x, others, record);
     next->offset = rotate_to_aim(p, find_offset(p, record, periodic));
-    next->velocity = rotate_to_aim(p, (JoxVector){record[2], record[3]});
+    JoxVector velocity = {record[2], record[3]};
+    if (n->has_belts) /* as seen from the agent's own belt */
+        velocity = jv_sub(velocity, jv_load(n->belt_x, n->belt_y, p->first));
+    next->velocity = rotate_to_aim(p, velocity);
     next->radii = p->radius + jox_param_pick(a->param[JOX_PARAM_radius], others);
     return true;
 }
