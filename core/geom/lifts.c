@@ -38,6 +38,14 @@ double jox_lift_travel_time(const JoxLift *lift, double metres) {
     return way >= v * v / a ? way / v + v / a : 2.0 * sqrt(way / a);
 }
 
+double jox_lift_usual_time(const JoxLift *lift, uint32_t from, uint32_t to) {
+    const JoxLiftStop *stops = lift->stops;
+    const double height = (double)stops[lift->stop_count - 1].height - (double)stops[0].height;
+    return jox_lift_travel_time(lift, 0.5 * height) +
+           jox_lift_travel_time(lift, (double)stops[to].height - (double)stops[from].height) +
+           (double)lift->opening + (double)lift->closing + (double)lift->dwell;
+}
+
 static void lay_out_stop(const JoxLift *lift, JoxLiftStop *stop, const JoxStoreys *storeys) {
     const JoxV2 along = jox_sub(stop->door[1], stop->door[0]);
     const JoxV2 normal = jox_left(jox_unit(along));

@@ -7,6 +7,7 @@
 #include "geom/storeys.h"
 
 enum { JOX_MOST_LIFTS = 100, JOX_MOST_CAPACITY = 200 };
+#define JOX_LIFT_PACE 1.3f /* m/s: at which people walk, where ways by lifts are compared */
 
 /* The use of a lift. */
 typedef enum JoxLiftMode {
@@ -74,6 +75,9 @@ bool jox_lift_contains(const JoxLift *lift, JoxV2 plan);
 JoxV2 jox_lift_outside(const JoxLift *lift, uint32_t stop, const JoxStoreys *storeys);
 /* Returns the time for a way from standing to standing, s. */
 double jox_lift_travel_time(const JoxLift *lift, double metres);
+/* Returns the time that people need from before the door at one stop until they are out at another,
+   s, if nobody else rides: with the wait for a car that comes from half the height. */
+double jox_lift_usual_time(const JoxLift *lift, uint32_t from, uint32_t to);
 /* Returns the stop at a storey, or -1. */
 int32_t jox_lift_stop_at(const JoxLift *lift, uint32_t storey);
 /* Returns the name of a stop, "LIFT.STOREY", which the caller frees. */

@@ -115,6 +115,9 @@ typedef enum JoxRouteKind {
                         under the walking law */
     JOX_ROUTE_STEPLESS, /* as NOW, without stairs and escalators: for agents that cannot use them;
                            only in worlds with storeys */
+    JOX_ROUTE_LIFTS,    /* as NOW, and by lifts: for agents that choose between these and stairs;
+                           only in worlds with lifts, as the next kind */
+    JOX_ROUTE_STEPLESS_LIFTS, /* as STEPLESS, and by lifts */
     JOX_ROUTE_KINDS
 } JoxRouteKind;
 

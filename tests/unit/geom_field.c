@@ -75,7 +75,7 @@ static void invalid_boxes_give_a_field(void **state) {
                               {{-5000, -5000}, {5000, 5000}}};
     for (int k = 0; k < 5; k++) {
         JoxField *field = jox_field_create(&walls, &place, 0, boxes[k][0], boxes[k][1], 0.1f, 0.2f,
-                                           NULL, NULL, NULL);
+                                           NULL, NULL, NULL, NULL);
         float distance = jox_field_distance(field, (JoxV2){4, 3});
         assert_true(distance >= 0.0f);
         jox_field_free(field);

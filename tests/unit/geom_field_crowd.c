@@ -34,7 +34,7 @@ static float find_door_taken(const JoxFieldCrowd *crowd, double angle, JoxV2 fro
     JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.1f};
     jox_place_finish(&place);
     JoxField *field = jox_field_create(&walls, &place, 0, (JoxV2){-15, -15}, (JoxV2){15, 15}, 0.2f,
-                                       0.15f, crowd, NULL, NULL);
+                                       0.15f, crowd, NULL, NULL, NULL);
     float x = NAN;
     for (int k = 0; k < 4000 && isnan(x); k++) {
         JoxV2 q = jox_add(p, jox_scale(jox_field_direction(field, p), 0.02f));
@@ -141,7 +141,7 @@ static void a_goal_along_a_wall_is_not_reached_through_it(void **state) {
                 .kind = JOX_PLACE_POLYGON, .points = corners, .count = 4, .start = -1};
             jox_place_finish(&place);
             JoxField *field = jox_field_create(&walls, &place, 0, (JoxV2){-9, -9}, (JoxV2){9, 9},
-                                               0.2f, 0.15f, NULL, NULL, NULL);
+                                               0.2f, 0.15f, NULL, NULL, NULL, NULL);
             for (int n = -4; n <= 4; n++) {
                 JoxV2 behind = turn_point((JoxV2){0.4f * (float)n, -0.5f}, angle);
                 JoxV2 before = turn_point((JoxV2){0.4f * (float)n, 3.0f}, angle);
@@ -187,9 +187,9 @@ static void cached_marks_change_no_field(void **state) {
         add_turned_solid(&walls, block, 3, angle);
         const JoxV2 low = {-wide, -wide}, high = {wide, wide};
         JoxField *with =
-            jox_field_create(&walls, &place, 0, low, high, 0.2f, 0.15f, &crowd, NULL, &marks);
+            jox_field_create(&walls, &place, 0, low, high, 0.2f, 0.15f, &crowd, NULL, NULL, &marks);
         JoxField *without =
-            jox_field_create(&walls, &place, 0, low, high, 0.2f, 0.15f, &crowd, NULL, NULL);
+            jox_field_create(&walls, &place, 0, low, high, 0.2f, 0.15f, &crowd, NULL, NULL, NULL);
         assert_non_null(marks);
         expect_same_fields(with, without);
         jox_field_free(with);
@@ -215,13 +215,13 @@ static void every_instruction_set_spreads_people_alike(void **state) {
         JoxFieldCrowd crowd = place_crowd((JoxV2){(float)k, -1.0f}, 0.2, 0.8f, at, share);
         crowd.isa = JO_ISA_SCALAR;
         JoxField *plain =
-            jox_field_create(&walls, &place, 0, low, high, cell, 0.2f, &crowd, NULL, NULL);
+            jox_field_create(&walls, &place, 0, low, high, cell, 0.2f, &crowd, NULL, NULL, NULL);
         for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
             if (!jox_isa_runs(isa))
                 continue;
             crowd.isa = isa;
-            JoxField *wide =
-                jox_field_create(&walls, &place, 0, low, high, cell, 0.2f, &crowd, NULL, NULL);
+            JoxField *wide = jox_field_create(&walls, &place, 0, low, high, cell, 0.2f, &crowd,
+                                              NULL, NULL, NULL);
             expect_same_fields(wide, plain);
             jox_field_free(wide);
         }

@@ -134,7 +134,7 @@ static void ways_out_of_a_solid_lead_to_its_nearest_side(void **state) {
 static float find_length_to(const JoxWalls *walls, const JoxPlace *places, uint32_t place,
                             JoxV2 p) {
     JoxField *field = jox_field_create(walls, places, place, (JoxV2){-12, -12}, (JoxV2){12, 12},
-                                       0.25f, 0.2f, NULL, NULL, NULL);
+                                       0.25f, 0.2f, NULL, NULL, NULL, NULL);
     float length = jox_field_distance(field, p);
     jox_field_free(field);
     return length;
@@ -164,7 +164,7 @@ static void places_of_every_kind_are_goals(void **state) {
         }
     /* Points inside a polygon are at the goal. */
     JoxField *field = jox_field_create(&walls, places, 0, (JoxV2){-12, -12}, (JoxV2){12, 12}, 0.25f,
-                                       0.2f, NULL, NULL, NULL);
+                                       0.2f, NULL, NULL, NULL, NULL);
     assert_true(jox_field_distance(field, (JoxV2){-6.5f, 0}) == 0.0f);
     assert_true(jox_length(jox_field_direction(field, (JoxV2){-6.5f, 0})) == 0.0f);
     jox_field_free(field);

@@ -49,7 +49,7 @@ static inline JoxField *make_field_to_point(const JoxWalls *walls, JoxV2 goal, f
     JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.1f};
     jox_place_finish(&place);
     return jox_field_create(walls, &place, 0, (JoxV2){-half, -half}, (JoxV2){half, half}, cell,
-                            clearance, NULL, NULL, NULL);
+                            clearance, NULL, NULL, NULL, NULL);
 }
 
 static inline bool is_wall_crossed(const JoxWalls *walls, JoxV2 p, JoxV2 q) {

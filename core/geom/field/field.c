@@ -47,15 +47,19 @@ static void set_grid(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 
 
 /* Fills a field whose grid is set. */
 static void fill_field(JoxField *f, const JoxWalls *walls, const JoxPlace *places, uint32_t place,
-                       float clearance, const JoxFieldCrowd *crowd, JoxFieldMarks **marks) {
+                       float clearance, const JoxFieldCrowd *crowd, const JoxFieldLifts *lifts,
+                       JoxFieldMarks **marks) {
     f->clearance = clearance > LEAST_CLEARANCE ? clearance : LEAST_CLEARANCE;
     size_t count = (size_t)f->columns * (size_t)f->rows;
     f->cells = jox_alloc(count, sizeof *f->cells);
     JoxFieldWork work = {.f = f,
                          .count = (int)count,
+                         .lifts = lifts,
                          .time = jox_alloc(count, sizeof(float)),
                          .slowness = jox_alloc(count, sizeof(float))};
     JoxFieldMarks *own = NULL;
+    if (lifts)
+        f->first_stops = jox_alloc(count, sizeof *f->first_stops);
     jox_field_mark(&work, walls, marks ? marks : &own);
     jox_field_crowd(&work, crowd);
     jox_field_march(&work, places, place);
@@ -67,11 +71,12 @@ static void fill_field(JoxField *f, const JoxWalls *walls, const JoxPlace *place
 
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
                            JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd,
-                           const JoxStoreys *storeys, JoxFieldMarks **marks) {
+                           const JoxStoreys *storeys, const JoxFieldLifts *lifts,
+                           JoxFieldMarks **marks) {
     JoxField *f = jox_alloc(1, sizeof *f);
     if (!jox_has_storeys(storeys)) {
         set_grid(f, places, place, low, high, cell);
-        fill_field(f, walls, places, place, clearance, crowd, marks);
+        fill_field(f, walls, places, place, clearance, crowd, NULL, marks);
         return f;
     }
     JoxWalls packed_walls = {0};
@@ -85,7 +90,7 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     jox_field_pack_walls(f, walls, &packed_walls);
     if (crowd)
         jox_field_pack_crowd(f, crowd, &packed_crowd);
-    fill_field(f, &packed_walls, goal, 0, clearance, crowd ? &packed_crowd : NULL, marks);
+    fill_field(f, &packed_walls, goal, 0, clearance, crowd ? &packed_crowd : NULL, lifts, marks);
     jox_places_free_goal(goal, count);
     jox_walls_free(&packed_walls);
     jox_free(packed_crowd.at);
@@ -255,6 +260,21 @@ float jox_field_distance(const JoxField *f, JoxV2 p) {
     return find_distance(f, jox_field_pack(f, p));
 }
 
+bool jox_field_first_lift(const JoxField *f, const JoxLift *lifts, JoxV2 at, uint32_t *lift,
+                          uint32_t *stop) {
+    const GridPoint s = locate_point(f, jox_field_pack(f, at));
+    int cell = s.row * f->columns + s.column;
+    for (int n = 0; n < 8 && !(f->cells[cell].length < INFINITY); n++) { /* as by a wall */
+        const int other = jox_field_next_to(f, s.column, s.row, n);
+        cell = other >= 0 ? other : cell;
+    }
+    uint32_t number = f->first_stops && f->cells[cell].length < INFINITY ? f->first_stops[cell] : 0;
+    for (*lift = 0; number > lifts[*lift].stop_count; ++*lift)
+        number -= lifts[*lift].stop_count;
+    *stop = number - 1;
+    return number > 0;
+}
+
 /* Returns the direction of the way from a point in a cell with a patch. */
 static JoxV2 find_direction_at_wall(const JoxField *f, const GridPoint *s) {
     const JoxFieldPatch *patch = &f->patches[s->cell->patch];
@@ -329,5 +349,6 @@ void jox_field_free(JoxField *f) {
     jox_free(f->edges);
     jox_free(f->refs);
     jox_free(f->sheets);
+    jox_free(f->first_stops);
     jox_free(f);
 }

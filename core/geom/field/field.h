@@ -5,6 +5,7 @@
 #define JOX_GEOM_FIELD_H
 
 #include "base/sections.h"
+#include "geom/lifts.h"
 #include "geom/place.h"
 #include "geom/storeys.h"
 #include "geom/walls.h"
@@ -22,6 +23,14 @@ typedef struct JoxFieldCrowd {
     JoIsa isa;     /* instruction set of the kernel; it changes no result */
 } JoxFieldCrowd;
 
+/* Lifts by which ways lead, too. A ride counts as the way that people walk in its usual time. */
+typedef struct JoxFieldLifts {
+    const JoxLift *lifts; /* laid out, borrowed */
+    uint32_t count;
+    bool stepless;                 /* for people who cannot use stairs: firemen take them, too */
+    uint8_t modes[JOX_MOST_LIFTS]; /* JoxLiftMode of each */
+} JoxFieldLifts;
+
 /* Makes the field to a place of any kind (a set: to its nearest member; a queue: to its head) over
    the box low..high and the place, for people who keep `clearance` m (at least 0.05) from walls.
    People are slower within 0.5 m of walls, so that ways keep off them where there is room, and
@@ -31,11 +40,12 @@ typedef struct JoxFieldCrowd {
    depends on the grid's position. `marks`, if not NULL, caches the effect of walls between calls
    (*marks is NULL at first): the same walls over the same box are not evaluated again, which
    changes no result. `storeys`: NULL, or laid out; then the box counts along x alone, and seams
-   that may not be crossed are closed. It is borrowed. Returns a field that the caller frees; never
-   NULL. */
+   that may not be crossed are closed. It is borrowed. `lifts`: NULL, or the lifts of the storeys by
+   which ways lead. Returns a field that the caller frees; never NULL. */
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
                            JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd,
-                           const JoxStoreys *storeys, JoxFieldMarks **marks);
+                           const JoxStoreys *storeys, const JoxFieldLifts *lifts,
+                           JoxFieldMarks **marks);
 /* Returns the height of the grid of a field over storeys with cells of this size, m. */
 float jox_field_height_of_sheets(const JoxStoreys *storeys, float cell);
 /* Gives a field that was restored its storeys; NULL: none. */
@@ -44,6 +54,10 @@ void jox_field_marks_free(JoxFieldMarks *marks);
 /* Returns the length of the way from a point, m: 0 inside a polygon that is the goal; INFINITY
    inside solids and where no way leads. From outside the box: straight to it, and on from there. */
 float jox_field_distance(const JoxField *field, JoxV2 point);
+/* Returns whether the way from a point leads by a lift, of a field made with lifts: the first one,
+   and the stop at which people take it. */
+bool jox_field_first_lift(const JoxField *field, const JoxLift *lifts, JoxV2 point, uint32_t *lift,
+                          uint32_t *stop);
 /* Returns the unit vector of the way: continuous between cells, never towards the other side of a
    wall. Nearer to a wall than the clearance it also leads off the wall; inside a solid it leads
    out. (0, 0) at the goal and where no way leads. */
@@ -61,8 +75,9 @@ typedef void JoxFieldKernel(const JoxField *field, JoxFieldPoints *points);
 #define X(name, isa) JoxFieldKernel jox_field_look_##name;
 JOX_ISAS(X)
 #undef X
-/* Lists a field for saving; when restoring, makes one and stores it in *field. */
-void jox_field_sections(JoxField **field, JoxSections *sections);
+/* Lists a field for saving; when restoring, makes one and stores it in *field. `by_lifts`: it is
+   one made with lifts. */
+void jox_field_sections(JoxField **field, bool by_lifts, JoxSections *sections);
 uint32_t jox_field_cells(const JoxField *field);
 /* Returns the box of its cells, m, and their size. A field made for this box has the same cells. */
 void jox_field_box(const JoxField *field, JoxV2 *low, JoxV2 *high, float *cell);

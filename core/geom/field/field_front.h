@@ -27,6 +27,7 @@ typedef struct JoxFrontNode {
     bool reached, is_done; /* added to the front; finished */
     bool is_copied;        /* cells over a seam repeat this one */
     bool repeats;          /* repeats a cell over a seam, and is finished with it */
+    bool has_stop;         /* the way in or out of a lift leads through it */
 } JoxFrontNode;
 
 typedef struct JoxFront {

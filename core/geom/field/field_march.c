@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field/field_front.h"
+#include "geom/field/field_lifts.h"
 #include "geom/field/field_sheets.h"
 
 static const float SEED_CELLS = 4.5f; /* cells: so near the goal, ways are straight and lengths
@@ -28,6 +29,7 @@ static const float STRETCH = 1.0f;
 typedef struct March {
     JoxFieldWork *w;
     JoxFieldTwins twins;
+    JoxFieldStops stops;
     int steps[8];   /* offset of the index from a cell to each ring neighbour */
     float least[2]; /* m: least advance by a neighbour beside it, across a corner */
     JoxFront front;
@@ -224,6 +226,8 @@ static inline void finish_node(March *m, int cell) {
         const float far = jox_length(way);
         const JoxV2 unit = jox_scale(way, 1.0f / far);
         n->length = a->length + t * (b->length - a->length) + far;
+        if (m->w->f->first_stops)
+            m->w->f->first_stops[cell] = m->w->f->first_stops[a - m->front.nodes];
         out->x = unit.x;
         out->y = unit.y;
     }
@@ -281,9 +285,29 @@ static void finish_twins(March *m, int of, bool plain) {
         f->cells[twin->copy].length = n->length;
         f->cells[twin->copy].x = f->cells[of].x;
         f->cells[twin->copy].y = f->cells[of].y;
+        if (f->first_stops)
+            f->first_stops[twin->copy] = f->first_stops[of];
         for (int k = 0; k < 8; k++)
             if ((n->links & ~(uint32_t)n->finished) >> k & 1 && !(n + m->steps[k])->is_done)
                 visit_neighbour(m, n, k, 1u << k, plain);
+    }
+}
+
+/* Offers the ways into a lift at its other stops, once the way on from one is known. */
+static void offer_rides(March *m, int cell) {
+    JoxFieldRide ride = {.from = cell};
+    while (jox_field_next_ride(m->w, &m->stops, &ride)) {
+        JoxFrontNode *n = &m->front.nodes[ride.to];
+        const float time = m->front.nodes[cell].time + ride.length;
+        if (n->is_done || !(time < n->time))
+            continue;
+        n->time = time;
+        n->length = m->front.nodes[cell].length + ride.length;
+        n->ends = JOX_FRONT_GOAL;
+        m->w->f->cells[ride.to].x = ride.in.x;
+        m->w->f->cells[ride.to].y = ride.in.y;
+        m->w->f->first_stops[ride.to] = ride.label;
+        jox_front_reach(&m->front, ride.to);
     }
 }
 
@@ -320,6 +344,8 @@ static void march_all(March *m) {
         visit_neighbour(m, n, 7, open, plain);
         if (n->is_copied)
             finish_twins(m, i, plain);
+        if (n->has_stop)
+            offer_rides(m, i);
     }
 }
 
@@ -375,6 +401,9 @@ void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
     }
     m.twins = jox_field_list_twins(w, true);
     begin_twins(&m);
+    m.stops = jox_field_list_stops(w);
+    for (uint32_t s = 0; s < m.stops.count; s++)
+        m.front.nodes[m.stops.items[s].cell].has_stop = true;
     seed_place(&m, places, place);
     march_all(&m);
     refine_directions(w);
@@ -385,5 +414,6 @@ void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
         copy->y = of->y;
     }
     jox_free(m.twins.items);
+    jox_free(m.stops.items);
     jox_front_end(&m.front);
 }

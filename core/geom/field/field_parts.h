@@ -70,6 +70,9 @@ struct JoxField {
     uint32_t ref_count;
     const JoxStoreys *storeys; /* borrowed; NULL: one plane */
     JoxFieldSheet *sheets;     /* one per sheet; NULL: one plane */
+    /* By cell: 1 + the number of the stop at which the way takes its first lift, counted over all
+       lifts; 0: by none. NULL: made without lifts. */
+    uint16_t *first_stops;
 };
 
 /* Returns where a point lies in the grid. */
@@ -112,6 +115,7 @@ typedef struct JoxFieldWork {
     float *near;     /* while marking: lower bound of each node's distance from walls, m */
     float *time;     /* time of the way from the node, s, at 1 m/s on free floor */
     float *slowness; /* s/m at the node */
+    const JoxFieldLifts *lifts; /* NULL: ways lead by none */
     JoxFieldWalled walled;
 } JoxFieldWork;
 

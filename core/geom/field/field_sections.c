@@ -26,7 +26,15 @@ static void check_field(const JoxField *f, JoxSections *s) {
             jox_sections_fail(s, "field_refs", "an edge is referred to that does not exist");
 }
 
-void jox_field_sections(JoxField **field, JoxSections *s) {
+/* Lists the first stops of ways by lifts. */
+static void list_first_stops(JoxField *f, size_t cells, JoxSections *s) {
+    size_t count = cells, capacity = 0;
+    JOX_SECTION_ARRAY(s, "field_stops", f->first_stops, count, capacity);
+    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed && count != cells)
+        jox_sections_fail(s, "field_stops", "cells lack their stop of a lift");
+}
+
+void jox_field_sections(JoxField **field, bool by_lifts, JoxSections *s) {
     const bool restores = s->mode == JOX_SECTIONS_RESTORE;
     if (restores) {
         jox_field_free(*field);
@@ -44,6 +52,8 @@ void jox_field_sections(JoxField **field, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "field_patches", f->patches, f->patch_count, patch_capacity);
     JOX_SECTION_ARRAY(s, "field_edges", f->edges, f->edge_count, edge_capacity);
     JOX_SECTION_ARRAY(s, "field_refs", f->refs, f->ref_count, ref_capacity);
+    if (by_lifts)
+        list_first_stops(f, cells, s);
     if (!restores)
         return;
     f->columns = (int)columns;

@@ -54,7 +54,7 @@ static const JoxField *get_field(JoWorld *w, uint32_t place, JoxV2 from) {
     h->field = NULL;
     h->marks = NULL;
     h->field = jox_field_create(&standing, places, goal, low, high, CELL, CLEARANCE, NULL,
-                                a->storeys, &h->marks);
+                                a->storeys, NULL, &h->marks);
     if (over_edges)
         jox_places_free_goal(places, count);
     h->field_place = place;

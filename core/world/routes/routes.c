@@ -5,47 +5,25 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "machine/lifts.h"
 #include "task/worker.h"
 #include "world/routes/body_obstacles.h"
 #include "world/routes/held_up.h"
 #include "world/routes/joined_edges.h"
+#include "world/routes/route_making.h"
 
 enum { MOST_FIELDS = 512, FEW_HELD = 5 * JOX_HELD }; /* fewer agents held up are no crowd */
-/* m: sizes of cells; a field has the smallest with at most MOST_CELLS cells, so that it is done
-   within DELAY. The largest still shows doors of half a metre. */
-static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
-static const float MOST_CELLS = 400000.0f;
-/* The same for fields round crowds, which are made anew every CROWD_PAUSE. */
+/* Fields round crowds are made anew every CROWD_PAUSE. */
 static const float MOST_CROWD_CELLS = 100000.0f;
-static const float CLEARANCE = 0.15f; /* m: half the width of a person turned sideways */
-static const float MOST_ROOM = 1.5f;  /* greatest area of a reused box, in areas of a new one */
-static const float SPARE = 3.0f;      /* m: margin added once agents went beyond the previous box */
-static const float MARGIN = 3.0f;     /* m: margin round all walls and agents */
-static const double DELAY = 0.5;      /* s: from the request of a field to its use */
-static const double PAUSE = 2.0;      /* s: between fields made anew for moving bodies */
-static const double LOOK = 0.25;      /* s: interval at which bodies and crowds are examined */
-static const double CROWD_PAUSE = 1.0;      /* s: between fields made anew for a crowd */
+static const float CLEARANCE = 0.15f;  /* m: half the width of a person turned sideways */
+static const double DELAY = 0.5;       /* s: from the request of a field to its use */
+static const double PAUSE = 2.0;       /* s: between fields made anew for moving bodies */
+static const double LOOK = 0.25;       /* s: interval at which bodies and crowds are examined */
+static const double CROWD_PAUSE = 1.0; /* s: between fields made anew for a crowd */
 static const float CROWD_CELLS = 150000.0f; /* cells; larger fields wait longer in proportion */
 
-/* One field being made, with copies of all that it is made of, as a worker thread makes it. */
-typedef struct Making {
-    JoxWorkItem item; /* first */
-    JoxWalls walls;
-    JoxPlace *places; /* the place, followed by its members */
-    uint32_t place_count;
-    JoxV2 low, high;
-    float cell, clearance; /* m */
-    JoxFieldCrowd crowd;
-    const JoxStoreys *storeys; /* the world's storeys; NULL: one plane */
-    JoxStoreys
-        stairs; /* the same, with a copy of the stairs: which are closed may change meanwhile */
-    bool keeps_marks;
-    JoxFieldMarks *marks; /* marks of the previous field, then of this one; NULL: none */
-    JoxField *field;
-} Making;
-
 typedef struct Route {
-    Making *making;            /* or NULL */
+    JoxRouteMaking *making;    /* or NULL */
     uint64_t asked, due;       /* ticks: of the last request, and of the first use of its field */
     uint32_t walls, obstacles; /* versions that the field was made of */
     JoxFieldMarks *marks;      /* fields round crowds: marks of walls, kept from field to field */
@@ -55,6 +33,7 @@ struct JoxRoutes {
     JoxWorker *worker;
     JoxObstacles obstacles;
     uint32_t walls;    /* version of walls */
+    uint32_t lifts;    /* how often a lift came into another use */
     uint32_t seen;     /* world->state.walls_version */
     bool begun, full;  /* full: it was told that some places get no field */
     uint32_t capacity; /* places */
@@ -72,6 +51,15 @@ JoxRoutes *jox_routes_create(void) {
     return routes;
 }
 
+static bool is_by_lifts(JoxRouteKind kind) {
+    return kind == JOX_ROUTE_LIFTS || kind == JOX_ROUTE_STEPLESS_LIFTS;
+}
+
+/* Returns the version of walls, and of lifts if they count, that fields of a kind are made of. */
+static uint32_t get_version(const JoxRoutes *routes, JoxRouteKind kind) {
+    return routes->walls + (is_by_lifts(kind) ? routes->lifts : 0);
+}
+
 /* Returns the first invariant that does not hold, or NULL. */
 static const char *find_fault(const JoxRouteStage *w) {
     const JoxRoutes *routes = w->routes;
@@ -80,7 +68,7 @@ static const char *find_fault(const JoxRouteStage *w) {
         const Route *route = &routes->items[at];
         count += routes->fields[at] || route->making;
         JOX_MUST(route->asked <= w->tick && route->asked <= route->due);
-        JOX_MUST(route->walls <= routes->walls);
+        JOX_MUST(route->walls <= get_version(routes, at % JOX_ROUTE_KINDS));
         JOX_MUST(route->obstacles <= routes->obstacles.version);
     }
     JOX_MUST(count == routes->count && count <= MOST_FIELDS);
@@ -91,131 +79,17 @@ static const char *find_fault(const JoxRouteStage *w) {
 
 /* ---- making one ---- */
 
-static void free_making(Making *making) {
-    jox_places_free_goal(making->places, making->place_count);
-    jox_walls_free(&making->walls);
-    jox_free(making->stairs.stairs);
-    jox_free(making->crowd.at);
-    jox_free(making->crowd.held);
-    jox_field_free(making->field);
-    jox_field_marks_free(making->marks);
-    jox_free(making);
-}
-
-static void make_field(JoxWorkItem *item) {
-    Making *m = (Making *)item;
-    m->field =
-        jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, m->clearance, &m->crowd,
-                         m->storeys ? &m->stairs : NULL, m->keeps_marks ? &m->marks : NULL);
-    jox_field_set_storeys(m->field, m->storeys);
-}
-
 static void make_fields(void *context, uint32_t begin_route, uint32_t end, uint32_t worker) {
     (void)worker;
-    Making **makings = context;
+    JoxRouteMaking **makings = context;
     for (uint32_t i = begin_route; i < end; i++)
-        make_field(&makings[i]->item);
+        jox_route_making_run(&makings[i]->item);
 }
 
 /* Returns the time between fields round a crowd, s: longer for many cells. */
 static double get_crowd_pause(const JoxField *field) {
     double cells = field ? (double)jox_field_cells(field) : 0.0;
     return cells > CROWD_CELLS ? CROWD_PAUSE * cells / (double)CROWD_CELLS : CROWD_PAUSE;
-}
-
-/* ---- preparing one ---- */
-
-/* Returns whether the box of the previous field contains low..high, and is not much larger than a
-   new box for it. */
-static bool can_reuse_box(const JoxField *before, JoxV2 low, JoxV2 high, float cell) {
-    JoxV2 from, to;
-    float size;
-    if (!before)
-        return false;
-    jox_field_box(before, &from, &to, &size);
-    const float width = high.x - low.x + 2.0f * SPARE, height = high.y - low.y + 2.0f * SPARE;
-    return size == cell && jox_is_within(low, from, to) && jox_is_within(high, from, to) &&
-           (to.x - from.x) * (to.y - from.y) < MOST_ROOM * width * height;
-}
-
-/* Returns the height of a field's grid, m. */
-static float measure_height(const JoxRouteStage *w, JoxV2 low, JoxV2 high, float cell) {
-    return w->agents->storeys ? jox_field_height_of_sheets(w->agents->storeys, cell)
-                              : high.y - low.y;
-}
-
-/* Sets the box of a field round all walls, open gates too, and agents; its corner is on the grid of
-   cells. If possible it is the box of the previous field, so that narrow gaps are judged alike and
-   marks of walls can be reused. */
-static void set_box(const JoxRouteStage *w, const JoxField *before, float most_cells,
-                    Making *making) {
-    const JoxWalls *walls = w->all_walls;
-    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < walls->count + w->agents->count; i++) {
-        JoxV2 p = i < walls->count
-                      ? walls->vertices[i].point
-                      : (JoxV2){w->agents->x[i - walls->count], w->agents->y[i - walls->count]};
-        low = (JoxV2){jox_minf(low.x, p.x), jox_minf(low.y, p.y)};
-        high = (JoxV2){jox_maxf(high.x, p.x), jox_maxf(high.y, p.y)};
-    }
-    low = jox_sub(low, (JoxV2){MARGIN, MARGIN});
-    high = jox_add(high, (JoxV2){MARGIN, MARGIN});
-    const bool over_edges = jox_routes_lead_over_edges(w->agents, walls);
-    if (over_edges)
-        jox_routes_box_over_edges(w->agents, 0.0f, &low, &high);
-    int c = 0;
-    while (c < 3 && (high.x - low.x) * measure_height(w, low, high, CELLS[c]) >
-                        most_cells * CELLS[c] * CELLS[c])
-        c++;
-    float cell = CELLS[c];
-    if (w->agents->storeys) { /* inside the grid, whose rows depend on the cells alone */
-        low.y = cell;
-        high.y = 2.0f * cell;
-    }
-    if (over_edges)
-        jox_routes_box_over_edges(w->agents, cell, &low, &high);
-    JOX_ASSERT(low.x < high.x && low.y < high.y); /* there are walls or agents */
-    if (can_reuse_box(before, low, high, cell)) {
-        jox_field_box(before, &making->low, &making->high, &making->cell);
-        return;
-    }
-    const float spare = before ? SPARE : 0.0f;
-    low = jox_sub(low, (JoxV2){spare, spare});
-    high = jox_add(high, (JoxV2){spare, spare});
-    if (over_edges)
-        jox_routes_box_over_edges(w->agents, cell, &low, &high);
-    making->cell = cell;
-    making->low = (JoxV2){floorf(low.x / cell) * cell, floorf(low.y / cell) * cell};
-    making->high = high;
-}
-
-static void copy_stairs(const JoxStoreys *storeys, Making *making) {
-    making->storeys = storeys;
-    if (!storeys)
-        return;
-    making->stairs = *storeys;
-    making->stairs.stairs = jox_copy_array(storeys->stairs, storeys->stair_count, sizeof(JoxStair));
-}
-
-/* Copies all that a field is made of. `before`: the field that it replaces, or NULL. */
-static Making *prepare_field(const JoxRouteStage *w, uint32_t place,
-                             const JoxRouteFieldOptions *look, float most_cells,
-                             const JoxField *before) {
-    Making *making = jox_alloc(1, sizeof *making);
-    making->item.run = make_field;
-    making->clearance = look->clearance;
-    copy_stairs(w->agents->storeys, making);
-    jox_walls_for_ways(&making->walls, w->all_walls, look->gates);
-    jox_obstacles_add(&w->routes->obstacles, look->bodies, &making->walls);
-    for (uint32_t k = 0; look->stepless && k < making->stairs.stair_count; k++)
-        making->stairs.stairs[k].closed |= making->stairs.stairs[k].kind != JOX_STAIR_RAMP;
-    making->places = jox_places_copy_goal(w->places, place, &making->place_count);
-    if (jox_routes_lead_over_edges(w->agents, w->all_walls)) {
-        jox_routes_add_wall_images(w->agents, &making->walls);
-        jox_routes_add_goal_images(w->agents, &making->places, &making->place_count);
-    }
-    set_box(w, before, most_cells, making);
-    return making;
 }
 
 void jox_routes_update_bodies(const JoxRouteStage *w) {
@@ -228,28 +102,31 @@ const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes) {
 
 JoxField *jox_routes_make_field(const JoxRouteStage *w, uint32_t place,
                                 const JoxRouteFieldOptions *look) {
-    Making *making = prepare_field(w, place, look, MOST_CELLS, NULL);
-    make_field(&making->item);
+    JoxRouteMaking *making =
+        jox_route_making_prepare(w, &w->routes->obstacles, place, look, JOX_ROUTE_CELLS, NULL);
+    jox_route_making_run(&making->item);
     JoxField *field = making->field;
     making->field = NULL;
-    free_making(making);
+    jox_route_making_free(making);
     return field;
 }
 
 /* Prepares the field of a route, to be used after `delay` s. */
-static Making *begin_route(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind,
-                           double delay) {
+static JoxRouteMaking *begin_route(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind,
+                                   double delay) {
     JoxRoutes *routes = w->routes;
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
     JOX_ASSERT(!route->making); /* a running one would be lost */
     const bool open = kind == JOX_ROUTE_OPEN, crowd = kind == JOX_ROUTE_CROWD;
-    const JoxRouteFieldOptions look = {.gates = !open,
-                                       .bodies =
-                                           open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
-                                       .clearance = CLEARANCE,
-                                       .stepless = kind == JOX_ROUTE_STEPLESS};
-    Making *making = prepare_field(w, place, &look, crowd ? MOST_CROWD_CELLS : MOST_CELLS,
-                                   routes->fields[place * JOX_ROUTE_KINDS + kind]);
+    const JoxRouteFieldOptions look = {
+        .gates = !open,
+        .bodies = open ? 1u << JOX_OBSTACLE_FIXED : JOX_OBSTACLES_ALL,
+        .clearance = CLEARANCE,
+        .stepless = kind == JOX_ROUTE_STEPLESS || kind == JOX_ROUTE_STEPLESS_LIFTS,
+        .lifts = is_by_lifts(kind)};
+    JoxRouteMaking *making = jox_route_making_prepare(
+        w, &w->routes->obstacles, place, &look, crowd ? MOST_CROWD_CELLS : JOX_ROUTE_CELLS,
+        routes->fields[place * JOX_ROUTE_KINDS + kind]);
     if (crowd) {
         making->crowd = jox_held_up_list(w->agents, place, (float)w->crowd_slowing, w->isa);
         if (jox_routes_lead_over_edges(w->agents, w->all_walls))
@@ -260,21 +137,21 @@ static Making *begin_route(const JoxRouteStage *w, uint32_t place, JoxRouteKind 
     *route = (Route){.making = making,
                      .asked = w->tick,
                      .due = w->tick + (uint64_t)ceil(delay / w->dt - 1e-9),
-                     .walls = routes->walls,
+                     .walls = get_version(routes, kind),
                      .obstacles = routes->obstacles.version};
     return making;
 }
 
 /* Puts a finished field into use. */
 static void take_field(JoxRoutes *routes, uint32_t at) {
-    Making *making = routes->items[at].making;
+    JoxRouteMaking *making = routes->items[at].making;
     jox_field_free(routes->fields[at]);
     JOX_ASSERT(making->field);
     routes->fields[at] = making->field;
     routes->items[at].marks = making->marks;
     making->field = NULL;
     making->marks = NULL;
-    free_making(making);
+    jox_route_making_free(making);
     routes->items[at].making = NULL;
 }
 
@@ -312,7 +189,7 @@ static bool is_due(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind) {
         return false;
     if (!room)
         tell_full(w, place);
-    if (!has || route->walls != routes->walls)
+    if (!has || route->walls != get_version(routes, kind))
         return room;
     return kind != JOX_ROUTE_OPEN && route->obstacles != routes->obstacles.version &&
            since >= PAUSE - 1e-9;
@@ -342,7 +219,7 @@ static void reserve_places(const JoxRouteStage *w) {
 static void make_first(const JoxRouteStage *w) {
     JoxRoutes *routes = w->routes;
     for (JoxRouteKind kind = JOX_ROUTE_NOW; kind < JOX_ROUTE_KINDS; kind++) {
-        Making *makings[MOST_FIELDS];
+        JoxRouteMaking *makings[MOST_FIELDS];
         uint32_t count = 0, at[MOST_FIELDS];
         jox_machines_ask_routes(w->machines); /* agents without a route ask for the other kind */
         for (uint32_t p = 0; p < routes->capacity; p++) {
@@ -416,6 +293,10 @@ void jox_routes_update(const JoxRouteStage *w) {
     JOX_CHECK(JOX_NO_FAULT(find_fault(w)));
 }
 
+void jox_routes_note_lifts(JoxRoutes *routes) {
+    routes->lifts++;
+}
+
 void jox_routes_renew(JoxRoutes *routes) {
     routes->walls++;
 }
@@ -434,7 +315,7 @@ static void clear_routes(JoxRoutes *routes) {
         jox_field_free(routes->fields[at]);
         routes->fields[at] = NULL;
         if (routes->items[at].making)
-            free_making(routes->items[at].making);
+            jox_route_making_free(routes->items[at].making);
         jox_field_marks_free(routes->items[at].marks);
         routes->items[at] = (Route){0};
     }
@@ -443,6 +324,7 @@ static void clear_routes(JoxRoutes *routes) {
 /* Lists a route: its times and versions, the field in use, and the one being made. */
 static void list_route(JoxRoutes *routes, const JoxStoreys *storeys, uint32_t at, JoxSections *s) {
     Route *route = &routes->items[at];
+    const bool by_lifts = is_by_lifts(at % JOX_ROUTE_KINDS);
     bool used = jox_section_count(s, "used", routes->fields[at] != NULL, 1) > 0;
     bool made = jox_section_count(s, "made", route->making != NULL, 1) > 0;
     JOX_SECTION(s, "asked", route->asked);
@@ -454,15 +336,21 @@ static void list_route(JoxRoutes *routes, const JoxStoreys *storeys, uint32_t at
         route->making->item.done = true;
     }
     if (used)
-        jox_field_sections(&routes->fields[at], s);
+        jox_field_sections(&routes->fields[at], by_lifts, s);
     if (made)
-        jox_field_sections(&route->making->field, s);
+        jox_field_sections(&route->making->field, by_lifts, s);
     if (s->mode == JOX_SECTIONS_RESTORE && !s->failed) {
         jox_field_set_storeys(routes->fields[at], storeys);
         jox_field_set_storeys(made ? route->making->field : NULL, storeys);
         if (made)
             route->making->storeys = storeys;
     }
+}
+
+/* Returns whether a world has fields of a kind. */
+static bool has_kind(const JoxRouteStage *w, JoxRouteKind kind) {
+    return is_by_lifts(kind) ? w->machines->lifts != NULL
+                             : kind != JOX_ROUTE_STEPLESS || w->agents->storeys;
 }
 
 void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
@@ -479,8 +367,10 @@ void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
     JOX_SECTION(s, "begun", routes->begun);
     JOX_SECTION(s, "count", routes->count);
     jox_section(s, "wanted", routes->wanted, 1, routes->capacity);
+    if (w->machines->lifts)
+        JOX_SECTION(s, "lifts", routes->lifts);
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
-        if (at % JOX_ROUTE_KINDS != JOX_ROUTE_STEPLESS || w->agents->storeys)
+        if (has_kind(w, at % JOX_ROUTE_KINDS))
             list_route(routes, w->agents->storeys, at, s);
     if (s->mode == JOX_SECTIONS_RESTORE && find_fault(w))
         jox_sections_fail(s, "routes", find_fault(w));

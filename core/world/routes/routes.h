@@ -43,6 +43,8 @@ typedef struct JoxRouteFieldOptions {
     uint32_t bodies; /* a bit for each JoxObstacleKind */
     float clearance; /* m: distance to walls, at least 0.05 */
     bool stepless;   /* stairs and escalators are closed */
+    bool lifts;      /* ways lead by lifts, too */
+    bool all_lifts;  /* as if all lifts were in use */
 } JoxRouteFieldOptions;
 /* Makes a field to a place at once, to see whether a way leads there; the caller frees it. Needs
    walls or agents. Changes nothing: bodies are where routes saw them last. */
@@ -52,6 +54,8 @@ JoxField *jox_routes_make_field(const JoxRouteStage *stage, uint32_t place,
 void jox_routes_update_bodies(const JoxRouteStage *stage);
 /* Returns the bodies that ways lead round, as routes saw them last. */
 const JoxObstacles *jox_routes_obstacles(const JoxRoutes *routes);
+/* Notes that a lift is used in another way. */
+void jox_routes_note_lifts(JoxRoutes *routes);
 /* Makes all fields anew, as places moved. */
 void jox_routes_renew(JoxRoutes *routes);
 /* Lists as state the fields in use, those being made, which are finished first, and their times. */
