@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "agents/agents.h"
 #include "geom/lifts.h"
 #include "machine/machine.h"
 
@@ -68,6 +69,15 @@ typedef struct JoxRider {
 #define JOX_LIFTS_NEVER 0.25f
 #define JOX_LIFTS_ONLY 0.75f
 
+/* How an agent gets from storey to storey. */
+typedef enum JoxAgentWays { JOX_WAYS_STAIRS, JOX_WAYS_EITHER, JOX_WAYS_STEPLESS } JoxAgentWays;
+static inline JoxAgentWays jox_agent_ways(const JoxAgents *agents, uint32_t i) {
+    const float lifts = jox_param(agents, JOX_PARAM_lifts, i);
+    return lifts > JOX_LIFTS_ONLY    ? JOX_WAYS_STEPLESS
+           : lifts > JOX_LIFTS_NEVER ? JOX_WAYS_EITHER
+                                     : JOX_WAYS_STAIRS;
+}
+
 /* Lifts as the machines see them. */
 typedef struct JoxLiftView {
     const JoxStoreys *storeys;
@@ -91,15 +101,15 @@ uint32_t jox_lift_near_stop(const JoxLiftView *view, uint32_t lift, JoxV2 at);
 int32_t jox_machines_ride_goal(const JoxMachineRun *run, uint32_t agent);
 /* Returns the place that an agent's state walks to (`field`, `seek`), -1: it walks to none. */
 int32_t jox_machines_walk_goal(const JoxMachineRun *run, uint32_t agent);
+/* Returns the place to which an agent walks that rides to `goal`, at the door of a lift; -1: it
+   does not walk there by a field. */
+int32_t jox_ride_approach(const JoxMachineRun *run, uint32_t agent, int32_t goal);
 /* Returns the refuge nearest to a position on its storey, -1: there is none. */
 int32_t jox_find_refuge(const JoxMachineRun *run, JoxV2 at);
 
 /* Functions for this folder alone. */
 /* Returns the term by which agents in a state ride, or NULL. */
 const JoxSteerTerm *jox_ride_term(const JoxState *state);
-/* Returns the place to which an agent walks that rides to `goal`, at the door of a lift; -1: it
-   does not walk there by a field. */
-int32_t jox_ride_approach(const JoxMachineRun *run, uint32_t agent, int32_t goal);
 /* Return whether an agent's ride is over; whether it rides, in the car; whether the lift of a
    place, or one of a set, is in use. */
 bool jox_has_ridden(const JoxMachineRun *run, uint32_t agent);

@@ -1,50 +1,19 @@
-/* The list of agents that ride, and their choice among the lifts of a set, or between lifts and
-   stairs. */
+/* The list of agents that ride: those whose state rides, those that take a lift on their way, and
+   those that are in a car when they change their mind; and their choice among the lifts of a set.
+ */
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "world/lift_parts.h"
 
-static const double WALKS = 1.3; /* m/s: for choosing among lifts */
-static const double LOYAL = 8.0; /* s: that another lift has to save */
-
-/* Returns how many car loads of people have to be carried before an agent that takes a lift now;
-   `before`: of those who wait, only those who called before this tick. */
-static double count_loads_before(const JoWorld *w, uint32_t lift, uint32_t id, uint32_t before) {
-    const JoxLiftState *state = &w->state.lifts;
-    uint32_t people = 0;
-    for (uint32_t r = 0; r < state->rider_count; r++) {
-        const JoxRider *rider = &state->riders[r];
-        people += rider->lift == lift && rider->id != id &&
-                  (rider->phase <= JOX_RIDE_BOARD && rider->since <= before);
-    }
-    return (double)people / w->model.lifts[lift].capacity;
-}
-
-/* Returns the seconds that a lift may take an agent from a stop: waiting and riding. */
-static double estimate_ride(const JoWorld *w, uint32_t lift, uint32_t from, uint32_t stop,
-                            const JoxRider *rider) {
-    const JoxLift *of = &w->model.lifts[lift];
-    const JoxLiftCar *car = &w->state.lifts.cars[lift];
-    const double height = (double)of->stops[from].height;
-    const double ride = jox_lift_travel_time(of, (double)of->stops[stop].height - height);
-    const double come = jox_lift_travel_time(of, car->height - height);
-    const double doors = (double)of->opening + (double)of->closing + (double)of->dwell;
-    const bool waits = rider->phase == JOX_RIDE_WAIT && rider->lift == lift;
-    const double loads =
-        count_loads_before(w, lift, rider->id, waits ? rider->since : (uint32_t)w->state.tick);
-    return ride + come + doors + 2.0 * loads * (ride + doors) +
-           (car->mode == JOX_LIFT_OUT_OF_USE ? 1e6 : 0.0);
-}
-
 /* Returns the same with the way to the door, straight. */
 static double estimate_time(const JoWorld *w, uint32_t lift, uint32_t stop, JoxV2 at,
                             const JoxRider *rider) {
     const uint32_t from = jox_lift_near_stop(&w->scratch.lifts.view, lift, at);
     const JoxV2 door = jox_lift_outside(&w->model.lifts[lift], from, &w->model.storeys);
-    return (double)jox_length(jox_sub(door, at)) / WALKS +
-           estimate_ride(w, lift, from, stop, rider);
+    return (double)jox_length(jox_sub(door, at)) / (double)JOX_LIFT_PACE +
+           jox_lift_estimate_ride(w, lift, from, stop, rider);
 }
 
 /* Finds the lift and stop that an agent rides to: of a set, that which takes least time; another
@@ -62,7 +31,7 @@ static bool find_lift(const JoWorld *w, uint32_t i, int32_t goal, const JoxRider
         if (!jox_lift_find_place(view, place->members[m], &l, &s))
             continue;
         const bool own = has && l == rider->lift;
-        const double time = estimate_time(w, l, s, at, rider) - (own ? LOYAL : 0.0);
+        const double time = estimate_time(w, l, s, at, rider) - (own ? JOX_LIFT_LOYAL : 0.0);
         if (time < least) {
             least = time;
             *lift = l;
@@ -84,60 +53,7 @@ static bool chooses_again(const JoWorld *w, const JoxRider *rider) {
            rider->phase <= JOX_RIDE_WAIT && is_turn(w, rider->id);
 }
 
-/* ---- lifts on the way to a place ---- */
-
-/* Returns the length of the way to a place by a field, m; INFINITY: none leads there, `unknown`
-   where there is no field yet. */
-static double measure_way(const JoWorld *w, int32_t place, bool stepless, JoxV2 from,
-                          double unknown) {
-    const JoxField *const *fields = (const JoxField *const *)w->machines.fields;
-    const JoxRouteKind kind = stepless ? JOX_ROUTE_STEPLESS : JOX_ROUTE_NOW;
-    const JoxField *field = fields ? fields[(uint32_t)place * JOX_ROUTE_KINDS + kind] : NULL;
-    return field ? (double)jox_field_distance(field, from) : unknown;
-}
-
-/* Finds the lift and the stops by which an agent gets to a place on another storey in less time
-   than over stairs; false: by none. */
-static bool find_lift_on_way(const JoWorld *w, uint32_t i, const JoxRider *rider, bool has,
-                             JoxRider *found) {
-    const JoxAgents *a = &w->state.agents;
-    const JoxStoreys *storeys = &w->model.storeys;
-    const JoxV2 at = {a->x[i], a->y[i]};
-    const bool only = jox_param(a, JOX_PARAM_lifts, i) > JOX_LIFTS_ONLY;
-    const double speed = fmax((double)jox_param(a, JOX_PARAM_speed, i), 0.1);
-    const uint32_t storey = jox_sheet_of(storeys, at.y);
-    double least = measure_way(w, rider->goal, only, at, NAN) / speed;
-    bool any = false;
-    if (isnan(least) || storey >= storeys->storey_count) /* not known yet, or on a stair */
-        return false;
-    for (uint32_t l = 0; l < w->model.lift_count; l++) {
-        const JoxLift *lift = &w->model.lifts[l];
-        const uint32_t mode = w->state.lifts.cars[l].mode;
-        const int32_t from = jox_lift_stop_at(lift, storey);
-        if (from < 0 || (mode != JOX_LIFT_IN_USE && !(only && mode == JOX_LIFT_FIREMEN)))
-            continue;
-        const JoxV2 door = jox_lift_outside(lift, (uint32_t)from, storeys);
-        const double way = measure_way(w, lift->stops[from].place, only, at,
-                                       (double)jox_length(jox_sub(door, at)));
-        for (uint32_t s = 0; s < lift->stop_count; s++) {
-            if (s == (uint32_t)from || (mode == JOX_LIFT_FIREMEN && s != lift->home))
-                continue;
-            const double rest =
-                measure_way(w, rider->goal, only, jox_lift_outside(lift, s, storeys), INFINITY);
-            const bool own = has && rider->lift == l && rider->to == s;
-            const double time = (way + rest) / speed +
-                                estimate_ride(w, l, (uint32_t)from, s, rider) - (own ? LOYAL : 0.0);
-            if (time < least) {
-                least = time;
-                found->lift = l;
-                found->from = (uint32_t)from;
-                found->to = s;
-                any = true;
-            }
-        }
-    }
-    return any;
-}
+/* ---- the list ---- */
 
 /* Updates an agent that walks to a place, on its own storey or not; false: it takes no lift. */
 static bool update_walker(const JoWorld *w, uint32_t i, int32_t goal, JoxRider *rider, bool has) {
@@ -153,9 +69,9 @@ static bool update_walker(const JoWorld *w, uint32_t i, int32_t goal, JoxRider *
     JoxRider next = *rider;
     next.goal = goal;
     next.itself = 1;
-    if (!find_lift_on_way(w, i, &next, same, &next))
+    if (!jox_lift_find_on_way(w, i, &next, same, &next))
         return false;
-    if (!same || next.lift != rider->lift) {
+    if (!same || next.lift != rider->lift || next.from != rider->from) {
         next.phase = JOX_RIDE_APPROACH;
         next.spot = -1;
     }
@@ -185,28 +101,71 @@ static bool update_ride(const JoWorld *w, uint32_t i, int32_t goal, JoxRider *ri
     return true;
 }
 
-/* Returns the lift in whose car, with its door open, an agent stands; -1: none. */
-static int32_t find_open_car(const JoWorld *w, uint32_t i) {
+static JoxRider make_rider(uint32_t id) {
+    return (JoxRider){.id = id, .goal = -1, .phase = JOX_RIDE_APPROACH, .spot = -1};
+}
+
+/* Returns the lift in whose car an agent stands, with its door open or not; -1: none. */
+static int32_t find_car(const JoWorld *w, uint32_t i, bool open) {
     const JoxStoreys *storeys = &w->model.storeys;
     const JoxV2 at = {w->state.agents.x[i], w->state.agents.y[i]};
     for (uint32_t l = 0; l < w->model.lift_count; l++) {
         const JoxLift *lift = &w->model.lifts[l];
         const JoxLiftCar *car = &w->state.lifts.cars[l];
         const float shift = (float)lift->stops[car->stop].storey * storeys->pitch;
-        if (car->door == JOX_DOOR_OPEN && jox_lift_contains(lift, (JoxV2){at.x, at.y - shift}))
+        if ((car->door == JOX_DOOR_OPEN) == open &&
+            jox_lift_contains(lift, (JoxV2){at.x, at.y - shift}))
             return (int32_t)l;
     }
     return -1;
 }
 
-static JoxRider make_rider(uint32_t id) {
-    return (JoxRider){.id = id, .goal = -1, .phase = JOX_RIDE_APPROACH, .spot = -1};
+/* Updates an agent that is in a car, and walks to another place than the one that it came in for:
+   it gets out where that takes least time, as it would stand before a shut door otherwise. False:
+   it is in no car, or no way leads on. */
+static bool update_passenger(const JoWorld *w, uint32_t i, int32_t goal, JoxRider *rider,
+                             bool has) {
+    const bool rides = has && (rider->phase == JOX_RIDE_INSIDE || rider->phase == JOX_RIDE_LEAVE);
+    JoxRider next = *rider;
+    if (goal < 0 || (rides && rider->itself && rider->goal == goal))
+        return false;
+    if (!rides) {
+        const int32_t lift = is_turn(w, rider->id) ? find_car(w, i, false) : -1;
+        if (lift < 0)
+            return false;
+        next = make_rider(rider->id);
+        next.lift = (uint32_t)lift;
+        next.from = w->state.lifts.cars[lift].stop;
+    }
+    next.goal = goal;
+    next.itself = 1;
+    if (!jox_lift_choose_stop(w, i, &next))
+        return rides; /* rides on to the stop that it came in for */
+    *rider = next;
+    return true;
+}
+
+/* Updates an agent whose state rides to a goal, at a lift or on the way to the lift. */
+static bool update_ride_or_way(const JoWorld *w, uint32_t i, int32_t goal, JoxRider *rider,
+                               bool has) {
+    const JoxStoreys *storeys = &w->model.storeys;
+    const int32_t door = jox_ride_approach(&w->machines, i, goal);
+    const bool rides = has && rider->itself && rider->goal == door &&
+                       rider->phase > JOX_RIDE_WAIT && rider->phase != JOX_RIDE_OVER;
+    const bool elsewhere = door >= 0 && jox_sheet_of(storeys, w->model.places[door].centre.y) !=
+                                            jox_sheet_of(storeys, w->state.agents.y[i]);
+    uint32_t lift, stop;
+    if (has && jox_lift_find_place(&w->scratch.lifts.view, door, &lift, &stop) &&
+        lift != rider->lift && update_passenger(w, i, door, rider, has))
+        return true;
+    return ((rides || elsewhere) && update_walker(w, i, door, rider, has)) ||
+           update_ride(w, i, goal, rider, has);
 }
 
 /* Makes an agent a stray of the car in which it stands and does not want to ride, its door being
    open: pushed in, or passing. `rides`: it is a rider. False: it is none. */
 static bool begin_straying(const JoWorld *w, uint32_t i, bool rides, JoxRider *rider) {
-    const int32_t l = rides && rider->phase > JOX_RIDE_WAIT ? -1 : find_open_car(w, i);
+    const int32_t l = rides && rider->phase > JOX_RIDE_WAIT ? -1 : find_car(w, i, true);
     if (l < 0 || (rides && rider->lift == (uint32_t)l))
         return false;
     *rider = make_rider(rider->id);
@@ -228,8 +187,10 @@ static bool update_rider(const JoWorld *w, uint32_t i, JoxRider *rider, bool has
         has = false;
     }
     if (!rider->stray) {
-        const bool rides =
-            ride >= 0 ? update_ride(w, i, ride, rider, has) : update_walker(w, i, walk, rider, has);
+        if (update_passenger(w, i, walk, rider, has))
+            return true;
+        const bool rides = ride >= 0 ? update_ride_or_way(w, i, ride, rider, has)
+                                     : update_walker(w, i, walk, rider, has);
         if (!begin_straying(w, i, rides, rider))
             return rides;
     }

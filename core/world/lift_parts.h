@@ -1,5 +1,5 @@
-/* Declarations shared by lifts.c, lift_list.c, lift_riders.c, lift_spots.c and lift_cars.c, and by
-   nothing else. */
+/* Declarations shared by lifts.c, lift_list.c, lift_ways.c, lift_riders.c, lift_spots.c and
+   lift_cars.c, and by nothing else. */
 #ifndef JOX_WORLD_LIFT_PARTS_H
 #define JOX_WORLD_LIFT_PARTS_H
 
@@ -16,6 +16,22 @@ typedef struct JoxLiftTurn {
     uint32_t others;  /* people in the car who are no riders of this lift; and their mass, kg; */
     float other_mass; /* both are counted while the door is not shut */
 } JoxLiftTurn;
+
+#define JOX_LIFT_LOYAL 8.0 /* s: that another lift than the chosen one has to save */
+
+/* lift_ways.c: returns the time that a lift may take an agent from a stop to another, waiting and
+   riding, s. */
+double jox_lift_estimate_ride(const JoWorld *world, uint32_t lift, uint32_t from, uint32_t stop,
+                              const JoxRider *rider);
+/* Finds the lift that comes first on an agent's way to the place `rider->goal`, and its stops, if a
+   way by lifts takes less time than walking; false: none does. `has`: the rider has a lift. Only
+   writes `lift`, `from` and `to`. */
+bool jox_lift_find_on_way(const JoWorld *world, uint32_t agent, const JoxRider *rider, bool has,
+                          JoxRider *found);
+
+/* Chooses the stop at which an agent in the car of `rider->lift` gets out on its way to the place
+   `rider->goal`, and writes `to`; false: none leads there, as far as is known. */
+bool jox_lift_choose_stop(const JoWorld *world, uint32_t agent, JoxRider *rider);
 
 /* lift_list.c: brings the list of agents that ride up to date. */
 void jox_lifts_list_riders(JoWorld *world);

@@ -99,7 +99,7 @@ static void update_outside(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     const JoWorld *w = t->world;
     const JoxStoreys *s = &w->model.storeys;
     const JoxV2 at = {w->state.agents.x[i], w->state.agents.y[i]};
-    if (rider->phase == JOX_RIDE_APPROACH)
+    if (rider->phase == JOX_RIDE_APPROACH && !rider->itself) /* else its way says from where */
         rider->from = jox_lift_near_stop(&w->scratch.lifts.view, t->number, at);
     const JoxLiftStop *stop = &t->lift->stops[rider->from];
     const JoxV2 front = jox_on_sheet(s, stop->storey, jox_lift_point_at_door(stop, 0.0f, 0.3f));

@@ -104,6 +104,8 @@ int32_t jox_world_find_lift(const JoWorld *w, const char *name) {
 void jox_world_set_lift_mode(JoWorld *w, int32_t lift, JoxLiftMode mode) {
     for (uint32_t l = 0; l < w->model.lift_count; l++)
         if (lift < 0 || (uint32_t)lift == l) {
+            if (w->state.lifts.cars[l].mode != mode)
+                jox_routes_note_lifts(w->state.routes);
             w->state.lifts.cars[l].mode = mode;
             w->state.lifts.cars[l].direction = 0;
         }
@@ -127,10 +129,12 @@ JoxStranded jox_world_count_stranded(const JoWorld *w) {
             jox_rider_find(w->machines.lifts, a->id[i]))
             continue;
         const int32_t goal = jox_machines_walk_goal(&w->machines, i);
-        const JoxField *field =
-            goal < 0 ? NULL
-                     : w->machines.fields[(uint32_t)goal * JOX_ROUTE_KINDS + JOX_ROUTE_STEPLESS];
-        if (!field || jox_field_distance(field, at) < INFINITY)
+        const JoxField *const *ways =
+            (const JoxField *const *)w->machines.fields + (goal < 0 ? 0 : goal * JOX_ROUTE_KINDS);
+        const JoxField *by_lifts = ways[JOX_ROUTE_STEPLESS_LIFTS];
+        if (goal < 0 || !ways[JOX_ROUTE_STEPLESS] ||
+            jox_field_distance(ways[JOX_ROUTE_STEPLESS], at) < INFINITY ||
+            (by_lifts && jox_field_distance(by_lifts, at) < INFINITY))
             continue;
         if (jox_sheet_of(a->storeys, at.y) >= a->storeys->storey_count)
             stranded.on_stairs++;

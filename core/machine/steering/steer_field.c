@@ -169,12 +169,30 @@ static void lead_to_place(Asking *q, int32_t *places, uint32_t first) {
         lead_by_fields(q);
 }
 
-/* ---- agents that cannot use stairs ---- */
+/* ---- over storeys ---- */
 
-/* Returns the field of a place without stairs, requested; NULL: there is none yet. */
-static const JoxField *request_stepless(Asking *q, int32_t place) {
+/* Returns the field of a place for agents that cannot use stairs, on foot or by lifts, requested;
+   NULL: there is none yet. */
+static const JoxField *request_stepless(Asking *q, int32_t place, JoxRouteKind kind) {
     q->place = (uint32_t)place;
-    return request_field(q, JOX_ROUTE_STEPLESS);
+    return request_field(q, kind);
+}
+
+/* Requests the field of a place by lifts for an agent that takes them and has farther to go than
+   over its storey. */
+static void request_way_by_lifts(Asking *q, uint32_t i, int32_t place) {
+    const JoxMachineRun *run = q->run;
+    const JoxV2 at = {run->agents->x[i], run->agents->y[i]};
+    const float lifts = jox_param(run->agents, JOX_PARAM_lifts, i);
+    const bool stepless = lifts > JOX_LIFTS_ONLY;
+    if (!run->lifts || !run->fields || !(lifts > JOX_LIFTS_NEVER))
+        return;
+    const JoxField *walk =
+        run->fields[place * JOX_ROUTE_KINDS + (stepless ? JOX_ROUTE_STEPLESS : JOX_ROUTE_NOW)];
+    q->place = (uint32_t)place;
+    if (jox_is_place_elsewhere(run, q->place, at) ||
+        (walk && !(jox_field_distance(walk, at) < INFINITY)))
+        request_field(q, stepless ? JOX_ROUTE_STEPLESS_LIFTS : JOX_ROUTE_LIFTS);
 }
 
 int32_t jox_find_refuge(const JoxMachineRun *run, JoxV2 at) {
@@ -195,18 +213,23 @@ int32_t jox_find_refuge(const JoxMachineRun *run, JoxV2 at) {
     return best;
 }
 
-/* Directs an agent without stairs: to its place, else to a refuge, else it stands. */
+/* Directs an agent without stairs: to its place, to the lift that it will take, to a refuge, or it
+   stands. */
 static void lead_without_stairs(Asking *q, uint32_t n, int32_t place) {
     const JoxMachineRun *run = q->run;
     const JoxAgents *a = run->agents;
     const uint32_t i = q->s->index[n];
     const JoxV2 at = {a->x[i], a->y[i]};
-    const JoxField *field = run->fields ? request_stepless(q, place) : NULL;
+    const JoxField *field = run->fields ? request_stepless(q, place, JOX_ROUTE_STEPLESS) : NULL;
     q->number[0] = (uint8_t)n;
     if (field && !jox_place_is_reached(run->places, (uint32_t)place, run->walls, at) &&
         !(jox_field_distance(field, at) < INFINITY)) {
-        place = jox_find_refuge(run, at);
-        field = place >= 0 ? request_stepless(q, place) : NULL;
+        if (run->lifts)
+            field = request_stepless(q, place, JOX_ROUTE_STEPLESS_LIFTS);
+        if (!run->lifts || (field && !(jox_field_distance(field, at) < INFINITY))) {
+            place = jox_find_refuge(run, at);
+            field = place >= 0 ? request_stepless(q, place, JOX_ROUTE_STEPLESS) : NULL;
+        }
     }
     if (!field || jox_place_is_reached(run->places, (uint32_t)place, run->walls, at))
         return;
@@ -227,6 +250,7 @@ static void lead_over_storeys(Asking *q, int32_t *left) {
             continue;
         const JoxRider *rider = jox_rider_find(run->lifts, run->agents->id[i]);
         const bool rides = rider && (rider->stray || (rider->itself && rider->goal == left[n]));
+        request_way_by_lifts(q, i, left[n]);
         if (rides && rider->phase != JOX_RIDE_APPROACH) {
             jox_steer_rider(run, rider, q->s, n);
             left[n] = -1;
@@ -325,6 +349,20 @@ static bool leads_nowhere(const JoxField *field, JoxV2 from) {
     return field && !(jox_field_distance(field, from) < INFINITY);
 }
 
+/* Returns whether no way that an agent takes leads to a place, on foot or by lifts, with gates as
+   they stand. */
+static bool seems_shut(const JoxMachineRun *run, uint32_t i, int32_t place) {
+    const JoxV2 from = {run->agents->x[i], run->agents->y[i]};
+    const JoxAgentWays ways = jox_agent_ways(run->agents, i);
+    JoxField *const *fields = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
+    const JoxField *by_lifts = ways == JOX_WAYS_STEPLESS ? fields[JOX_ROUTE_STEPLESS_LIFTS]
+                               : ways == JOX_WAYS_EITHER ? fields[JOX_ROUTE_LIFTS]
+                                                         : NULL;
+    return leads_nowhere(fields[ways == JOX_WAYS_STEPLESS ? JOX_ROUTE_STEPLESS : JOX_ROUTE_NOW],
+                         from) &&
+           (!by_lifts || leads_nowhere(by_lifts, from));
+}
+
 /* Returns the n-th place that an agent heads for by a field and has not reached; -1: there are
    fewer. */
 static int32_t find_field_goal(const JoxMachineRun *run, uint32_t i, uint32_t n) {
@@ -345,23 +383,22 @@ static int32_t find_field_goal(const JoxMachineRun *run, uint32_t i, uint32_t n)
 }
 
 int32_t jox_machines_field_goal(const JoxMachineRun *run, uint32_t i, bool *shut) {
-    const JoxV2 p = {run->agents->x[i], run->agents->y[i]};
     const int32_t place = find_field_goal(run, i, 0);
     if (shut)
-        *shut = place >= 0 &&
-                leads_nowhere(run->fields[(uint32_t)place * JOX_ROUTE_KINDS + JOX_ROUTE_NOW], p);
+        *shut = place >= 0 && !jox_rider_find(run->lifts, run->agents->id[i]) &&
+                seems_shut(run, i, place);
     return place;
 }
 
 int32_t jox_machines_no_way(const JoxMachineRun *run, uint32_t i) {
     const JoxV2 p = {run->agents->x[i], run->agents->y[i]};
     int32_t place;
+    const bool stepless = jox_agent_ways(run->agents, i) == JOX_WAYS_STEPLESS;
     if (jox_rider_find(run->lifts, run->agents->id[i])) /* a lift leads there */
         return -1;
     for (uint32_t n = 0; (place = find_field_goal(run, i, n)) >= 0; n++) {
-        JoxField *const *ways = &run->fields[(uint32_t)place * JOX_ROUTE_KINDS];
-        if (leads_nowhere(ways[JOX_ROUTE_NOW], p) &&
-            (!ways[JOX_ROUTE_OPEN] || leads_nowhere(ways[JOX_ROUTE_OPEN], p)))
+        const JoxField *open = run->fields[(uint32_t)place * JOX_ROUTE_KINDS + JOX_ROUTE_OPEN];
+        if (seems_shut(run, i, place) && (stepless || !open || leads_nowhere(open, p)))
             return place;
     }
     return -1;
