@@ -155,7 +155,8 @@ static void update_standstill(Standing *s, const JoScene *scene) {
 
 static bool blocks_for_good(JoxHindranceKind kind) {
     return kind == JOX_HINDRANCE_WALL || kind == JOX_HINDRANCE_NARROW ||
-           kind == JOX_HINDRANCE_FILLED;
+           kind == JOX_HINDRANCE_FILLED || kind == JOX_HINDRANCE_STAIRS ||
+           kind == JOX_HINDRANCE_NO_LIFTS;
 }
 
 static float get_radius(const JoxAgents *a, uint32_t i) {
@@ -178,12 +179,14 @@ static bool report_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t 
     const char *name = machines->places[place].name;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     JoxHindrances *hindrances = jox_hindrances_create(&stage, place, NULL);
-    const JoxHindrance why = jox_hindrances_find(hindrances, at, get_radius(a, first));
+    const JoxKept one = jox_hindrance_of_agent(a, first);
+    const JoxHindrance why = jox_hindrances_find(hindrances, &one);
     uint32_t count = 0;
-    for (uint32_t i = 0; blocks_for_good(why.kind) && i < a->count; i++)
-        count +=
-            jox_machines_field_goal(machines, i, NULL) == (int32_t)place &&
-            jox_hindrances_kind(hindrances, jox_v2(a->x[i], a->y[i]), get_radius(a, i)) == why.kind;
+    for (uint32_t i = 0; blocks_for_good(why.kind) && i < a->count; i++) {
+        const JoxKept other = jox_hindrance_of_agent(a, i);
+        count += jox_machines_field_goal(machines, i, NULL) == (int32_t)place &&
+                 jox_hindrances_kind(hindrances, &other) == why.kind;
+    }
     jox_hindrances_free(hindrances);
     if (count == 0)
         return false;
@@ -344,8 +347,8 @@ static void add_kept_people(Standing *s, const JoScene *scene, uint32_t place,
     for (uint32_t i = 0; i < a->count; i++) {
         if (jox_machines_field_goal(machines, i, NULL) != (int32_t)place)
             continue;
-        const JoxHindrance why =
-            jox_hindrances_find(hindrances, jox_v2(a->x[i], a->y[i]), get_radius(a, i));
+        const JoxKept one = jox_hindrance_of_agent(a, i);
+        const JoxHindrance why = jox_hindrances_find(hindrances, &one);
         JoxKeptPeople *kept =
             why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept_people(s, scene, place, &why);
         if (!kept)
@@ -354,9 +357,8 @@ static void add_kept_people(Standing *s, const JoScene *scene, uint32_t place,
         kept->groups[a->group[i]]++;
         kept->since = blocks_for_good(why.kind) ? (double)NAN : s->shut_since[place];
         kept->stands = blocks_for_good(why.kind);
-        if (why.kind == JOX_HINDRANCE_GATE)
-            kept->stands =
-                !jox_run_has_gate_opener(scene, scene->world->model.all_walls.rings[why.by].name);
+        if (why.kind == JOX_HINDRANCE_GATE || why.kind == JOX_HINDRANCE_LIFT)
+            kept->stands = jox_run_is_fault(scene, &why);
     }
     jox_hindrances_free(hindrances);
 }

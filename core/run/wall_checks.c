@@ -6,6 +6,7 @@
 
 #include "base/format/plurals.h"
 #include "base/mem.h"
+#include "base/sort.h"
 #include "geom/storey_text.h"
 #include "run/run.h"
 #include "run/wall_checks.h"
@@ -90,14 +91,21 @@ void jox_run_check_sources(const JoScene *scene, JoxDiagnostics *diagnostics) {
 /* Looks at the people who are there at the start and at one more for each source, before the
    first step of a world that never steps. */
 
-enum { MOST_GOALS = 64 };  /* most goals that one agent has */
-enum { MOST_PLACES = 64 }; /* most places that are checked: bits of a mask */
+enum { MOST_GOALS = 16384 }; /* of one agent: more than a machine has steering terms */
 
-/* Places that are goals, and the goals of each agent. */
+/* An agent, and a place that it goes to. */
+typedef struct Aim {
+    uint32_t place, agent;
+} Aim;
+
+/* Who goes where. */
 typedef struct Goals {
-    uint32_t places[MOST_PLACES], count;
-    uint64_t *of;  /* by agent: a bit for each of `places` */
+    Aim *aims; /* by place, then agent */
+    uint32_t count;
+    size_t capacity;
     bool *opening; /* by ring of walls: whether something opens it */
+    uint32_t first_of_sources;
+    uint32_t *source_of; /* by agent from that one on: the source of which it is the one more */
 } Goals;
 
 /* People of a group or source whom one kind of hindrance keeps from a place. */
@@ -136,6 +144,17 @@ static bool has_limited_stairs(const JoxStoreys *storeys) {
     return any;
 }
 
+const char *jox_run_name_of_lift(const JoScene *scene, const JoxHindrance *hindrance) {
+    const JoWorld *w = scene->world;
+    return hindrance->by < w->model.lift_count ? w->model.lifts[hindrance->by].name : "";
+}
+
+static bool is_left_to_firemen(const JoScene *scene, const JoxHindrance *hindrance) {
+    const JoWorld *w = scene->world;
+    return hindrance->by < w->model.lift_count &&
+           w->state.lifts.cars[hindrance->by].mode == JOX_LIFT_FIREMEN;
+}
+
 void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, JoxText *out) {
     const JoxBodies *bodies = scene->world->state.bodies;
     const uint32_t row = jox_bodies_find(bodies, hindrance->by);
@@ -155,6 +174,16 @@ void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, 
     case JOX_HINDRANCE_GATE:
         jox_text_printf(out, "gate '%.60s' is closed", gate);
         break;
+    case JOX_HINDRANCE_LIFT:
+        jox_text_printf(out, "lift '%.60s' is %s", jox_run_name_of_lift(scene, hindrance),
+                        is_left_to_firemen(scene, hindrance) ? "left to firemen" : "out of use");
+        break;
+    case JOX_HINDRANCE_STAIRS:
+        jox_text_add(out, "only stairs lead there, which they cannot use");
+        return;
+    case JOX_HINDRANCE_NO_LIFTS:
+        jox_text_add(out, "only lifts lead there, which they do not take");
+        return;
     case JOX_HINDRANCE_FILLED:
     case JOX_HINDRANCE_BODY:
         jox_text_printf(out, *body ? "the body '%.60s' %s" : "a body%.60s %s", body,
@@ -197,13 +226,34 @@ bool *jox_run_list_gates_with_opener(const JoScene *scene) {
     return opening;
 }
 
-/* Whether a hindrance is a fault of the scene: doors and gates that something moves are none. */
-static bool is_fault(const JoScene *scene, const JoxHindrance *h) {
+/* Returns whether an event or a line of the input log puts a lift in use, or leaves it to firemen.
+ */
+static bool has_lift_opener(const JoScene *scene, const JoxHindrance *h) {
+    const JoxInputLog *input = &scene->world->state.input;
+    const char *lift = jox_run_name_of_lift(scene, h);
+    bool any = false;
+    for (uint32_t e = 0; e < scene->spec->event_count && !any; e++) {
+        const JoxEvent *event = &scene->spec->events[e];
+        any = event->kind == JOX_EVENT_LIFT && event->mode != JOX_LIFT_OUT_OF_USE &&
+              (strcmp(event->name, lift) == 0 || strcmp(event->name, "all") == 0);
+    }
+    for (uint32_t e = 0; e < input->count && !any; e++)
+        any = input->entries[e].verb == JOX_INPUT_LIFT &&
+              (strcmp(input->entries[e].names[0], lift) == 0 ||
+               strcmp(input->entries[e].names[0], "all") == 0);
+    return any;
+}
+
+bool jox_run_is_fault(const JoScene *scene, const JoxHindrance *h) {
     switch (h->kind) {
     case JOX_HINDRANCE_WALL:
     case JOX_HINDRANCE_NARROW:
     case JOX_HINDRANCE_FILLED:
+    case JOX_HINDRANCE_STAIRS:
+    case JOX_HINDRANCE_NO_LIFTS:
         return true;
+    case JOX_HINDRANCE_LIFT:
+        return !has_lift_opener(scene, h);
     case JOX_HINDRANCE_GATE:
         return !jox_run_has_gate_opener(scene, scene->world->model.all_walls.rings[h->by].name);
     default:
@@ -211,11 +261,27 @@ static bool is_fault(const JoScene *scene, const JoxHindrance *h) {
     }
 }
 
+/* Returns whether the scene has people wait in a refuge on their storey who cannot use stairs. */
+static bool waits_in_refuge(const JoScene *scene, const JoxKept *kept, JoxHindranceKind kind) {
+    return kept->ways == JOX_WAYS_STEPLESS &&
+           (kind == JOX_HINDRANCE_STAIRS || kind == JOX_HINDRANCE_LIFT) &&
+           jox_find_refuge(&scene->world->machines, kept->at) >= 0;
+}
+
 static void write_hint(const KeptCount *kept, char out[JOX_HINT]) {
     const double room = ceil(200.0 * (double)kept->widest - 1e-3) / 100.0; /* m, to the cm */
     switch (kept->first.kind) {
     case JOX_HINDRANCE_GATE:
         snprintf(out, JOX_HINT, "Add an event that opens it, or begin with it open");
+        break;
+    case JOX_HINDRANCE_LIFT:
+        snprintf(out, JOX_HINT, "Add an event that puts it in use, or begin with it in use");
+        break;
+    case JOX_HINDRANCE_STAIRS:
+        snprintf(out, JOX_HINT, "Add a ramp or a lift, or a place with `refuge: true` to wait in");
+        break;
+    case JOX_HINDRANCE_NO_LIFTS:
+        snprintf(out, JOX_HINT, "Let them take lifts (`set: {lifts: either}`), or add stairs");
         break;
     case JOX_HINDRANCE_FILLED:
         snprintf(out, JOX_HINT,
@@ -241,7 +307,7 @@ static void warn_of_kept_people(const JoScene *scene, JoxPosition position, cons
                                 JoxDiagnostics *diagnostics) {
     char hint[JOX_HINT], people[JOX_NOUN];
     JoxText why = {0};
-    if (kept->people == 0 || !is_fault(scene, &kept->first))
+    if (kept->people == 0 || !jox_run_is_fault(scene, &kept->first))
         return;
     const bool gate = kept->first.kind == JOX_HINDRANCE_GATE;
     jox_run_say_hindrance(scene, &kept->first, &why);
@@ -262,44 +328,40 @@ static void warn_of_kept_people(const JoScene *scene, JoxPosition position, cons
     jox_text_free(&why);
 }
 
+static int compare_aims(const void *left, const void *right, const void *context) {
+    const Aim *a = left, *b = right;
+    (void)context;
+    return a->place != b->place ? (a->place > b->place) - (a->place < b->place)
+                                : (a->agent > b->agent) - (a->agent < b->agent);
+}
+
+/* Lists each place that an agent goes to once. */
 static void collect_goals(const JoWorld *world, Goals *goals) {
-    const uint32_t people = world->state.agents.count;
-    goals->of = jox_alloc((size_t)people + 1, sizeof *goals->of);
-    for (uint32_t i = 0; i < people; i++) {
-        int32_t places[MOST_GOALS];
+    int32_t *places = jox_alloc(MOST_GOALS, sizeof *places);
+    uint8_t *listed = jox_alloc((size_t)world->model.scene_places + 1, 1);
+    for (uint32_t i = 0; i < world->state.agents.count; i++) {
         const uint32_t count = jox_machines_goals(&world->machines, i, places, MOST_GOALS);
+        const uint32_t first = goals->count;
         for (uint32_t k = 0; k < count; k++) {
-            uint32_t n = 0;
-            while (n < goals->count && goals->places[n] != (uint32_t)places[k])
-                n++;
-            if (n == goals->count && n < MOST_PLACES &&
-                (uint32_t)places[k] < world->model.scene_places)
-                goals->places[goals->count++] = (uint32_t)places[k];
-            if (n < goals->count)
-                goals->of[i] |= (uint64_t)1 << n;
+            const uint32_t place = (uint32_t)places[k];
+            if (place >= world->model.scene_places || listed[place])
+                continue;
+            listed[place] = 1;
+            JOX_RESERVE(goals->aims, goals->capacity, (size_t)goals->count + 1);
+            goals->aims[goals->count++] = (Aim){place, i};
         }
+        for (uint32_t g = first; g < goals->count; g++)
+            listed[goals->aims[g].place] = 0;
     }
+    if (goals->count)
+        jox_sort(goals->aims, goals->count, sizeof *goals->aims, compare_aims, NULL, NULL);
+    jox_free(places);
+    jox_free(listed);
 }
 
-/* Returns whether a lift leads from the storey of a point to one from where nothing keeps an agent
-   from the place. */
-static bool leads_on_by_lift(const JoWorld *w, JoxHindrances *hindrances, JoxV2 at, float radius) {
-    const uint32_t storey = jox_storey_at(&w->model.storeys, at);
-    for (uint32_t l = 0; l < w->model.lift_count; l++) {
-        const JoxLift *lift = &w->model.lifts[l];
-        const int32_t from = jox_lift_stop_at(lift, storey);
-        for (uint32_t s = 0; from >= 0 && s < lift->stop_count; s++)
-            if (s != (uint32_t)from &&
-                jox_hindrances_kind(hindrances, jox_lift_outside(lift, s, &w->model.storeys),
-                                    radius) == JOX_HINDRANCE_NONE)
-                return true;
-    }
-    return false;
-}
-
-/* Warns of people who are kept from the n-th goal. */
-static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t first_of_sources,
-                       const uint32_t *source_of, JoxDiagnostics *diagnostics) {
+/* Warns of people who are kept from one goal, of `count` aims at it. */
+static void check_goal(JoScene *scene, const Goals *goals, const Aim *aims, uint32_t count,
+                       JoxDiagnostics *diagnostics) {
     const JoxSceneSpec *spec = scene->spec;
     const JoxPlace *places = scene->world->model.places;
     const JoxWalls *walls = &scene->world->model.all_walls;
@@ -307,28 +369,27 @@ static void check_goal(JoScene *scene, const Goals *goals, uint32_t n, uint32_t 
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     const uint32_t rows = spec->group_count + spec->source_count;
     KeptCount *kept = jox_alloc((size_t)(rows + 1) * JOX_HINDRANCE_KINDS, sizeof *kept);
-    JoxHindrances *hindrances = jox_hindrances_create(&stage, goals->places[n], goals->opening);
-    for (uint32_t i = 0; i < a->count; i++) {
-        const JoxV2 at = {a->x[i], a->y[i]};
-        const float radius = jox_param(a, JOX_PARAM_radius, i);
-        if (!(goals->of[i] >> n & 1) || jox_place_is_reached(places, goals->places[n], walls, at))
+    JoxHindrances *hindrances = jox_hindrances_create(&stage, aims->place, goals->opening);
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = aims[k].agent;
+        const JoxKept one = jox_hindrance_of_agent(a, i);
+        if (jox_place_is_reached(places, aims->place, walls, one.at))
             continue;
-        const JoxHindranceKind straight = jox_hindrances_kind(hindrances, at, radius);
-        const JoxHindranceKind kind =
-            straight != JOX_HINDRANCE_NONE && leads_on_by_lift(scene->world, hindrances, at, radius)
-                ? JOX_HINDRANCE_NONE
-                : straight;
-        const uint32_t row = i < first_of_sources
-                                 ? a->group[i]
-                                 : spec->group_count + source_of[i - first_of_sources];
+        const JoxHindranceKind kind = jox_hindrances_kind(hindrances, &one);
+        const uint32_t row =
+            i < goals->first_of_sources
+                ? a->group[i]
+                : spec->group_count + goals->source_of[i - goals->first_of_sources];
         KeptCount *of = &kept[row * JOX_HINDRANCE_KINDS + kind];
-        if (kind != JOX_HINDRANCE_NONE && of->people++ == 0)
-            of->first = jox_hindrances_find(hindrances, at, radius);
-        of->widest = jox_maxf(of->widest, radius);
+        if (kind == JOX_HINDRANCE_NONE || waits_in_refuge(scene, &one, kind))
+            continue;
+        if (of->people++ == 0)
+            of->first = jox_hindrances_find(hindrances, &one);
+        of->widest = jox_maxf(of->widest, one.radius);
     }
     for (uint32_t k = 0; k < rows * JOX_HINDRANCE_KINDS; k++) {
         const uint32_t row = k / JOX_HINDRANCE_KINDS;
-        const char *goal = places[goals->places[n]].name;
+        const char *goal = places[aims->place].name;
         if (row < spec->group_count)
             warn_of_kept_people(scene, spec->groups[row].position, &kept[k], spec->groups[row].name,
                                 spec->groups[row].count, goal, diagnostics);
@@ -393,18 +454,20 @@ void jox_run_check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
 
 void jox_run_check_goals(JoScene *scene, JoxDiagnostics *diagnostics) {
     Goals goals = {.count = 0};
-    uint32_t *source_of;
     const JoxRouteStage stage = jox_world_route_stage(scene->world);
     jox_bodies_objects(scene->world->state.bodies, &scene->world->scratch.objects);
     if (scene->world->model.all_walls.count == 0 && stage.objects->count == 0)
         return;
     jox_routes_update_bodies(&stage);
-    const uint32_t first = add_person_per_source(scene, &source_of);
+    goals.first_of_sources = add_person_per_source(scene, &goals.source_of);
     collect_goals(scene->world, &goals);
     goals.opening = jox_run_list_gates_with_opener(scene);
-    for (uint32_t n = 0; n < goals.count; n++)
-        check_goal(scene, &goals, n, first, source_of, diagnostics);
-    jox_free(goals.of);
+    for (uint32_t from = 0, to; from < goals.count; from = to) {
+        for (to = from + 1; to < goals.count && goals.aims[to].place == goals.aims[from].place;)
+            to++;
+        check_goal(scene, &goals, &goals.aims[from], to - from, diagnostics);
+    }
+    jox_free(goals.aims);
     jox_free(goals.opening);
-    jox_free(source_of);
+    jox_free(goals.source_of);
 }

@@ -16,6 +16,11 @@ void jox_run_check_journeys(const JoScene *scene, JoxDiagnostics *diagnostics);
    nothing opens lie between. Adds a person for each source: the scene must not be stepped after. */
 void jox_run_check_goals(JoScene *scene, JoxDiagnostics *diagnostics);
 
+/* Returns whether a hindrance is a fault of the scene: doors, gates and lifts that something moves
+   or puts in use are none. */
+bool jox_run_is_fault(const JoScene *scene, const JoxHindrance *hindrance);
+/* Returns the name of the lift that keeps people from a place, "" if none is known. */
+const char *jox_run_name_of_lift(const JoScene *scene, const JoxHindrance *hindrance);
 /* Appends what keeps people from a place: "the body 'crate' fills the way at (3.0, 4.0) m". */
 void jox_run_say_hindrance(const JoScene *scene, const JoxHindrance *hindrance, JoxText *out);
 /* Whether an event or a line of the input log opens the walls named `gate`, or a person or program

@@ -25,8 +25,8 @@ void jox_run_say_kept(const JoScene *scene, JoxText *out) {
 }
 
 void jox_run_add_kept(const JoScene *scene, JoxJson *json) {
-    static const char *const KINDS[JOX_HINDRANCE_KINDS] = {"",       "walls", "narrow",
-                                                           "filled", "gate",  "body"};
+    static const char *const KINDS[JOX_HINDRANCE_KINDS] = {
+        "", "walls", "narrow", "filled", "gate", "body", "lift", "only_stairs", "only_lifts"};
     const JoxKeptList *list = jox_run_list_kept_people(scene);
     const JoxBodies *bodies = scene->world->state.bodies;
     if (!list || list->count == 0)
@@ -38,6 +38,8 @@ void jox_run_add_kept(const JoScene *scene, JoxJson *json) {
         const uint32_t row = jox_bodies_find(bodies, kept->why.by);
         if (kept->why.kind == JOX_HINDRANCE_GATE)
             by = scene->world->model.all_walls.rings[kept->why.by].name;
+        else if (kept->why.kind == JOX_HINDRANCE_LIFT)
+            by = jox_run_name_of_lift(scene, &kept->why);
         else if (row != JOX_NO_BODY)
             by = jox_bodies_name(bodies, row);
         jox_json_object(json, NULL);

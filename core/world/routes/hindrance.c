@@ -11,14 +11,15 @@ static const float THIN = 0.05f;   /* m: clearance of a way that only walls bloc
 static const float SQUEEZE = 0.7f; /* clearance in radii: blocks gaps below 1.2 radii */
 static const float CLASS = 0.02f;  /* m: step between classes of radii */
 static const float STRIDE = 0.1f;  /* m */
-enum { CLASSES = 64, MOST_STRIDES = 100000 };
+enum { CLASSES = 64, MOST_STRIDES = 100000, WAYS = JOX_WAYS_STEPLESS + 1 };
 
 /* Obstacles of a field; each layer includes those before it. */
 typedef enum Layer {
     WALLS,   /* walls that never open */
     BODIES,  /* bodies that nothing moves */
     LASTING, /* closed gates that nothing opens */
-    ALL,     /* gates and bodies as they are */
+    LIFTS,   /* gates and bodies as they are, all lifts in use */
+    ALL,     /* gates, bodies and lifts as they are */
     LAYERS
 } Layer;
 
@@ -27,8 +28,8 @@ struct JoxHindrances {
     JoxRouteStage later;  /* the stage for layer LASTING: gates that something opens are open */
     JoxWalls later_walls; /* shares all but its rings with all_walls */
     uint32_t place, gate; /* gate: ring of the closed gate on the place, or UINT32_MAX */
-    JoxField *thin;       /* layer WALLS with clearance THIN */
-    JoxField *fields[CLASSES][LAYERS]; /* by class of radius */
+    JoxField *thin[WAYS]; /* layer WALLS with clearance THIN */
+    JoxField *fields[WAYS][CLASSES][LAYERS]; /* by class of radius */
 };
 
 uint32_t jox_hindrance_find_gate(const JoxRouteStage *stage, uint32_t index) {
@@ -72,21 +73,31 @@ float jox_hindrance_narrowest(float radius) {
 }
 
 void jox_hindrances_free(JoxHindrances *h) {
-    jox_field_free(h->thin);
-    for (int c = 0; c < CLASSES; c++)
-        for (int layer = 0; layer < LAYERS; layer++)
-            jox_field_free(h->fields[c][layer]);
+    for (int ways = 0; ways < WAYS; ways++) {
+        jox_field_free(h->thin[ways]);
+        for (int c = 0; c < CLASSES; c++)
+            for (int layer = 0; layer < LAYERS; layer++)
+                jox_field_free(h->fields[ways][c][layer]);
+    }
     jox_free(h->later_walls.rings);
     jox_free(h);
 }
 
-static JoxField *make_field(const JoxHindrances *h, Layer layer, float clearance) {
+JoxKept jox_hindrance_of_agent(const JoxAgents *a, uint32_t i) {
+    return (JoxKept){{a->x[i], a->y[i]}, jox_param(a, JOX_PARAM_radius, i), jox_agent_ways(a, i)};
+}
+
+static JoxField *make_field(const JoxHindrances *h, JoxAgentWays ways, Layer layer,
+                            float clearance) {
     const JoxRouteFieldOptions look = {
         .gates = layer >= LASTING,
-        .bodies = layer == WALLS ? 0
-                  : layer == ALL ? JOX_OBSTACLES_ALL
-                                 : 1u << JOX_OBSTACLE_FIXED,
+        .bodies = layer == WALLS   ? 0
+                  : layer >= LIFTS ? JOX_OBSTACLES_ALL
+                                   : 1u << JOX_OBSTACLE_FIXED,
         .clearance = clearance,
+        .stepless = ways == JOX_WAYS_STEPLESS,
+        .lifts = ways != JOX_WAYS_STAIRS,
+        .all_lifts = layer != ALL,
     };
     return jox_routes_make_field(layer == LASTING ? &h->later : h->stage, h->place, &look);
 }
@@ -96,11 +107,28 @@ static int get_class(float radius) {
     return class < 1 ? 1 : class < CLASSES ? class : CLASSES - 1;
 }
 
-static const JoxField *get_field(JoxHindrances *h, int class, Layer layer) {
-    JoxField **field = &h->fields[class][layer];
+/* Returns the ways that count for an agent: all are the same on one plane, and those by lifts
+   where there are none. */
+static JoxAgentWays get_ways(const JoxHindrances *h, JoxAgentWays ways) {
+    if (!h->stage->agents->storeys)
+        return JOX_WAYS_STAIRS;
+    return ways == JOX_WAYS_EITHER && !h->stage->machines->lifts ? JOX_WAYS_STAIRS : ways;
+}
+
+static const JoxField *get_field(JoxHindrances *h, const JoxKept *kept, Layer layer) {
+    const JoxAgentWays ways = get_ways(h, kept->ways);
+    const int class = get_class(kept->radius);
+    JoxField **field = &h->fields[ways][class][layer];
     if (!*field)
-        *field = make_field(h, layer, jox_maxf(THIN, SQUEEZE * CLASS * (float)class));
+        *field = make_field(h, ways, layer, jox_maxf(THIN, SQUEEZE * CLASS * (float)class));
     return *field;
+}
+
+static const JoxField *get_thin(JoxHindrances *h, JoxAgentWays ways) {
+    ways = get_ways(h, ways);
+    if (!h->thin[ways])
+        h->thin[ways] = make_field(h, ways, WALLS, THIN);
+    return h->thin[ways];
 }
 
 static bool leads_from(const JoxField *field, JoxV2 from) {
@@ -143,8 +171,8 @@ static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, floa
     const JoxObstacles *bodies = jox_routes_obstacles(h->stage->routes);
     for (uint32_t r = 0; layer >= LASTING && r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
-        for (uint32_t v = ring->first; ring->name && !ring->open && v < ring->first + ring->count;
-             v++) {
+        for (uint32_t v = ring->first;
+             jox_wall_is_shut_gate(walls, r) && v < ring->first + ring->count; v++) {
             const JoxV2 from = walls->vertices[v].point,
                         to = walls->vertices[walls->vertices[v].next].point;
             if (!is_passed(h, from, to, p, q))
@@ -165,14 +193,49 @@ static bool find_cut(const JoxHindrances *h, JoxV2 p, JoxV2 q, Layer layer, floa
     return false;
 }
 
+/* Returns where people leave a lift that they take on the way of a field. */
+static JoxV2 find_way_out(const JoxHindrances *h, const JoxField *field, uint32_t l,
+                          uint32_t from) {
+    const JoxLiftView *view = h->stage->machines->lifts;
+    const JoxLift *lift = &view->lifts[l];
+    JoxV2 best = jox_lift_outside(lift, from, view->storeys);
+    double least = INFINITY;
+    for (uint32_t to = 0; to < lift->stop_count; to++) {
+        const JoxV2 outside = jox_lift_outside(lift, to, view->storeys);
+        const double way = (double)jox_field_distance(field, outside) +
+                           (double)JOX_LIFT_PACE * jox_lift_usual_time(lift, from, to);
+        if (to == from || !(way < least))
+            continue;
+        least = way;
+        best = outside;
+    }
+    return best;
+}
+
+/* Returns the point a stride farther on the way of a field, over a seam or by a lift too; `from`
+   itself at its end. */
+static JoxV2 advance_along(const JoxHindrances *h, const JoxField *field, JoxV2 from) {
+    const JoxStoreys *storeys = h->stage->agents->storeys;
+    const JoxLiftView *view = h->stage->machines->lifts;
+    uint32_t lift, stop;
+    JoxV2 to = jox_add(from, jox_scale(jox_field_direction(field, from), STRIDE));
+    const JoxSeam *seam = storeys ? jox_find_crossed_seam(storeys, to) : NULL;
+    to.y += seam ? seam->shift : 0.0f;
+    if (view && jox_field_first_lift(field, view->lifts, from, &lift, &stop) &&
+        view->lifts[lift].stops[stop].storey == jox_sheet_of(storeys, from.y) &&
+        jox_lift_contains(&view->lifts[lift], jox_in_plan(storeys, from)))
+        return find_way_out(h, field, lift, stop);
+    return to;
+}
+
 /* Follows the way of the field `open` until something of a layer blocks it. */
 static JoxHindrance trace_cut(const JoxHindrances *h, const JoxField *open, JoxV2 from, Layer layer,
                               float clear) {
-    JoxHindrance cut = {layer == ALL ? JOX_HINDRANCE_BODY : JOX_HINDRANCE_FILLED, UINT32_MAX, from};
+    JoxHindrance cut = {layer == LIFTS ? JOX_HINDRANCE_BODY : JOX_HINDRANCE_FILLED, UINT32_MAX,
+                        from};
     for (int n = 0; n < MOST_STRIDES; n++) {
-        const JoxV2 way = jox_field_direction(open, from),
-                    to = jox_add(from, jox_scale(way, STRIDE));
-        if (jox_length2(way) == 0.0f || find_cut(h, from, to, layer, clear, &cut))
+        const JoxV2 to = advance_along(h, open, from);
+        if ((to.x == from.x && to.y == from.y) || find_cut(h, from, to, layer, clear, &cut))
             break;
         from = to;
     }
@@ -181,57 +244,86 @@ static JoxHindrance trace_cut(const JoxHindrances *h, const JoxField *open, JoxV
 
 /* Finds what blocks the way: a gate that nothing opens if every way has one, else the first gate or
    body on a way that opens later. */
-static JoxHindrance trace_shut(JoxHindrances *h, int class, JoxV2 from, float clear) {
-    const JoxField *lasting = get_field(h, class, LASTING);
-    if (leads_from(lasting, from))
-        return trace_cut(h, lasting, from, ALL, clear);
-    const JoxField *bodies = get_field(h, class, BODIES);
-    const JoxHindrance cut = trace_cut(h, bodies, from, LASTING, clear);
-    return cut.by != UINT32_MAX ? cut : trace_cut(h, bodies, from, ALL, clear);
+static JoxHindrance trace_shut(JoxHindrances *h, const JoxKept *kept, float clear) {
+    const JoxField *lasting = get_field(h, kept, LASTING);
+    if (leads_from(lasting, kept->at))
+        return trace_cut(h, lasting, kept->at, LIFTS, clear);
+    const JoxField *bodies = get_field(h, kept, BODIES);
+    const JoxHindrance cut = trace_cut(h, bodies, kept->at, LASTING, clear);
+    return cut.by != UINT32_MAX ? cut : trace_cut(h, bodies, kept->at, LIFTS, clear);
+}
+
+/* Finds the first lift out of use on the way. */
+static JoxHindrance trace_lift(JoxHindrances *h, const JoxKept *kept) {
+    const JoxField *field = get_field(h, kept, LIFTS);
+    const JoxLiftView *view = h->stage->machines->lifts;
+    JoxHindrance found = {JOX_HINDRANCE_LIFT, UINT32_MAX, kept->at};
+    uint32_t lift, stop;
+    for (uint32_t n = 0; n < view->lift_count && found.by == UINT32_MAX &&
+                         jox_field_first_lift(field, view->lifts, found.at, &lift, &stop);
+         n++) {
+        const bool used = view->cars[lift].mode == JOX_LIFT_IN_USE;
+        found.at = used ? find_way_out(h, field, lift, stop)
+                        : jox_lift_outside(&view->lifts[lift], stop, view->storeys);
+        found.by = used ? UINT32_MAX : lift;
+    }
+    return found;
 }
 
 /* Returns the first point on the way of `thin` from which the field `broad` leads on: the narrow
    spot. */
-static JoxV2 trace_narrow(const JoxField *thin, const JoxField *broad, JoxV2 from) {
+static JoxV2 trace_narrow(const JoxHindrances *h, const JoxField *thin, const JoxField *broad,
+                          JoxV2 from) {
     for (int n = 0; n < MOST_STRIDES && !leads_from(broad, from); n++) {
-        const JoxV2 way = jox_field_direction(thin, from);
-        if (jox_length2(way) == 0.0f)
+        const JoxV2 to = advance_along(h, thin, from);
+        if (to.x == from.x && to.y == from.y)
             break;
-        from = jox_add(from, jox_scale(way, STRIDE));
+        from = to;
     }
     return from;
 }
 
-JoxHindranceKind jox_hindrances_kind(JoxHindrances *h, JoxV2 from, float radius) {
-    const int class = get_class(radius);
-    JOX_ASSERT(h->place < h->stage->place_count);
-    if (leads_from(get_field(h, class, ALL), from))
-        return h->gate == UINT32_MAX ? JOX_HINDRANCE_NONE : JOX_HINDRANCE_GATE;
-    if (!h->thin)
-        h->thin = make_field(h, WALLS, THIN);
-    if (!leads_from(h->thin, from))
+/* Returns why not even a slim agent gets there: walls, or the way is one that it does not take. */
+static JoxHindranceKind find_lasting(JoxHindrances *h, const JoxKept *kept) {
+    if (kept->ways == JOX_WAYS_EITHER || !h->stage->agents->storeys ||
+        !leads_from(get_thin(h, JOX_WAYS_EITHER), kept->at))
         return JOX_HINDRANCE_WALL;
-    if (!leads_from(get_field(h, class, WALLS), from))
-        return JOX_HINDRANCE_NARROW;
-    return leads_from(get_field(h, class, BODIES), from) ? JOX_HINDRANCE_GATE
-                                                         : JOX_HINDRANCE_FILLED;
+    return kept->ways == JOX_WAYS_STEPLESS ? JOX_HINDRANCE_STAIRS : JOX_HINDRANCE_NO_LIFTS;
 }
 
-JoxHindrance jox_hindrances_find(JoxHindrances *h, JoxV2 from, float radius) {
-    const int class = get_class(radius);
-    const float clear = SQUEEZE * CLASS * (float)class;
-    const JoxHindranceKind kind = jox_hindrances_kind(h, from, radius);
+JoxHindranceKind jox_hindrances_kind(JoxHindrances *h, const JoxKept *kept) {
+    const JoxV2 from = kept->at;
+    JOX_ASSERT(h->place < h->stage->place_count);
+    if (leads_from(get_field(h, kept, ALL), from))
+        return h->gate == UINT32_MAX ? JOX_HINDRANCE_NONE : JOX_HINDRANCE_GATE;
+    if (!leads_from(get_thin(h, kept->ways), from))
+        return find_lasting(h, kept);
+    if (!leads_from(get_field(h, kept, WALLS), from))
+        return JOX_HINDRANCE_NARROW;
+    if (!leads_from(get_field(h, kept, BODIES), from))
+        return JOX_HINDRANCE_FILLED;
+    return h->stage->machines->lifts && leads_from(get_field(h, kept, LIFTS), from)
+               ? JOX_HINDRANCE_LIFT
+               : JOX_HINDRANCE_GATE;
+}
+
+JoxHindrance jox_hindrances_find(JoxHindrances *h, const JoxKept *kept) {
+    const float clear = SQUEEZE * CLASS * (float)get_class(kept->radius);
+    const JoxHindranceKind kind = jox_hindrances_kind(h, kept);
     switch (kind) {
     case JOX_HINDRANCE_NARROW:
-        return (JoxHindrance){kind, UINT32_MAX,
-                              trace_narrow(h->thin, get_field(h, class, WALLS), from)};
+        return (JoxHindrance){
+            kind, UINT32_MAX,
+            trace_narrow(h, get_thin(h, kept->ways), get_field(h, kept, WALLS), kept->at)};
     case JOX_HINDRANCE_FILLED:
-        return trace_cut(h, get_field(h, class, WALLS), from, BODIES, clear);
+        return trace_cut(h, get_field(h, kept, WALLS), kept->at, BODIES, clear);
     case JOX_HINDRANCE_GATE:
         if (h->gate != UINT32_MAX)
             return (JoxHindrance){kind, h->gate, h->stage->places[h->place].centre};
-        return trace_shut(h, class, from, clear);
+        return trace_shut(h, kept, clear);
+    case JOX_HINDRANCE_LIFT:
+        return trace_lift(h, kept);
     default:
-        return (JoxHindrance){kind, UINT32_MAX, from};
+        return (JoxHindrance){kind, UINT32_MAX, kept->at};
     }
 }
