@@ -222,16 +222,17 @@ static void note_other_keys(SceneReload *r, bool taken) {
 }
 
 /* Returns whether storeys and stairs of both versions lie on the same sheets, so that positions of
-   one are positions of the other. */
+   one are positions of the other, and lifts, whose shafts are walls, are the same. */
 static bool keeps_sheets(const SceneReload *r) {
     const JoxStoreys *old = &r->old->storeys, *new = &r->new->storeys;
     return !jox_scene_differs(r->old, r->new, "storeys") &&
            !jox_scene_differs(r->old, r->new, "stairs") &&
+           !jox_scene_differs(r->old, r->new, "lifts") &&
            old->pitch == new->pitch &&fabsf(old->origin - new->origin) <= SHEET_MARGIN;
 }
 
-/* Says that nothing of an edit is taken over, as storeys or stairs changed or the plan has become
-   deeper than their sheets are. */
+/* Says that nothing of an edit is taken over, as storeys, stairs or lifts changed or the plan has
+   become deeper than their sheets are. */
 static void refuse_other_sheets(const SceneReload *r) {
     static const char *const NO_KEYS[] = {NULL};
     JoxText later = {0};
@@ -240,8 +241,10 @@ static void refuse_other_sheets(const SceneReload *r) {
     jox_run_tell_reloaded(r->scene, &(JoxReloadNews){.path = r->scene->spec->path,
                                                      .done = "",
                                                      .later = later.data ? later.data : ""});
-    jox_run_say(r->scene, "%s: %s: takes effect at the next start, as storeys are laid out anew\n",
-                r->scene->spec->path, later.data ? later.data : "nothing");
+    jox_run_say(r->scene, "%s: %s: takes effect at the next start, as %s anew\n",
+                r->scene->spec->path, later.data ? later.data : "nothing",
+                jox_scene_differs(r->old, r->new, "lifts") ? "lifts are built"
+                                                           : "storeys are laid out");
     jox_run_tell_reloaded(r->scene, NULL);
     jox_text_free(&later);
 }
