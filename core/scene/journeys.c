@@ -110,6 +110,10 @@ bool jox_finish_step(const JoxReader *r, const JoxYaml *map, void *item, bool go
     if (step->until && (strlen(step->until) > LONGEST_NAME || strpbrk(step->until, "\"\\\n")))
         jox_scene_error(r, jox_yaml_get(map, "until"), "bad-value", NULL,
                         "a signal's name has up to %d letters, and no quotes", LONGEST_NAME);
+    if (step->exit >= 0 && jox_scene_is_lift_place(r->draft->scene, step->exit))
+        jox_scene_error(r, jox_yaml_get(map, "exit"), "bad-place",
+                        "{ride: east.first}, then an exit on that storey",
+                        "people cannot leave by a lift: they ride in it to another storey");
     if (!isfinite(step->share))
         step->share = 1.0;
     return good && any;
@@ -325,6 +329,33 @@ static void write_standing(Journey *j, uint32_t step) {
         jox_text_printf(&j->text, " face = \"%s\",", get_place_name(j, s->front));
 }
 
+/* Returns whether agents in the ride of a step may hear the signal of a later one, for which they
+   wait right after the ride. */
+static bool hears_in(const Journey *j, uint32_t ride, uint32_t step) {
+    const JoxJourneyStep *steps = j->group->journey;
+    bool hears = ride < step && steps[ride].ride >= 0 && steps[step].until && !steps[step].wait &&
+                 !steps[step].queue_count;
+    for (uint32_t k = ride + 1; k < step; k++)
+        hears &= steps[k].share < 1.0; /* steps that they may skip */
+    return hears;
+}
+
+static bool hears_in_ride(const Journey *j, uint32_t step) {
+    bool hears = false;
+    for (uint32_t ride = 0; ride < step; ride++)
+        hears |= hears_in(j, ride, step);
+    return hears;
+}
+
+/* Writes the condition that the signal of a step is given, or was given in the ride before it. */
+static void print_signal_given(const Journey *j, uint32_t step, char out[256]) {
+    const char *signal = j->group->journey[step].until;
+    if (hears_in_ride(j, step))
+        snprintf(out, 256, "heard \"%.100s\" | in_ride.until_%u:above(0)", signal, step + 1);
+    else
+        snprintf(out, 256, "heard \"%.100s\"", signal);
+}
+
 static void write_part_state(Journey *j, uint32_t step, Part part) {
     const JoxJourneyStep *s = &j->group->journey[step];
     char when[512];
@@ -343,7 +374,7 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
                      get_place_name(j, s->to), get_place_name(j, s->to));
         if (s->until && !s->wait) { /* the signal may come on the way */
             char signal[256];
-            snprintf(signal, sizeof signal, "heard \"%.100s\"", s->until);
+            print_signal_given(j, step, signal);
             write_transitions(j, step, UNTIL, signal);
         }
         break;
@@ -361,7 +392,7 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
         break;
     case UNTIL:
         write_standing(j, step);
-        snprintf(when, sizeof when, "heard \"%.100s\"", s->until);
+        print_signal_given(j, step, when);
         break;
     case OPEN:
         write_standing(j, step);
@@ -369,6 +400,11 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
         break;
     case RIDE:
         jox_text_printf(&j->text, " steer = ride \"%s\",", get_place_name(j, s->ride));
+        for (uint32_t n = step + 1; n < j->group->journey_count; n++)
+            if (hears_in(j, step, n))
+                jox_text_printf(&j->text,
+                                "\n      { when = heard \"%.100s\", set = { until_%u = 1 } },",
+                                j->group->journey[n].until, n + 1);
         snprintf(when, sizeof when, "rode");
         if (!s->firemen)
             snprintf(when, sizeof when, "rode | ~in_use \"%.100s\" & ~riding",
@@ -389,15 +425,24 @@ static void write_part_state(Journey *j, uint32_t step, Part part) {
    s. */
 static void write_behaviour_head(Journey *j) {
     uint32_t most = 0;
+    bool hears = false;
     for (uint32_t s = 0; s < j->group->journey_count; s++)
         if (j->group->journey[s].queue_count > most)
             most = j->group->journey[s].queue_count;
     jox_text_printf(&j->text,
-                    "-- Made of the journey of group '%s'.\nlocal crowd = require \"crowd\"\n\n"
-                    "return machine {\n  name = \"%s\", version = 1, start = \"Begin\",\n"
+                    "-- Made of the journey of group '%s'.\nlocal crowd = require \"crowd\"\n",
+                    j->group->name);
+    for (uint32_t s = 0, n = 0; s < j->group->journey_count; s++)
+        if (hears_in_ride(j, s)) {
+            jox_text_printf(&j->text, "%s until_%u = 0", n++ ? "," : "local in_ride = memory {",
+                            s + 1);
+            hears = true;
+        }
+    jox_text_printf(&j->text,
+                    "%s\nreturn machine {\n  name = \"%s\", version = 1, start = \"Begin\",\n"
                     "  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), time_gap = "
                     "crowd.time_gap, perception = 3, radius = 0.19 },\n",
-                    j->group->name, j->group->name);
+                    hears ? " }\n" : "", j->group->name);
     jox_text_add(&j->text, "  own = {");
     for (uint32_t q = 0; q < most; q++)
         jox_text_printf(&j->text, "%s whim_%u = uniform(0, 2)", q ? "," : "", q + 1);

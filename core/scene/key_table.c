@@ -307,7 +307,7 @@ static const JoxKey KEYS[] = {
      .meaning = "time at the head of the queue, in s: a number or a distribution"},
     {"step", "wait", TEXT, "", 0, 0, "", READ_TO(jox_key_read_duration, JoxJourneyStep, wait, wait), .content = "draw", .example = "wait: 5 s",
      .meaning = "time to stand, in s: a number or a distribution"},
-    {"step", "until", TEXT, "", 0, 0, "", TO(JoxJourneyStep, until), .meaning = "stand until this signal is given, by an event or by somebody near"},
+    {"step", "until", TEXT, "", 0, 0, "", TO(JoxJourneyStep, until), .meaning = "stand until this signal is given, by an event or by somebody near; it counts on the way there, too, on foot or in the ride before"},
     {"step", "open", TEXT, "", 0, 0, "", READ_TO(jox_key_read_gate, JoxJourneyStep, gate, gate), .meaning = "stand until the walls of this name are open"},
     JOX_LIFT_STEP_ROWS
     {"step", "exit", TEXT, "", 0, 0, "", READ_TO(jox_key_read_place, JoxJourneyStep, exit, exit), .meaning = "place to walk to and to leave by; not through a wall or a closed gate"},
