@@ -27,10 +27,24 @@ int32_t jox_lift_stop_at(const JoxLift *lift, uint32_t storey) {
     return -1;
 }
 
-JoxV2 jox_lift_outside(const JoxLift *lift, uint32_t stop, const JoxStoreys *storeys) {
-    const float BEFORE = 0.6f; /* m */
+/* Returns the unit vector out of the car through a stop's door. */
+static JoxV2 find_way_out(const JoxLift *lift, const JoxLiftStop *stop) {
+    const JoxV2 normal = jox_left(jox_unit(jox_sub(stop->door[1], stop->door[0])));
+    const JoxV2 middle = jox_scale(jox_add(stop->door[0], stop->door[1]), 0.5f);
+    const JoxV2 inside = jox_add(middle, jox_scale(normal, 0.05f));
+    return jox_polygon_contains(lift->outline, lift->point_count, inside) ? jox_scale(normal, -1.0f)
+                                                                          : normal;
+}
+
+JoxV2 jox_lift_point_outside(const JoxLift *lift, uint32_t stop, float metres) {
     const JoxLiftStop *at = &lift->stops[stop];
-    return jox_on_sheet(storeys, at->storey, jox_add(at->middle, jox_scale(at->out, BEFORE)));
+    const JoxV2 middle = jox_scale(jox_add(at->door[0], at->door[1]), 0.5f);
+    return jox_add(middle, jox_scale(find_way_out(lift, at), metres));
+}
+
+JoxV2 jox_lift_outside(const JoxLift *lift, uint32_t stop, const JoxStoreys *storeys) {
+    return jox_on_sheet(storeys, lift->stops[stop].storey,
+                        jox_lift_point_outside(lift, stop, 0.6f));
 }
 
 double jox_lift_travel_time(const JoxLift *lift, double metres) {
@@ -47,13 +61,10 @@ double jox_lift_usual_time(const JoxLift *lift, uint32_t from, uint32_t to) {
 }
 
 static void lay_out_stop(const JoxLift *lift, JoxLiftStop *stop, const JoxStoreys *storeys) {
-    const JoxV2 along = jox_sub(stop->door[1], stop->door[0]);
-    const JoxV2 normal = jox_left(jox_unit(along));
     stop->middle = jox_scale(jox_add(stop->door[0], stop->door[1]), 0.5f);
-    stop->half = 0.5f * jox_length(along);
+    stop->half = 0.5f * jox_length(jox_sub(stop->door[1], stop->door[0]));
     stop->height = storeys->storeys[stop->storey].height;
-    const JoxV2 inside = jox_add(stop->middle, jox_scale(normal, 0.05f));
-    stop->out = jox_lift_contains(lift, inside) ? jox_scale(normal, -1.0f) : normal;
+    stop->out = find_way_out(lift, stop);
 }
 
 static int compare_depths(const void *left, const void *right, const void *context) {

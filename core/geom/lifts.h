@@ -71,6 +71,9 @@ void jox_lift_lay_out(JoxLift *lift, const JoxStoreys *storeys);
 void jox_lift_add_walls(const JoxLift *lift, const JoxStoreys *storeys, JoxWalls *walls);
 /* Returns whether a point of the plan is in the shaft. */
 bool jox_lift_contains(const JoxLift *lift, JoxV2 plan);
+/* Returns the point of the plan so far before the middle of a stop's door, m; of a lift that is
+   laid out or not. */
+JoxV2 jox_lift_point_outside(const JoxLift *lift, uint32_t stop, float metres);
 /* Returns the position before a lift's door at a stop where an agent has left the car. */
 JoxV2 jox_lift_outside(const JoxLift *lift, uint32_t stop, const JoxStoreys *storeys);
 /* Returns the time for a way from standing to standing, s. */

@@ -406,7 +406,10 @@ static bool has_same_boxes(const JoxPlace *a, const JoxPlace *b) {
 
 bool jox_place_same(const JoxPlace *a, const JoxPlace *b) {
     return a->kind == b->kind && a->count == b->count && a->radius == b->radius &&
-           a->spacing == b->spacing && a->start == b->start && a->member_count == b->member_count &&
+           a->spacing == b->spacing && a->start == b->start &&
+           a->landing_radius == b->landing_radius &&
+           !memcmp(&a->landing, &b->landing, sizeof a->landing) &&
+           a->member_count == b->member_count &&
            (!a->count || !memcmp(a->points, b->points, a->count * sizeof *a->points)) &&
            (!a->member_count ||
             !memcmp(a->members, b->members, a->member_count * sizeof *a->members)) &&

@@ -20,11 +20,14 @@ typedef struct JoxPlace {
     JoxPlaceKind kind;
     JoxV2 *points;
     uint32_t count;
-    float radius;     /* m; points only */
-    float spacing;    /* m; queues only */
-    bool refuge;      /* agents that cannot use stairs wait here while no lift takes them */
-    int32_t start;    /* polygon: index of the line at which circuits begin to count, or -1 */
-    int32_t *members; /* set: indices of places */
+    float radius;  /* m; points only */
+    float spacing; /* m; queues only */
+    bool refuge;   /* agents that cannot use stairs wait here while no lift takes them */
+    JoxV2 landing; /* m: floor of a lift's car: the point before its door where people arrive who
+                      walk there; they enter the car if they ride */
+    float landing_radius; /* m; 0: no such floor */
+    int32_t start;        /* polygon: index of the line at which circuits begin to count, or -1 */
+    int32_t *members;     /* set: indices of places */
     uint32_t member_count;
     JoxPlaceBoxes *boxes; /* set: boxes of its members by fours; NULL until it is finished */
     JoxV2 centre;         /* centroid, midpoint or head */
@@ -153,6 +156,13 @@ static inline bool jox_place_is_reached(const JoxPlace *places, uint32_t place,
 }
 /* Does the same for `count` points: in[k] for points[k]. */
 void jox_place_is_reached_each(const JoxPlace *places, uint32_t place, const JoxWalls *walls,
+                               const JoxV2 *points, uint32_t count, bool *in);
+/* Returns whether a point is where people arrive who walk to a place: jox_place_is_reached, but on
+   the landing of a floor of a lift's car, with no closed wall on the way there. */
+bool jox_place_is_arrival(const JoxPlace *places, uint32_t place, const JoxWalls *walls,
+                          JoxV2 point);
+/* Does the same for `count` points: in[k] for points[k]. */
+void jox_place_is_arrival_each(const JoxPlace *places, uint32_t place, const JoxWalls *walls,
                                const JoxV2 *points, uint32_t count, bool *in);
 /* Returns whether the place's nearest point is nearer than `distance` m and no closed wall cuts the
    segment to it. Ignores solids that contain it, and walls and gates on which it lies: people wait

@@ -48,6 +48,31 @@ void jox_place_is_reached_each(const JoxPlace *places, uint32_t index, const Jox
         in[k] = in[k] && jox_place_has_way(places, index, walls, points[k]);
 }
 
+/* Returns whether a point is on the landing of a place or of a member. */
+static bool is_on_landing(const JoxPlace *places, uint32_t index, const JoxWalls *walls,
+                          JoxV2 point) {
+    const JoxPlace *place = &places[index];
+    if (jox_length(jox_sub(place->landing, point)) < place->landing_radius)
+        return !is_way_cut(walls, point, place->landing, false);
+    for (uint32_t m = 0; m < place->member_count; m++)
+        if (is_on_landing(places, (uint32_t)place->members[m], walls, point))
+            return true;
+    return false;
+}
+
+bool jox_place_is_arrival(const JoxPlace *places, uint32_t index, const JoxWalls *walls,
+                          JoxV2 point) {
+    return jox_place_is_reached(places, index, walls, point) ||
+           is_on_landing(places, index, walls, point);
+}
+
+void jox_place_is_arrival_each(const JoxPlace *places, uint32_t index, const JoxWalls *walls,
+                               const JoxV2 *points, uint32_t count, bool *in) {
+    jox_place_is_reached_each(places, index, walls, points, count, in);
+    for (uint32_t k = 0; k < count; k++)
+        in[k] = in[k] || is_on_landing(places, index, walls, points[k]);
+}
+
 bool jox_place_is_near(const JoxPlace *places, uint32_t index, const JoxWalls *walls, JoxV2 point,
                        double distance) {
     const JoxPlace *place = &places[index];

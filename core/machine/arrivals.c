@@ -25,7 +25,7 @@ static bool wants_away(const JoxMachineRun *run, uint32_t i, uint32_t place) {
 }
 
 static bool is_in_place(const JoxMachineRun *run, uint32_t i, uint32_t place) {
-    return jox_place_is_reached(run->places, place, run->walls,
+    return jox_place_is_arrival(run->places, place, run->walls,
                                 jox_v2(run->agents->x[i], run->agents->y[i]));
 }
 

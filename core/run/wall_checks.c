@@ -373,7 +373,7 @@ static void check_goal(JoScene *scene, const Goals *goals, const Aim *aims, uint
     for (uint32_t k = 0; k < count; k++) {
         const uint32_t i = aims[k].agent;
         const JoxKept one = jox_hindrance_of_agent(a, i);
-        if (jox_place_is_reached(places, aims->place, walls, one.at))
+        if (jox_place_is_arrival(places, aims->place, walls, one.at))
             continue;
         const JoxHindranceKind kind = jox_hindrances_kind(hindrances, &one);
         const uint32_t row =

@@ -39,7 +39,8 @@
 #define JOX_LIFT_OWNERS \
     {"lift", "Lifts", "`lifts` maps names to lifts, of a scene with `storeys`. Each has a shaft, with walls, a door on each storey that it serves, and one car. " \
      "Its floor on each of these storeys is a place, `LIFT.STOREY`: `ride \"east.first\"` in a behaviour and `ride: east.first` in a journey mean that lift and storey, " \
-     "`inside`, `count` and probes take the place, and `open \"east.first\"` is true while the door is open there. A set of such places stands for the one that takes least time. " \
+     "`inside`, `count` and probes take the place, and `open \"east.first\"` is true while the door is open there. " \
+     "Who walks to such a place, as by `to: east.first`, arrives before the door, and calls no lift: `ride` does. A set of such places stands for the one that takes least time. " \
      "People whose way leads to another storey take lifts by themselves, over any chain of stairs, ramps and lifts (see the parameter `lifts`). " \
      "Bodies are not carried, except in hands. The last lines of a run, its summary and its report say how long people waited, and how full the car was.", \
      .struct_size = sizeof(JoxLiftDraft), .name_offset = AT(JoxLiftDraft, lift.name), .position_offset = AT(JoxLiftDraft, position), .finish = jox_finish_lift},

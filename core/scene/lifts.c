@@ -11,6 +11,7 @@ static const double NARROWEST = 0.6;   /* m: of doors */
 static const double ROUNDING = 1e-4;   /* m: error of a width that is computed from points */
 static const double DENSEST = 7.0;     /* people per m2 of the car's floor */
 static const double PERSON = 100.0;    /* kg, for the load that is not given */
+static const float LANDING = 1.5f;     /* m: who walks to a lift stops this near to its door */
 
 void jox_key_read_lift_area(const JoxReader *r, const JoxKey *key, const JoxYaml *node,
                             void *item) {
@@ -229,11 +230,13 @@ static void add_places(const JoxReader *r, const JoxYaml *node, JoxLift *lift, J
         stop->name = jox_arena_text(r->arena, name);
         jox_free(name);
         stop->place = (int32_t)(*count)++;
-        *place =
-            (JoxPlace){.name = stop->name,
-                       .points = jox_arena_take(r->arena, lift->point_count, sizeof *place->points),
-                       .count = lift->point_count,
-                       .start = -1};
+        *place = (JoxPlace){
+            .name = stop->name,
+            .points = jox_arena_take(r->arena, lift->point_count, sizeof *place->points),
+            .count = lift->point_count,
+            .landing = jox_on_sheet(storeys, stop->storey, jox_lift_point_outside(lift, s, 0.3f)),
+            .landing_radius = LANDING,
+            .start = -1};
         for (uint32_t k = 0; k < lift->point_count; k++)
             place->points[k] = jox_on_sheet(storeys, stop->storey, lift->outline[k]);
         jox_place_make_area(place);

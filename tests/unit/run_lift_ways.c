@@ -2,6 +2,7 @@
  * by time, and change their mind on the way. */
 #include <math.h>
 
+#include "base/file.h"
 #include "jostle_tools.h"
 #include "unit/scene_loader.h"
 
@@ -152,6 +153,91 @@ static void passenger_that_goes_elsewhere_is_not_shut_in(void **state) {
     }
 }
 
+/* Who rides hears a signal for which it waits after the ride, and does not wait for it any more. */
+static void signal_in_a_ride_is_taken_after_it(void **state) {
+    (void)state;
+    static const char *const STEPS[] = {"{until: alarm}", "{to: upper, until: alarm}"};
+    for (int k = 0; k < 4; k++) { /* with the signal, and without it */
+        char people[256];
+        snprintf(people, sizeof people,
+                 GROUP("[27.9, 2]", "journey: [{ride: tall.second}, %s, {to: top}]"), STEPS[k / 2]);
+        JoScene *scene = load_tower(TALL, "", people);
+        JoError error = {0};
+        while (!(scene->world->state.lifts.cars[0].height > 1.0))
+            step_scene(scene, 1);
+        if (k % 2)
+            assert_true(jo_scene_input(scene, "signal alarm", &error));
+        assert_int_equal(wait_for_place(scene, 0, "top", 150) < INFINITY, k % 2);
+        jo_scene_free(scene);
+    }
+}
+
+/* ---- goals that are a lift's ---- */
+
+/* Who walks to the place of a lift arrives before its door, of a set too, calls no lift, and goes
+   on with its journey. */
+static void who_walks_to_a_lift_arrives_before_the_door(void **state) {
+    (void)state;
+    static const char *const GOALS[] = {"tall.ground", "tall.second", "lifts"};
+    for (int k = 0; k < 3; k++) {
+        char people[400];
+        snprintf(people, sizeof people,
+                 "  lifts: {set: [tall.ground, tall.first]}\n" GROUP(
+                     "[20, 2]", "journey: [{to: %s}, {wait: 5}, {to: %s}]"),
+                 GOALS[k], k == 1 ? "upper" : "bottom");
+        JoScene *scene = load_tower(TALL, "", people);
+        assert_true(wait_for_place(scene, 0, k == 1 ? "upper" : "bottom", 120) < INFINITY);
+        assert_int_equal(get_carried(scene, 0), k == 1);
+        jo_scene_free(scene);
+    }
+}
+
+/* ---- edits ---- */
+
+/* An edit of lifts, whose shafts are walls, waits whole for the next start. A run goes on with its
+   riders, and from a checkpoint. */
+static void edits_of_lifts_wait(void **state) {
+    (void)state;
+    static const char *const EDITS[][2] = {{"[24, 4], [25.8, 5.8]", "[24, 4], [25.9, 5.8]"},
+                                           {"  high:", "  tall:"},
+                                           {"[second, third]}\n", "[ first, third]}\n"}};
+    for (size_t k = 0; k < sizeof EDITS / sizeof *EDITS; k++) {
+        JoScene *scene =
+            load_tower(STAIR | LOW | HIGH, "",
+                       GROUP("[24, 2]", "storey: second, journey: [{to: top}]") "floor: wood\n");
+        jo_scene_free(scene);
+        JoSceneDef def = define_scene(test_path("scene.yaml"));
+        JoError error = {0};
+        JoxText text = {0};
+        bool written = false;
+        char *note = NULL;
+        def.resumable = true;
+        scene = load_defined_scene(&def);
+        text.data = jox_read_file(def.path, 1 << 20, &text.length);
+        while (scene->world->state.lifts.cars[1].people == 0)
+            step_scene(scene, 1);
+        const uint32_t walls = scene->world->state.walls_version;
+        memcpy(strstr(text.data, EDITS[k][0]), EDITS[k][1], strlen(EDITS[k][1]));
+        memcpy(strstr(text.data, "wood"), "sand", 4);
+        edit_scene(scene, text.data);
+        assert_non_null(strstr(scene_messages.data, "as lifts are built anew"));
+        assert_int_equal(scene->world->state.walls_version, walls);
+        assert_true(jo_scene_checkpoint(scene, test_path("points"), 1, "", &error));
+        assert_true(jo_scene_checkpoint_now(scene, &written, &error));
+        assert_true(wait_for_place(scene, 0, "top", 90) < INFINITY);
+        jo_scene_free(scene);
+        def = jo_default_scene_def();
+        def.message = ignore_message;
+        scene = jo_scene_resume(&def, test_path("points"), &note, &error);
+        if (!scene)
+            fail_msg("%s", error.text);
+        assert_true(wait_for_place(scene, 0, "top", 90) < INFINITY);
+        jo_free(note);
+        jo_scene_free(scene);
+        jox_text_free(&text);
+    }
+}
+
 /* ---- what checks say ---- */
 
 /* Returns what `jostle check` says of the scene that was loaded last. */
@@ -223,6 +309,9 @@ int main(void) {
         cmocka_unit_test(ways_are_chosen_by_time),
         cmocka_unit_test(lift_on_the_way_that_goes_out_of_use_is_told),
         cmocka_unit_test(passenger_that_goes_elsewhere_is_not_shut_in),
+        cmocka_unit_test(signal_in_a_ride_is_taken_after_it),
+        cmocka_unit_test(who_walks_to_a_lift_arrives_before_the_door),
+        cmocka_unit_test(edits_of_lifts_wait),
         cmocka_unit_test(checks_know_the_ways_of_the_run),
         cmocka_unit_test(checks_look_at_every_goal),
     };

@@ -43,7 +43,7 @@ JoxV2 jox_steer_seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     JoxV2 to = find_aim(run, i, &spot);
     if (jox_place_is_line(place)) /* lines are crossed, not stopped at */
         return jox_unit(jox_sub(to, from));
-    if (jox_place_is_reached(run->places, (uint32_t)spot.place, run->walls, from))
+    if (jox_place_is_arrival(run->places, (uint32_t)spot.place, run->walls, from))
         return (JoxV2){0.0f, 0.0f};
     return jox_place_is_area(place) ? jox_unit(jox_sub(to, from))
                                     : jox_steer_arrive(from, to, jox_param(a, JOX_PARAM_speed, i));

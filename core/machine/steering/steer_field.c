@@ -151,7 +151,7 @@ static void lead_to_place(Asking *q, int32_t *places, uint32_t first) {
         at[count] = (JoxV2){a->x[q->s->index[n]], a->y[q->s->index[n]]};
         number[count++] = (uint8_t)n;
     }
-    jox_place_is_reached_each(run->places, (uint32_t)place, run->walls, at, count, there);
+    jox_place_is_arrival_each(run->places, (uint32_t)place, run->walls, at, count, there);
     q->place = (uint32_t)place;
     q->now.count = 0;
     for (uint32_t n = 0; n < count; n++) {
@@ -222,7 +222,7 @@ static void lead_without_stairs(Asking *q, uint32_t n, int32_t place) {
     const JoxV2 at = {a->x[i], a->y[i]};
     const JoxField *field = run->fields ? request_stepless(q, place, JOX_ROUTE_STEPLESS) : NULL;
     q->number[0] = (uint8_t)n;
-    if (field && !jox_place_is_reached(run->places, (uint32_t)place, run->walls, at) &&
+    if (field && !jox_place_is_arrival(run->places, (uint32_t)place, run->walls, at) &&
         !(jox_field_distance(field, at) < INFINITY)) {
         if (run->lifts)
             field = request_stepless(q, place, JOX_ROUTE_STEPLESS_LIFTS);
@@ -231,7 +231,7 @@ static void lead_without_stairs(Asking *q, uint32_t n, int32_t place) {
             field = place >= 0 ? request_stepless(q, place, JOX_ROUTE_STEPLESS) : NULL;
         }
     }
-    if (!field || jox_place_is_reached(run->places, (uint32_t)place, run->walls, at))
+    if (!field || jox_place_is_arrival(run->places, (uint32_t)place, run->walls, at))
         return;
     const JoxV2 way = jox_field_direction(field, at);
     store_bound_place(q, 0, field, jox_field_distance(field, at));
@@ -375,7 +375,7 @@ static int32_t find_field_goal(const JoxMachineRun *run, uint32_t i, uint32_t n)
         if (state->steer[t].kind != JOX_STEER_FIELD)
             continue;
         const int32_t place = jox_target_place(run, i, state->steer[t].target);
-        if (place >= 0 && !jox_place_is_reached(run->places, (uint32_t)place, run->walls, p) &&
+        if (place >= 0 && !jox_place_is_arrival(run->places, (uint32_t)place, run->walls, p) &&
             n-- == 0)
             return place;
     }
