@@ -75,7 +75,7 @@ OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g
 OPT.asan    := -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT.ubsan   := -O1 -g1 -fsanitize=undefined -fno-sanitize-recover=all
-OPT.tsan    := -O1 -g1 -fsanitize=thread
+OPT.tsan    := -O0 -g1 -fsanitize=thread
 # For `make fuzz`: needs clang; with coverage counters for libFuzzer, and with assertions.
 OPT.fuzz    := -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT     := $(OPT.$(MODE))
@@ -263,7 +263,7 @@ VECTORISED := core/record/fields/density core/record/fields/density_put core/rec
 $(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)
 # Files in which tests spend little time, compiled at -Og with sanitizers, in two thirds of the time.
 SELDOM_RUN := $(call objects,$(filter $(foreach d,cli run $(TOOLS),core/$(d)/%),$(SRC_C) $(SRC_CLI))) $(UNIT:%=%.o)
-$(SELDOM_RUN): OPT += $(if $(filter asan ubsan tsan,$(MODE)),-Og)
+$(SELDOM_RUN): OPT += $(if $(filter asan ubsan,$(MODE)),-Og)
 define wide
 $(SHARED)/%_wide.$(1).o: %_wide.c Makefile
 	$$(call compile,CC,$$(CC),$$(CFLAGS_ALL) $(ISA.$(1)) -DJOX_ISA_$(1))
