@@ -23,7 +23,7 @@ import { Panel } from "./panels/panel.js";
 import { ParametersPage } from "./panels/parameters.js";
 import { savePicture } from "./draw/picture.js";
 import { Player } from "./controls/player.js";
-import { Replay } from "./controls/replay.js";
+import { Replay, seePerson } from "./controls/replay.js";
 import { StoreyPanel } from "./controls/storey_panel.js";
 import { ScenePage } from "./panels/scene.js";
 import { Tools, TOOLS } from "./controls/tools.js";
@@ -85,7 +85,7 @@ class Page {
         this.news = new News();
         this.about = new AboutCard();
         this.compass = new Compass(this.view, () => this.redraw());
-        this.storeys = new StoreyPanel({ view: this.view, show: (changes) => this.showStoreys(changes) });
+        this.storeys = new StoreyPanel({ view: this.view, crowd: this.crowd, shown: () => this.overlay.place() });
         this.overlay.covered = [this.compass.button, this.compass.bar, this.storeys.node, byId("score")];
         this.strip = new Bar(WORDS);
         this.bar = new TimeBar(send, this.strip);
@@ -352,17 +352,11 @@ class Page {
         return this.scene?.session === "replay";
     }
 
-    /** What the frames of a recording tell of the chosen person. */
+    /** Shows what the frames of a recording tell of the chosen person. */
     seePerson() {
-        const { slot, crowd } = this, { storeys } = this.view, at = slot === null ? null : crowd.position(slot, 1);
-        if (slot === null) return;
-        if (!at) return void this.takePerson({ agent: null });
-        const from = crowd.position(slot, 0) ?? at, passed = crowd.next.time - crowd.previous.time;
-        this.agentPage.takeSeen({
-            slot, time: crowd.next.time, x: at[0], y: at[1], ...(storeys.several ? { storey: storeys.decks[crowd.deck(slot)].name, height: crowd.elevation(slot) } : {}), radius: crowd.radius(slot), torso: crowd.torso(slot),
-            speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
-            state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.group(slot)]?.name,
-        });
+        const seen = this.slot === null ? undefined : seePerson(this.view, this.crowd, this.scene, this.slot);
+        if (seen) this.agentPage.takeSeen(seen);
+        else if (seen === null) this.takePerson({ agent: null });
     }
 
     tool(name) {
@@ -397,25 +391,10 @@ class Page {
         this.toolBar.top.setAttribute("aria-pressed", String(this.view.top));
     }
 
-    /** Shows storeys in another way: {view, chosen}. */
-    showStoreys(changes) {
-        this.view.showStoreys(changes);
-        this.storeys.mark();
-        this.overlay.place();
-    }
-
-    /** Shows the storey of the person who is followed, once they are on another. */
-    followStorey() {
-        const { storeys } = this.view, deck = this.crowd.deck(this.slot);
-        if (!storeys.several) return;
-        const { lower, upper } = storeys.decks[deck];
-        if (storeys.chosen < lower || storeys.chosen > upper) this.showStoreys({ chosen: storeys.isStorey(deck) ? deck : lower });
-    }
-
     follow(on = !this.following) {
         this.following = on && this.slot !== null;
         if (this.following) {
-            this.followStorey();
+            this.storeys.follow(this.slot);
             this.eye.begin();
         }
         if (on && this.slot === null) this.messages.say("Choose a person first: click one.");
@@ -495,7 +474,7 @@ class Page {
         const begun = performance.now();
         const share = this.crowd.share(begun);
         const at = this.following ? this.crowd.position(this.slot, share) : null;
-        if (at) this.followStorey();
+        if (at) this.storeys.follow(this.slot);
         if (at) this.eye.keepUp(at, this.crowd.floor(this.slot, share) || 0, begun);
         this.gamepads.poll();
         if (this.game.playing) this.keepUpWithPlayer(share, begun);

@@ -49,3 +49,15 @@ export class Replay {
         say(this.at, clock(at));
     }
 }
+
+/** Returns what the frames of a recording tell of the person in a slot; null once they have left. */
+export function seePerson({ storeys }, crowd, scene, slot) {
+    const at = crowd.position(slot, 1);
+    if (!at) return null;
+    const from = crowd.position(slot, 0) ?? at, passed = crowd.next.time - crowd.previous.time;
+    return {
+        slot, time: crowd.next.time, x: at[0], y: at[1], ...(storeys.several ? { storey: storeys.decks[crowd.deck(slot)].name, height: crowd.elevation(slot) } : {}), radius: crowd.radius(slot), torso: crowd.torso(slot),
+        speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
+        state: scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: scene.groups?.[crowd.group(slot)]?.name,
+    };
+}

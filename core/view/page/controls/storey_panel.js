@@ -3,10 +3,10 @@ import { byId, el, fill } from "../dom.js";
 import { VIEWS } from "../draw/storeys.js";
 
 export class StoreyPanel {
-    /** `page`: {view, show(changes)} */
+    /** `page`: {view, crowd, shown()}; `shown` is called when storeys are shown in another way. */
     constructor(page) {
         this.page = page;
-        this.select = el("select", { title: "How storeys are shown (S)", "aria-label": "How storeys are shown", onchange: () => page.show({ view: this.select.value }) },
+        this.select = el("select", { title: "How storeys are shown (S)", "aria-label": "How storeys are shown", onchange: () => this.show({ view: this.select.value }) },
             Object.entries(VIEWS).map(([value, name]) => el("option", { value }, name)));
         this.list = el("div", { className: "list", role: "group", "aria-label": "Storey that is looked at" });
         this.node = el("div", { id: "storeys", hidden: true }, this.select, this.list);
@@ -17,9 +17,24 @@ export class StoreyPanel {
         const { storeys } = this.page.view;
         this.node.hidden = !storeys.several;
         if (!storeys.several) return;
-        this.buttons = storeys.list.map(({ name, height }, k) => el("button", { type: "button", title: `${name}, at ${Number(height.toFixed(2))} m (Page Up, Page Down)`, onclick: () => this.page.show({ chosen: k }) }, name));
+        this.buttons = storeys.list.map(({ name, height }, k) => el("button", { type: "button", title: `${name}, at ${Number(height.toFixed(2))} m (Page Up, Page Down)`, onclick: () => this.show({ chosen: k }) }, name));
         fill(this.list, [...this.buttons].reverse());
         this.mark();
+    }
+
+    /** Shows storeys in another way: {view, chosen}. */
+    show(changes) {
+        this.page.view.showStoreys(changes);
+        this.mark();
+        this.page.shown();
+    }
+
+    /** Shows the storey of the person in a slot, once they are on another. */
+    follow(slot) {
+        const { storeys } = this.page.view, deck = this.page.crowd.deck(slot);
+        if (!storeys.several) return;
+        const { lower, upper } = storeys.decks[deck];
+        if (storeys.chosen < lower || storeys.chosen > upper) this.show({ chosen: storeys.isStorey(deck) ? deck : lower });
     }
 
     /** Marks what is shown. */
@@ -37,7 +52,7 @@ export class StoreyPanel {
     next() {
         const names = Object.keys(VIEWS), { storeys } = this.page.view;
         if (!storeys.several) return undefined;
-        this.page.show({ view: names[(names.indexOf(storeys.view) + 1) % names.length] });
+        this.show({ view: names[(names.indexOf(storeys.view) + 1) % names.length] });
         return true;
     }
 
@@ -45,7 +60,7 @@ export class StoreyPanel {
     step(by) {
         const { storeys } = this.page.view, chosen = Math.min(storeys.count - 1, Math.max(0, storeys.chosen + by));
         if (!storeys.several) return undefined;
-        if (chosen !== storeys.chosen) this.page.show({ chosen });
+        if (chosen !== storeys.chosen) this.show({ chosen });
         return true;
     }
 }
