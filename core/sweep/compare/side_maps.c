@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/format/plurals.h"
 #include "base/mem.h"
 #include "picture/html.h"
 #include "report/maps.h"
@@ -94,20 +95,18 @@ double jox_side_field_max(const JoxSide *side, JoxSideFieldKind kind) {
 static bool draw_side_plan(const JoxComparison *c, uint32_t s, double most, JoxText *why) {
     const JoxSide *side = &c->sides.items[s];
     JoxSideDrawn drawn;
-    char file[40], when[48];
+    char file[40], when[80], runs[JOX_NOUN];
     bool good = true;
     snprintf(file, sizeof file, "plan-%u", s + 1);
     if (jox_side_draw_begin(&drawn, side, c->def->out)) {
-        snprintf(when, sizeof when, "0 to %.4g s", drawn.subject.until);
+        snprintf(when, sizeof when, side->runs > 1 ? "0 to %.4g s, mean of %s" : "0 to %.4g s",
+                 drawn.subject.until, jox_noun(runs, side->runs, "run"));
         good = jox_maps_draw_field(
             &drawn.subject,
             &(JoxMapField){.file = file,
                            .title = side->name,
                            .when = when,
-                           .legend = side->runs > 1 ? "people per m\xc2\xb2 " JOX_DENSITY_BY
-                                                      ", greatest of all times, mean of runs"
-                                                    : "people per m\xc2\xb2 " JOX_DENSITY_BY
-                                                      ", greatest of all times",
+                           .legend = "most people per m\xc2\xb2 " JOX_DENSITY_BY,
                            .show = JOX_SHOW_DENSITY,
                            .values = drawn.fields ? side->fields[JOX_FIELD_GREATEST].values : NULL,
                            .most = most},
@@ -164,17 +163,16 @@ static bool draw_side_change(const JoxComparison *c, uint32_t s, JoxText *why) {
     if (jox_side_draw_begin(&drawn, side, c->def->out) && drawn.fields) {
         double most;
         float *changes = list_changes(c, s, &most);
-        good = jox_maps_draw_field(
-            &drawn.subject,
-            &(JoxMapField){.file = file,
-                           .title = title,
-                           .when = "",
-                           .legend = "greatest density, change in people per m\xc2\xb2",
-                           .show = JOX_SHOW_DENSITY,
-                           .values = changes,
-                           .most = most,
-                           .change = true},
-            why);
+        good = jox_maps_draw_field(&drawn.subject,
+                                   &(JoxMapField){.file = file,
+                                                  .title = title,
+                                                  .when = "",
+                                                  .legend = "change of most people per m\xc2\xb2",
+                                                  .show = JOX_SHOW_DENSITY,
+                                                  .values = changes,
+                                                  .most = most,
+                                                  .change = true},
+                                   why);
         jox_free(changes);
     }
     jox_side_draw_end(&drawn);
