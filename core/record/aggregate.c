@@ -55,6 +55,7 @@ static const struct {
     {"danger.stairs.*.width", JOX_SUMMARY_GIVEN},
     {"danger.*", JOX_SUMMARY_FIGURE},
     {"lifts.*", JOX_SUMMARY_FIGURE},
+    {"cannot_use_stairs.*", JOX_SUMMARY_FIGURE},
     {"probes.*", JOX_SUMMARY_FIGURE},
     {"tally.*", JOX_SUMMARY_FIGURE},
     {"game.level", JOX_SUMMARY_GIVEN},

@@ -33,6 +33,15 @@ void jox_page_add_stairs(JoxPageFigures *f, const JoxDanger *danger) {
 
 void jox_page_add_lifts(JoxPageFigures *f, const JoScene *scene) {
     f->group = "Lifts";
+    if (jox_has_storeys(&scene->world->model.storeys)) {
+        const JoxStranded stranded = jox_world_count_stranded(scene->world, -1);
+        jox_page_add_figure(f, "", stranded.in_refuge,
+                            "people who cannot use stairs, in a refuge at the end");
+        jox_page_add_figure(f, "", stranded.nowhere,
+                            "people who cannot use stairs, without lift and refuge at the end");
+        jox_page_add_figure(f, "", stranded.on_stairs,
+                            "people who cannot use stairs, on a stair or ramp at the end");
+    }
     for (uint32_t l = 0; l < scene->world->model.lift_count; l++) {
         const JoxLiftResult r = jox_run_lift_result(scene->world, l);
         jox_page_add_figure(f, "", (double)r.count.carried, "people whom lift %.60s carried",

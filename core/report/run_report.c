@@ -286,6 +286,10 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
     JoxLiftResult *rides = jox_alloc((size_t)lift_count + 1, sizeof *rides);
     for (uint32_t l = 0; l < lift_count; l++)
         rides[l] = jox_run_lift_result(scene->world, l);
+    const JoxStoreys *storeys = &scene->world->model.storeys;
+    JoxStranded *stranded = jox_alloc((size_t)storeys->storey_count + 1, sizeof *stranded);
+    for (uint32_t k = 0; k < storeys->storey_count; k++)
+        stranded[k] = jox_world_count_stranded(scene->world, (int32_t)k);
     return (JoxSubject){.title = spec->title ? spec->title : jox_path_name(spec->path),
                         .folder = folder,
                         .danger = jox_run_danger(scene),
@@ -295,9 +299,7 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .story = report ? &report->story : &none,
                         .bodies = report ? &report->story.moments[JOX_MOMENT_START].bodies : NULL,
                         .walls = &scene->world->model.all_walls,
-                        .storeys = jox_has_storeys(&scene->world->model.storeys)
-                                       ? &scene->world->model.storeys
-                                       : NULL,
+                        .storeys = jox_has_storeys(storeys) ? storeys : NULL,
                         .lifts = scene->world->model.lifts,
                         .lift_count = scene->world->model.lift_count,
                         .places = spec->places,
@@ -305,6 +307,7 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
                         .probes = probes,
                         .probe_count = spec->probe_count,
                         .rides = rides,
+                        .stranded = stranded,
                         .inside = scene->world->state.agents.count,
                         .until = jo_world_time(scene->world),
                         .simulated = true,
@@ -315,8 +318,10 @@ JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
 void jox_run_subject_free(JoxSubject *s) {
     jox_free((void *)(uintptr_t)s->probes);
     jox_free((void *)(uintptr_t)s->rides);
+    jox_free((void *)(uintptr_t)s->stranded);
     s->probes = NULL;
     s->rides = NULL;
+    s->stranded = NULL;
 }
 
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {

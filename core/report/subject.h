@@ -26,6 +26,7 @@ typedef struct JoxSubject {
     const JoxProbe *const *probes;
     uint32_t probe_count;
     const JoxLiftResult *rides;   /* figures of each lift; NULL: not known, as of recordings */
+    const JoxStranded *stranded;  /* by storey, at the end; NULL: not known, or no storeys */
     const JoxDrawnBodies *bodies; /* at the start; NULL: not known */
     uint32_t inside;              /* people still inside at the end */
     double from, until;           /* s: time range measured */

@@ -357,6 +357,32 @@ static void put_lift_summary(FILE *out, const JoxSubject *s) {
         put_summary_statement(out, "Lifts.", &text);
 }
 
+/* Writes how many people who cannot use stairs stay at the end, and on which storeys. */
+static void put_stranded_summary(FILE *out, const JoxSubject *s) {
+    JoxText text = {0};
+    for (uint32_t k = 0; s->storeys && s->stranded && k < s->storeys->storey_count; k++) {
+        const JoxStranded *here = &s->stranded[k];
+        const struct {
+            uint32_t people;
+            const char *stay;
+        } STAY[] = {{here->in_refuge, "in a refuge, as no lift takes them"},
+                    {here->nowhere, "with neither a lift that takes them nor a refuge"},
+                    {here->on_stairs, "on a stair or ramp with no way on"}};
+        const char *join = ": ";
+        if (!jox_run_is_anybody_stranded(here))
+            continue;
+        jox_text_printf(&text, "%sOn %.60s", text.length ? " " : "", s->storeys->storeys[k].name);
+        for (size_t n = 0; n < sizeof STAY / sizeof *STAY; n++)
+            if (STAY[n].people) {
+                jox_text_printf(&text, "%s%u stay %s", join, STAY[n].people, STAY[n].stay);
+                join = ", ";
+            }
+        jox_text_add(&text, ".");
+    }
+    if (text.length)
+        put_summary_statement(out, "People who cannot use stairs.", &text);
+}
+
 /* ---- levels of service ---- */
 
 /* Returns the time of an area at levels E and F, s. */
@@ -429,6 +455,7 @@ void jox_summary_crowd(FILE *out, const JoxSubject *s) {
     put_line_summary(out, s);
     put_stair_summary(out, s);
     put_lift_summary(out, s);
+    put_stranded_summary(out, s);
     put_level_summary(out, s);
     put_trust_summary(out, s);
 }

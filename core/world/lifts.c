@@ -120,13 +120,14 @@ uint32_t jox_world_lift_waiting(const JoWorld *w, uint32_t lift) {
     return count;
 }
 
-JoxStranded jox_world_count_stranded(const JoWorld *w) {
+JoxStranded jox_world_count_stranded(const JoWorld *w, int32_t storey) {
     const JoxAgents *a = &w->state.agents;
     JoxStranded stranded = {0};
     for (uint32_t i = 0; a->storeys && w->machines.fields && i < a->count; i++) {
         const JoxV2 at = {a->x[i], a->y[i]};
         if (!(jox_param(a, JOX_PARAM_lifts, i) > JOX_LIFTS_ONLY) ||
-            jox_rider_find(w->machines.lifts, a->id[i]))
+            jox_rider_find(w->machines.lifts, a->id[i]) ||
+            (storey >= 0 && jox_storey_at(a->storeys, at) != (uint32_t)storey))
             continue;
         const int32_t goal = jox_machines_walk_goal(&w->machines, i);
         const JoxField *const *ways =

@@ -75,7 +75,8 @@ typedef struct JoxStranded {
     uint32_t nowhere;   /* there is no refuge on their storey */
     uint32_t on_stairs; /* they stand on a stair, put there by others */
 } JoxStranded;
-JoxStranded jox_world_count_stranded(const JoWorld *world);
+/* Counts them on a storey, of a stair that which is nearer in height; -1: on all. */
+JoxStranded jox_world_count_stranded(const JoWorld *world, int32_t storey);
 /* Lists the state; nothing in a world without lifts. */
 void jox_lifts_sections(JoWorld *world, JoxSections *sections);
 /* Lists the figures. */

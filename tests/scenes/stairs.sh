@@ -119,3 +119,34 @@ mkdir mixed; cp w6.sqlite mixed/a.sqlite
 sed 's/\[0, 12\]\]/[0, 60]]/; s/\[16, 12\]/[16, 60]/' tower.yaml >deep.yaml
 "$program" run deep.yaml --quiet --for 2 --record mixed/b.sqlite >/dev/null 2>&1
 expect "recordings of two buildings are not one side" 3 "has other storeys than" "$program" compare w6.sqlite mixed --out mixed-page
+[ "$(cat compared/plan-*.svg compared/change-2.svg | grep -c '>most people per m² (Gaussian, R = 1 m)<\|>change of most people per m²<')" = 3 ]
+verdict "legends of plans and differences have room" $?
+
+# ---- people who cannot use stairs ----
+cat >wheels.yaml <<'END'
+jostle: 1
+duration: 20
+storeys: {ground: {height: 0}, first: {height: 4}, second: {height: 8}}
+stairs:
+  lower: {from: ground, to: first, path: [[2, 8], [9, 8]]}
+  upper: {from: first, to: second, path: [[2, 12], [9, 12]]}
+lifts: {east: {area: [[20, 5], [21.8, 6.8]], door: [[20.4, 5], [21.4, 5]], mode: out_of_use}}
+walls: [{line: [[0, 0], [26, 0], [26, 15], [0, 15]], closed: true, storey: [ground, first, second]}]
+places:
+  low: {point: [4, 1.5], radius: 1}
+  lobby: {polygon: [[23, 1], [25, 1], [25, 3], [23, 3]], storey: first, refuge: true}
+  rooms: {polygon: [[12, 1], [19, 1], [19, 4], [12, 4]], storey: first}
+  high: {polygon: [[12, 1], [19, 1], [19, 4], [12, 4]], storey: second}
+groups:
+  below: {count: 3, fill: random, in: rooms, set: {lifts: only}, journey: [{exit: low}]}
+  above: {count: 2, fill: random, in: high, set: {lifts: only}, journey: [{exit: low}]}
+  walkers: {count: 5, fill: random, in: high, journey: [{exit: low}]}
+END
+"$program" run wheels.yaml --quiet --report wheels --summary wheels.json >/dev/null 2>&1
+grep -qF 'On first: 3 stay in a refuge, as no lift takes them. On second: 2 stay with neither a lift' wheels/index.html
+verdict "a report tells where people who cannot use stairs stay" $?
+grep -A9 '"cannot_use_stairs"' wheels.json | tr -d ' \n' | grep -qF '"in_refuge":3,"without_refuge":2,"on_stairs":0,"storeys":{"first":{"in_refuge":3'
+verdict "  and so does the summary" $?
+"$program" run wheels.yaml --quiet --seeds 2 --report many >/dev/null 2>&1
+grep -qF 'In 2 of 2 runs people stayed in a refuge, as no lift takes them: 3 people (on first at most 3).' many/index.html
+verdict "  and the page of many seeds" $?

@@ -401,7 +401,7 @@ static void who_cannot_use_stairs_waits_in_a_refuge(void **state) {
         step_scene_seconds(scene, 40);
         const JoxAgents *a = &scene->world->state.agents;
         const JoxV2 plan = jox_in_plan(a->storeys, (JoxV2){a->x[0], a->y[0]});
-        const JoxStranded stranded = jox_world_count_stranded(scene->world);
+        const JoxStranded stranded = jox_world_count_stranded(scene->world, 1);
         assert_int_equal(count_on_storey(scene, 1), 1);
         assert_int_equal(stranded.in_refuge, refuge);
         assert_int_equal(stranded.nowhere, !refuge);
@@ -410,9 +410,9 @@ static void who_cannot_use_stairs_waits_in_a_refuge(void **state) {
         jox_run_say_lifts(scene, &lines);
         assert_non_null(strstr(lines.data, refuge ? "stayed in a refuge" : "found neither a lift"));
         jox_text_free(&lines);
-        jox_world_set_lift_mode(scene->world, -1, JOX_LIFT_FIREMEN); /* who fetch them */
+        jox_world_set_lift_mode(scene->world, -1, JOX_LIFT_FIREMEN); /* firemen fetch them */
         assert_true(wait_for_storey(scene, 0, 90));
-        assert_int_equal(jox_world_count_stranded(scene->world).nowhere, 0);
+        assert_int_equal(jox_world_count_stranded(scene->world, -1).nowhere, 0);
         jo_scene_free(scene);
     }
 }

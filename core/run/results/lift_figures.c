@@ -55,16 +55,38 @@ JoxLiftResult jox_run_lift_result(const JoWorld *w, uint32_t lift) {
     return r;
 }
 
-void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
-    const JoWorld *w = scene->world;
-    const JoxStranded stranded = jox_world_count_stranded(w);
-    if (stranded.in_refuge + stranded.nowhere + stranded.on_stairs) {
-        jox_json_object(json, "cannot_use_stairs");
-        jox_json_whole(json, "in_refuge", stranded.in_refuge);
-        jox_json_whole(json, "without_refuge", stranded.nowhere);
-        jox_json_whole(json, "on_stairs", stranded.on_stairs);
+bool jox_run_is_anybody_stranded(const JoxStranded *stranded) {
+    return stranded->in_refuge + stranded->nowhere + stranded->on_stairs > 0;
+}
+
+static void add_stranded_members(const JoxStranded *stranded, JoxJson *json) {
+    jox_json_whole(json, "in_refuge", stranded->in_refuge);
+    jox_json_whole(json, "without_refuge", stranded->nowhere);
+    jox_json_whole(json, "on_stairs", stranded->on_stairs);
+}
+
+/* Adds how many people who cannot use stairs stay, in all and on each storey where some do. */
+static void add_stranded(const JoWorld *w, JoxJson *json) {
+    const JoxStranded all = jox_world_count_stranded(w, -1);
+    jox_json_object(json, "cannot_use_stairs");
+    add_stranded_members(&all, json);
+    jox_json_object(json, "storeys");
+    for (uint32_t k = 0; k < w->model.storeys.storey_count; k++) {
+        const JoxStranded here = jox_world_count_stranded(w, (int32_t)k);
+        if (!jox_run_is_anybody_stranded(&here))
+            continue;
+        jox_json_object(json, w->model.storeys.storeys[k].name);
+        add_stranded_members(&here, json);
         jox_json_end(json);
     }
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
+void jox_run_add_lifts(const JoScene *scene, JoxJson *json) {
+    const JoWorld *w = scene->world;
+    if (jox_has_storeys(&w->model.storeys))
+        add_stranded(w, json);
     if (!w->model.lift_count)
         return;
     jox_json_object(json, "lifts");
@@ -110,7 +132,7 @@ static void say_stranded(uint32_t people, const char *where, JoxText *out) {
 
 void jox_run_say_lifts(const JoScene *scene, JoxText *out) {
     const JoWorld *w = scene->world;
-    const JoxStranded stranded = jox_world_count_stranded(w);
+    const JoxStranded stranded = jox_world_count_stranded(w, -1);
     say_stranded(stranded.in_refuge, "found no lift that takes them and stayed in a refuge", out);
     say_stranded(stranded.nowhere,
                  "found neither a lift that takes them nor a refuge on their storey: give a place "

@@ -15,7 +15,7 @@ typedef struct JoxLiftResult {
     JoxLiftFigures count; /* as the world counts them; `waits` is borrowed */
     double wait_mean, wait_p90, wait_most;
     double ride_mean;
-    double filled;          /* mean share of the capacity that was filled on its trips; 0: none */
+    double filled;          /* mean share of the capacity that its trips filled; 0: none */
     double queue_most_time; /* NAN: nobody waited */
     uint32_t waiting;       /* people before its doors now */
     double waiting_longest; /* for which the one of them waits who came first; 0: nobody does */
@@ -23,7 +23,10 @@ typedef struct JoxLiftResult {
 
 /* Returns the figures of a lift, by its index. */
 JoxLiftResult jox_run_lift_result(const JoWorld *world, uint32_t lift);
-/* Adds them to the summary, as "lifts"; nothing without lifts. */
+/* Returns whether people who cannot use stairs stay. */
+bool jox_run_is_anybody_stranded(const JoxStranded *stranded);
+/* Adds them to the summary, as "lifts", and people who cannot use stairs, as "cannot_use_stairs";
+   nothing without lifts, and without storeys. */
 void jox_run_add_lifts(const JoScene *scene, JoxJson *json);
 /* Appends them to the last lines of a run. */
 void jox_run_say_lifts(const JoScene *scene, JoxText *out);

@@ -109,6 +109,41 @@ static void put_leaving_statements(FILE *out, const JoxSide *side, const JoxSide
     put_seeds_statement(out, "Cleared?", &text);
 }
 
+/* Writes in how many runs people who cannot use stairs stayed, and on which storeys. */
+static void put_stranded_statement(FILE *out, const JoxSide *side, const JoxSideDrawn *drawn) {
+    static const struct {
+        const char *figure, *stay;
+    } STAY[] = {{"in_refuge", "in a refuge, as no lift takes them"},
+                {"without_refuge", "with neither a lift that takes them nor a refuge"},
+                {"on_stairs", "on a stair or ramp with no way on"}};
+    const JoxStoreys *storeys = drawn->subject.storeys;
+    JoxText text = {0};
+    for (size_t k = 0; k < sizeof STAY / sizeof *STAY; k++) {
+        char path[100];
+        snprintf(path, sizeof path, "cannot_use_stairs.%s", STAY[k].figure);
+        const uint32_t runs = jox_spread_count_positive(side, path);
+        const JoxSpread people = jox_spread_of(side, path);
+        const char *join = " (";
+        if (runs == 0)
+            continue;
+        jox_text_printf(&text, "%sIn %u of %u runs people stayed %s: ", text.length ? " " : "",
+                        runs, side->runs, STAY[k].stay);
+        jox_spread_add_text(&people, people.median == 1 ? "person" : "people", false, &text);
+        for (uint32_t n = 0; storeys && n < storeys->storey_count; n++) {
+            const JoxSpread here = jox_spread_of_path(side, "cannot_use_stairs.storeys.%s.%s",
+                                                      storeys->storeys[n].name, STAY[k].figure);
+            if (here.most > 0) {
+                jox_text_printf(&text, "%son %.60s at most %.0f", join, storeys->storeys[n].name,
+                                here.most);
+                join = ", ";
+            }
+        }
+        jox_text_add(&text, *join == ',' ? ")." : ".");
+    }
+    if (text.length)
+        put_seeds_statement(out, "People who cannot use stairs.", &text);
+}
+
 /* Appends the place at which the greatest density, as a mean over runs, is greatest. */
 static void add_densest_place(const JoxSide *side, const JoxSideDrawn *drawn, JoxText *out) {
     const JoxSweepField *f = &side->fields[JOX_FIELD_GREATEST];
@@ -218,6 +253,7 @@ void jox_seeds_put_summary(FILE *out, const JoxSide *side, const JoxSideDrawn *d
     put_failures_statement(out, side);
     if (side->runs) {
         put_leaving_statements(out, side, drawn);
+        put_stranded_statement(out, side, drawn);
         put_danger_statements(out, side, drawn);
     }
     put_validity_statement(out, side);
