@@ -235,13 +235,24 @@ typedef struct JoLiftState {
 JO_API uint32_t jo_world_lift_count(const JoWorld *world);
 JO_API JoLiftState jo_world_lift(const JoWorld *world, uint32_t lift);
 
+/* How an agent uses a lift. */
+typedef enum JoRide {
+    JO_RIDE_NONE,
+    JO_RIDE_APPROACHES, /* it is on its way to the door */
+    JO_RIDE_WAITS,      /* before the door: it has called the lift */
+    JO_RIDE_RIDES       /* in the car */
+} JoRide;
 #define JO_NO_STAIR 4294967295u
-/* A point in plan. */
+#define JO_NO_LIFT 4294967295u
+/* A point in plan; of an agent also the lift that it uses. */
 typedef struct JoWhere {
     double x, y;     /* m, in plan */
-    double height;   /* m: elevation of the floor there */
+    double height;   /* m: elevation of the floor there; of an agent in a lift, of its car */
     uint32_t storey; /* on a stair: the storey that is nearer in height */
     uint32_t stair;  /* JO_NO_STAIR: on a storey */
+    uint32_t lift;   /* JO_NO_LIFT: none */
+    JoRide ride;
+    double since; /* s of simulated time: when it called the lift, or came into the car; else NAN */
 } JoWhere;
 /* Where a point of the plane is in plan; where an agent is (all 0 for a stale handle). */
 JO_API JoWhere jo_world_where(const JoWorld *world, double x, double y);

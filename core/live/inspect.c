@@ -10,6 +10,7 @@
 #include "base/number/pi.h"
 #include "geom/storey_text.h"
 #include "jostle_tools.h"
+#include "machine/lifts.h"
 #include "run/mods/settings.h"
 #include "run/why/why.h"
 
@@ -34,7 +35,7 @@ static void add_place(const JoWorld *world, uint32_t i, JoxJson *json) {
     if (!jox_has_storeys(storeys))
         return;
     jox_json_string(json, "storey", jox_storey_name_at(storeys, at));
-    add_rounded(json, "height", (double)jox_floor_height(storeys, at));
+    add_rounded(json, "height", (double)jox_machines_height(&world->machines, i));
 }
 
 /* ---- state, parameters and memory ---- */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "machine/kernels.h"
+#include "machine/lifts.h"
 #include "simd/lanes.h"
 
 enum { BYTES = JOX_WIDTH > 4 ? 4 * JOX_WIDTH : 16, NUMBERS = BYTES / sizeof(double), PACKET = 8 };

@@ -40,8 +40,8 @@ enum { JOX_MOST_REGISTERS = 32 };
     X(y, , "m", "position north; in a building with storeys, in plan", jox_in_plan(a->storeys, jox_v2(a->x[i], a->y[i])).y) \
     X(storey, , "", "number of the storey: 0 is the lowest one; on a stair, the nearer in height", \
       jox_storey_at(a->storeys, jox_v2(a->x[i], a->y[i])))                                         \
-    X(height, , "m", "elevation of the floor on which the agent is; 0 without storeys",            \
-      jox_floor_height(a->storeys, jox_v2(a->x[i], a->y[i])))                                      \
+    X(height, , "m", "elevation of the floor on which the agent is, also of a lift's car; 0 without storeys", \
+      jox_machines_height(run, i))                                                                 \
     X(neighbours, , "", "neighbours seen", run->neighbours->count[i])                              \
     X(driven, , "m/s", "speed that a person or an input log asks of the agent (`player`); 0: none", \
       jox_driven(run, i))                                                                          \

@@ -27,6 +27,23 @@ const JoxRider *jox_rider_find(const JoxLiftView *view, uint32_t id) {
                                                                          : NULL;
 }
 
+JoxRidePhase jox_machines_ride(const JoxMachineRun *run, uint32_t agent, const JoxRider **rider) {
+    *rider = jox_rider_find(run->lifts, run->agents->id[agent]);
+    switch (*rider ? (JoxRidePhase)(*rider)->phase : JOX_RIDE_OVER) {
+    case JOX_RIDE_APPROACH:
+        return JOX_RIDE_APPROACH;
+    case JOX_RIDE_WAIT:
+    case JOX_RIDE_BOARD:
+        return JOX_RIDE_WAIT;
+    case JOX_RIDE_INSIDE:
+    case JOX_RIDE_ASIDE:
+    case JOX_RIDE_LEAVE:
+        return JOX_RIDE_INSIDE;
+    default:
+        return JOX_RIDE_OVER;
+    }
+}
+
 const JoxSteerTerm *jox_ride_term(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
         if (state->steer[t].kind == JOX_STEER_RIDE)

@@ -1,4 +1,4 @@
-/* What behaviours know of lifts: the state of each car, and of each agent that rides or is about
+/* Lifts as behaviours know them: the state of each car, and of each agent that rides or is about
    to. world/lifts.c keeps both from step to step; the steering term `ride` and the words `rode` and
    `in_use` read them. */
 #ifndef JOX_MACHINE_LIFTS_H
@@ -36,7 +36,7 @@ typedef struct JoxLiftCar {
                          heavy */
 } JoxLiftCar;
 
-/* How far an agent that rides has come. */
+/* Progress of an agent that rides. */
 typedef enum JoxRidePhase {
     JOX_RIDE_APPROACH, /* on the way to the door */
     JOX_RIDE_WAIT,     /* before the door: it has called the lift */
@@ -106,6 +106,15 @@ int32_t jox_machines_walk_goal(const JoxMachineRun *run, uint32_t agent);
 int32_t jox_ride_approach(const JoxMachineRun *run, uint32_t agent, int32_t goal);
 /* Returns the refuge nearest to a position on its storey, -1: there is none. */
 int32_t jox_find_refuge(const JoxMachineRun *run, JoxV2 at);
+
+/* Returns the lift in whose car an agent stands, -1: in none. */
+int32_t jox_machines_car(const JoxMachineRun *run, uint32_t agent);
+/* Returns the elevation of what an agent stands on, m: the floor, or that of a car. */
+float jox_machines_height(const JoxMachineRun *run, uint32_t agent);
+/* Returns how an agent uses a lift: JOX_RIDE_APPROACH, JOX_RIDE_WAIT also while it goes in,
+   JOX_RIDE_INSIDE also while it goes out or stepped aside, JOX_RIDE_OVER if it uses none; and sets
+   its entry, NULL without one. */
+JoxRidePhase jox_machines_ride(const JoxMachineRun *run, uint32_t agent, const JoxRider **rider);
 
 /* Functions for this folder alone. */
 /* Returns the term by which agents in a state ride, or NULL. */

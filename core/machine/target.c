@@ -4,6 +4,7 @@
 
 #include "agents/torso.h"
 #include "base/assert.h"
+#include "machine/lifts.h"
 #include "machine/machine_parts.h"
 #include "machine/way_between.h"
 

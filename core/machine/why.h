@@ -77,6 +77,8 @@ void jox_why_spell_steering(const JoxMachine *machine, const JoxState *state, Jo
    target, "take ball: ... beyond the reach of 0.6 m". Within a look. Returns whether something does
    not work. */
 bool jox_why_add_deeds(const JoxMachineRun *run, uint32_t agent, JoxText *out);
+/* Appends how an agent uses a lift, and what its car does, in words; nothing if it uses none. */
+void jox_why_add_ride(const JoxMachineRun *run, uint32_t agent, JoxText *out);
 /* Appends a message in words: "'shot' of agent 3, told at 2.30 s, damage 2". */
 void jox_why_add_message(const JoxMachineRun *run, const JoxMessage *message, JoxText *out);
 /* Returns whether gap `a` is less than gap `b`. */

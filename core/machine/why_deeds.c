@@ -1,5 +1,6 @@
 /* Tells where the steering of an agent's state leads, and why its actions do not work. run/why/
    calls it. */
+#include "machine/lifts.h"
 #include "machine/obstacles.h"
 #include "machine/why_words.h"
 
@@ -155,10 +156,51 @@ static bool add_actions(const JoxMachineRun *run, uint32_t i, const JoxState *st
     return fails;
 }
 
+/* Appends what a car does: "the car stands on first with 3 people". */
+static void add_car(const JoxLiftView *view, uint32_t lift, JoxText *out) {
+    const JoxLift *of = &view->lifts[lift];
+    const JoxLiftCar *car = &view->cars[lift];
+    const char *const *modes = jox_lift_mode_names;
+    if (car->target < 0)
+        jox_text_printf(out, "the car stands on %.60s",
+                        view->storeys->storeys[of->stops[car->stop].storey].name);
+    else
+        jox_text_printf(out, "the car is at %.1f m, on its way to %.60s", car->height,
+                        view->storeys->storeys[of->stops[car->target].storey].name);
+    jox_text_printf(out, " with %u of %u people", car->people, of->capacity);
+    if (car->mode != JOX_LIFT_IN_USE)
+        jox_text_printf(out, ", %s", modes[car->mode]);
+}
+
+void jox_why_add_ride(const JoxMachineRun *run, uint32_t i, JoxText *out) {
+    const JoxLiftView *view = run->lifts;
+    const JoxRider *rider;
+    const JoxRidePhase phase = jox_machines_ride(run, i, &rider);
+    if (phase == JOX_RIDE_OVER)
+        return;
+    const JoxLift *lift = &view->lifts[rider->lift];
+    const char *from = view->storeys->storeys[lift->stops[rider->from].storey].name;
+    const char *to = view->storeys->storeys[lift->stops[rider->to].storey].name;
+    jox_text_printf(out, "lift %.60s: ", lift->name);
+    if (phase == JOX_RIDE_APPROACH)
+        jox_text_printf(out, "it is on its way to the door on %.60s", from);
+    else if (phase == JOX_RIDE_WAIT)
+        jox_text_printf(out, "it waits before the door on %.60s, since %.2f s", from,
+                        rider->since * run->dt);
+    else
+        jox_text_printf(out, "it is in the car, since %.2f s", rider->boarded * run->dt);
+    jox_text_printf(out, ", to ride to %.60s; ", to);
+    add_car(view, rider->lift, out);
+}
+
 bool jox_why_add_deeds(const JoxMachineRun *run, uint32_t i, JoxText *out) {
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[run->agents->state[i]];
     bool fails = add_steering(run, i, state, out);
+    const size_t before = out->length;
+    jox_why_add_ride(run, i, out);
+    if (out->length > before)
+        jox_text_add(out, "\n");
     if (state->face >= 0 && !jox_target_find(run, i, state->face).found) {
         jox_text_add(out, "face ");
         jox_spell_target(machine, &machine->targets[state->face], out);

@@ -86,7 +86,7 @@ function Counted:contains(item) end
 ---@field x jostle.Number position east, m
 ---@field y jostle.Number position north; in a building with storeys, in plan, m
 ---@field storey jostle.Number number of the storey: 0 is the lowest one; on a stair, the nearer in height
----@field height jostle.Number elevation of the floor on which the agent is; 0 without storeys, m
+---@field height jostle.Number elevation of the floor on which the agent is, also of a lift's car; 0 without storeys, m
 ---@field neighbours jostle.Number neighbours seen
 ---@field driven jostle.Number speed that a person or an input log asks of the agent (`player`); 0: none, m/s
 ---@field played jostle.Number 1 once a person or an input log drives the agent (`player`), also while it is to stand; before 0
@@ -198,7 +198,7 @@ function Target:contains(item) end
 ---@field x jostle.Number position east, m
 ---@field y jostle.Number position north; in a building with storeys, in plan, m
 ---@field storey jostle.Number number of the storey: 0 is the lowest one; on a stair, the nearer in height
----@field height jostle.Number elevation of the floor on which the agent is; 0 without storeys, m
+---@field height jostle.Number elevation of the floor on which the agent is, also of a lift's car; 0 without storeys, m
 ---@field neighbours jostle.Number neighbours seen
 ---@field driven jostle.Number speed that a person or an input log asks of the agent (`player`); 0: none, m/s
 ---@field played jostle.Number 1 once a person or an input log drives the agent (`player`), also while it is to stand; before 0

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "machine/lifts.h"
 
 static const char *const FIELD_NAMES[FIELD_COUNT] = {
     [FIELD_X] = "x",
@@ -101,7 +102,7 @@ bool jox_field_push(lua_State *L, const JoxMachineRun *machines, uint32_t i,
     case FIELD_STOREY:
         return lua_pushinteger(L, jox_storey_at(a->storeys, jox_v2(a->x[i], a->y[i]))), true;
     case FIELD_HEIGHT:
-        return lua_pushnumber(L, jox_floor_height(a->storeys, jox_v2(a->x[i], a->y[i]))), true;
+        return lua_pushnumber(L, jox_machines_height(machines, i)), true;
     case FIELD_VX:
         return lua_pushnumber(L, a->vx[i]), true;
     case FIELD_VY:

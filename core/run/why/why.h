@@ -56,6 +56,12 @@ typedef struct JoxWhyCrowd {
         JoxWhyTransition shown; /* of the nearest */
     } transitions[JOX_MOST_TRANSITIONS];
     uint32_t order[JOX_MOST_TRANSITIONS];
+    /* Per lift: how many of them use it. */
+    struct JoxWhyCrowdLift {
+        uint32_t approach, wait, ride;
+        uint32_t first; /* index of the one who has waited longest */
+        double since;   /* s: since then */
+    } * lifts;
     JoxText deeds; /* of `longest`, if something that its state does fails (jox_why_add_deeds) */
 } JoxWhyCrowd;
 

@@ -1,6 +1,7 @@
 /* Collects why agents stay in their states. */
 #include "base/assert.h"
 #include "base/mem.h"
+#include "machine/lifts.h"
 #include "run/why/why.h"
 
 /* Returns whether an item of a state comes before another: transitions before reactions, then the
@@ -140,6 +141,22 @@ static void count_transition(struct JoxWhyCrowdTransition *t, uint32_t agent,
     }
 }
 
+/* Counts an agent for the lift that it uses. */
+static void count_ride(const JoxMachineRun *run, uint32_t agent, JoxWhyCrowd *crowd) {
+    const JoxRider *rider;
+    const JoxRidePhase phase = jox_machines_ride(run, agent, &rider);
+    if (phase == JOX_RIDE_OVER)
+        return;
+    struct JoxWhyCrowdLift *lift = &crowd->lifts[rider->lift];
+    const double since = rider->since * run->dt;
+    lift->approach += phase == JOX_RIDE_APPROACH;
+    lift->ride += phase == JOX_RIDE_INSIDE;
+    if (phase == JOX_RIDE_WAIT && (lift->wait++ == 0 || since < lift->since)) {
+        lift->since = since;
+        lift->first = agent;
+    }
+}
+
 void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agents, uint32_t count,
                    JoxWhyCrowd *out) {
     const JoWorld *world = scene->world;
@@ -147,10 +164,12 @@ void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agent
     const double dt = world->model.def.dt;
     JOX_ASSERT(count > 0);
     const JoxMachine *machine = world->machines.set->items[a->machine[agents[0]]];
-    *out = (JoxWhyCrowd){.machine = machine,
-                         .state = &machine->states[a->state[agents[0]]],
-                         .people = count,
-                         .longest = agents[0]};
+    *out =
+        (JoxWhyCrowd){.machine = machine,
+                      .state = &machine->states[a->state[agents[0]]],
+                      .people = count,
+                      .longest = agents[0],
+                      .lifts = jox_alloc((size_t)world->model.lift_count + 1, sizeof *out->lifts)};
     for (uint32_t k = 0; k < out->state->transition_count; k++)
         out->transitions[k].nearest = JOX_NO_INDEX;
     for (uint32_t n = 0; n < count; n++) {
@@ -159,6 +178,7 @@ void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agent
         out->longest = a->entered[i] < a->entered[out->longest] ? i : out->longest;
         out->earliest = n == 0 || since < out->earliest ? since : out->earliest;
         out->latest = since > out->latest ? since : out->latest;
+        count_ride(&world->machines, i, out);
         jox_world_look_at(scene->world, look, i);
         for (uint32_t k = 0; k < out->state->transition_count; k++) {
             JoxWhyTransition one;
@@ -177,6 +197,7 @@ void jox_why_crowd(JoScene *scene, JoxBehaviourLook *look, const uint32_t *agent
 
 void jox_why_crowd_free(JoxWhyCrowd *crowd) {
     jox_text_free(&crowd->deeds);
+    jox_free(crowd->lifts);
     for (uint32_t k = 0; k < crowd->state->transition_count; k++) {
         jox_free(crowd->transitions[k].holders);
         jox_why_free(&crowd->transitions[k].shown);

@@ -1,6 +1,7 @@
 /* Writes as JSON why agents stay in their states. The live page reads the same members. */
 #include <math.h>
 
+#include "machine/lifts.h"
 #include "run/why/why.h"
 
 enum { DIGITS = 6 };
@@ -89,10 +90,59 @@ static void add_deeds(const JoxText *deeds, JoxJson *json) {
     jox_json_end(json);
 }
 
+/* Adds "lift": how an agent uses a lift, if it does. */
+static void add_ride(const JoWorld *world, uint32_t agent, JoxJson *json) {
+    static const char *const WORDS[] = {
+        [JOX_RIDE_APPROACH] = "approaches", [JOX_RIDE_WAIT] = "waits", [JOX_RIDE_INSIDE] = "rides"};
+    const JoxRider *rider;
+    const JoxRidePhase phase = jox_machines_ride(&world->machines, agent, &rider);
+    if (phase == JOX_RIDE_OVER)
+        return;
+    const JoxLift *lift = &world->model.lifts[rider->lift];
+    const JoxLiftCar *car = &world->state.lifts.cars[rider->lift];
+    const JoxStorey *storeys = world->model.storeys.storeys;
+    const uint32_t since = phase == JOX_RIDE_INSIDE ? rider->boarded : rider->since;
+    jox_json_object(json, "lift");
+    jox_json_string(json, "name", lift->name);
+    jox_json_string(json, "does", WORDS[phase]);
+    if (phase != JOX_RIDE_APPROACH)
+        jox_json_digits(json, "since", since * world->model.def.dt, 9);
+    jox_json_string(json, "from", storeys[lift->stops[rider->from].storey].name);
+    jox_json_string(json, "to", storeys[lift->stops[rider->to].storey].name);
+    jox_json_digits(json, "height", car->height, DIGITS);
+    jox_json_whole(json, "people", car->people);
+    jox_json_string(json, "mode", jox_lift_mode_names[car->mode]);
+    jox_json_end(json);
+}
+
+/* Adds "lifts": how many of a crowd use each lift. */
+static void add_lifts(const JoWorld *world, const JoxWhyCrowd *crowd, JoxJson *json) {
+    if (world->model.lift_count == 0)
+        return;
+    jox_json_array(json, "lifts");
+    for (uint32_t l = 0; l < world->model.lift_count; l++) {
+        const struct JoxWhyCrowdLift *lift = &crowd->lifts[l];
+        if (!lift->approach && !lift->wait && !lift->ride)
+            continue;
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", world->model.lifts[l].name);
+        jox_json_whole(json, "approach", lift->approach);
+        jox_json_whole(json, "wait", lift->wait);
+        jox_json_whole(json, "ride", lift->ride);
+        if (lift->wait) {
+            jox_json_whole(json, "longest", world->state.agents.id[lift->first]);
+            jox_json_digits(json, "since", lift->since, DIGITS);
+        }
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
 void jox_why_agent_json(const JoScene *scene, const JoxWhyAgent *why, JoxJson *json) {
     static const char *const CHANCES[] = {[JOX_WHY_TO_ROLL] = "to roll", [JOX_WHY_LOST] = "lost"};
     add_messages(scene, why->agent, json);
     add_deeds(&why->deeds, json);
+    add_ride(scene->world, why->agent, json);
     jox_json_array(json, "transitions");
     for (uint32_t k = 0; k < why->state->transition_count; k++) {
         const uint32_t index = why->order[k];
@@ -132,6 +182,7 @@ void jox_why_crowd_json(const JoScene *scene, const JoxWhyCrowd *crowd, JoxJson 
     jox_json_digits(json, "latest", crowd->latest, DIGITS);
     jox_json_whole(json, "longest", a->id[crowd->longest]);
     add_deeds(&crowd->deeds, json);
+    add_lifts(scene->world, crowd, json);
     jox_json_array(json, "transitions");
     for (uint32_t k = 0; k < crowd->state->transition_count; k++) {
         const uint32_t index = crowd->order[k];

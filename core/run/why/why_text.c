@@ -311,6 +311,32 @@ static void print_crowd_transition(const JoScene *scene, const JoxWhyCrowd *crow
                         t->shown.chance_value, t->lost, t->held);
 }
 
+/* Appends how many use each lift: "  lift east: 12 wait before it, agent 4 since 3.20 s". */
+static void print_lifts(const JoScene *scene, const JoxWhyCrowd *crowd, JoxText *out) {
+    const JoWorld *world = scene->world;
+    char people[JOX_NOUN];
+    for (uint32_t l = 0; l < world->model.lift_count; l++) {
+        const struct JoxWhyCrowdLift *lift = &crowd->lifts[l];
+        const char *join = ": ";
+        if (!lift->approach && !lift->wait && !lift->ride)
+            continue;
+        jox_text_printf(out, "  lift %.60s", world->model.lifts[l].name);
+        if (lift->wait) {
+            jox_text_printf(out, ": %s before it, agent %u since %.2f s",
+                            jox_noun(people, lift->wait, "waits|wait"),
+                            world->state.agents.id[lift->first], lift->since);
+            join = "; ";
+        }
+        if (lift->ride) {
+            jox_text_printf(out, "%s%u in its car", join, lift->ride);
+            join = "; ";
+        }
+        if (lift->approach)
+            jox_text_printf(out, "%s%u on the way to it", join, lift->approach);
+        jox_text_add(out, "\n");
+    }
+}
+
 void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const char *only_to,
                         JoxText *out) {
     const JoxAgents *a = &scene->world->state.agents;
@@ -325,6 +351,7 @@ void jox_why_crowd_text(const JoScene *scene, const JoxWhyCrowd *crowd, const ch
     else
         jox_text_printf(out, ", since %.2f s (agent %u) to %.2f s\n", crowd->earliest,
                         a->id[crowd->longest], crowd->latest);
+    print_lifts(scene, crowd, out);
     char before[40];
     snprintf(before, sizeof before, "  agent %u: ", a->id[crowd->longest]);
     print_deeds(&crowd->deeds, before, out);

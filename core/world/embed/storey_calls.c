@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "machine/lifts.h"
 #include "world/embed/storey_points.h"
 
 static const JoxStoreys *get_storeys(const JoWorld *world) {
@@ -93,20 +94,42 @@ JoWhere jox_world_where(const JoWorld *world, JoxV2 at) {
                      .y = (double)plan.y,
                      .height = (double)jox_floor_height(s, at),
                      .storey = jox_storey_at(s, at),
-                     .stair = stair < 0 ? JO_NO_STAIR : (uint32_t)stair};
+                     .stair = stair < 0 ? JO_NO_STAIR : (uint32_t)stair,
+                     .lift = JO_NO_LIFT,
+                     .since = NAN};
+}
+
+/* Where nobody is. */
+static const JoWhere NOWHERE = {.stair = JO_NO_STAIR, .lift = JO_NO_LIFT, .since = NAN};
+
+static JoWhere find_agent(const JoWorld *world, uint32_t i) {
+    static const JoRide RIDES[] = {[JOX_RIDE_APPROACH] = JO_RIDE_APPROACHES,
+                                   [JOX_RIDE_WAIT] = JO_RIDE_WAITS,
+                                   [JOX_RIDE_INSIDE] = JO_RIDE_RIDES};
+    const JoxAgents *a = &world->state.agents;
+    JoWhere where = jox_world_where(world, (JoxV2){a->x[i], a->y[i]});
+    const JoxRider *rider;
+    const JoxRidePhase phase = jox_machines_ride(&world->machines, i, &rider);
+    where.height = (double)jox_machines_height(&world->machines, i);
+    if (phase == JOX_RIDE_OVER)
+        return where;
+    where.lift = rider->lift;
+    where.ride = RIDES[phase];
+    if (phase != JOX_RIDE_APPROACH)
+        where.since =
+            (phase == JOX_RIDE_INSIDE ? rider->boarded : rider->since) * world->model.def.dt;
+    return where;
 }
 
 JoWhere jo_world_where(const JoWorld *world, double x, double y) {
-    JOX_REQUIRE(world && isfinite(x) && isfinite(y), (JoWhere){.stair = JO_NO_STAIR});
+    JOX_REQUIRE(world && isfinite(x) && isfinite(y), NOWHERE);
     return jox_world_where(world, (JoxV2){(float)x, (float)y});
 }
 
 JoWhere jo_agent_where(const JoWorld *world, JoAgent agent) {
-    JOX_REQUIRE(world, (JoWhere){.stair = JO_NO_STAIR});
+    JOX_REQUIRE(world, NOWHERE);
     const uint32_t i = jox_world_find_agent(world, agent);
-    const JoxAgents *a = &world->state.agents;
-    return i == JOX_NO_INDEX ? (JoWhere){.stair = JO_NO_STAIR}
-                             : jox_world_where(world, (JoxV2){a->x[i], a->y[i]});
+    return i == JOX_NO_INDEX ? NOWHERE : find_agent(world, i);
 }
 
 uint32_t jo_world_wheres(const JoWorld *world, JoWhere *out, uint32_t capacity) {
@@ -115,7 +138,7 @@ uint32_t jo_world_wheres(const JoWorld *world, JoWhere *out, uint32_t capacity) 
     if (jox_heap_has_failed(world->heap))
         return 0;
     for (uint32_t i = 0; i < a->count && i < capacity; i++)
-        out[i] = jox_world_where(world, (JoxV2){a->x[i], a->y[i]});
+        out[i] = find_agent(world, i);
     return a->count;
 }
 

@@ -96,23 +96,30 @@ LIFT_MODES = ("in_use", "out_of_use", "firemen")
 
 
 class Where(NamedTuple):
-    """A point in plan, m: the height of the floor there, the number of the storey (on a stair that which is nearer in height),
-    and the number of the stair or None."""
+    """A point in plan, m: the height of the floor there (of an agent in a lift, of its car), the number of the storey (on a stair
+    that which is nearer in height), and the number of the stair or None. Of an agent also the number of the lift that it uses or
+    None, how it does, one of `RIDES`, and since when it has waited, or ridden, in s of simulated time (else None)."""
 
     x: float
     y: float
     height: float
     storey: int
     stair: Optional[int]
+    lift: Optional[int]
+    ride: str
+    since: Optional[float]
 
 
 # As the library has it.
-WHERE = np.dtype([("x", "f8"), ("y", "f8"), ("height", "f8"), ("storey", "u4"), ("stair", "u4")])
-NO_STAIR = 2**32 - 1
+WHERE = np.dtype([("x", "f8"), ("y", "f8"), ("height", "f8"), ("storey", "u4"), ("stair", "u4"), ("lift", "u4"), ("ride", "u4"),
+                  ("since", "f8")])
+RIDES = ("none", "approaches", "waits", "rides")
+NO_STAIR = NO_LIFT = 2**32 - 1
 
 
 def _where(where: Any) -> Where:
-    return Where(where.x, where.y, where.height, where.storey, None if where.stair == NO_STAIR else where.stair)
+    return Where(where.x, where.y, where.height, where.storey, None if where.stair == NO_STAIR else where.stair,
+                 None if where.lift == NO_LIFT else where.lift, RIDES[where.ride], None if np.isnan(where.since) else where.since)
 
 
 class Hit(NamedTuple):
@@ -345,7 +352,9 @@ class Scene:
 
     def where(self) -> np.ndarray:
         """Where all agents are, in the order of `scene["id"]`: an array with the fields x, y (m, in plan), height (m, of the
-        floor there), storey (its number; on a stair that which is nearer in height) and stair (its number; 2**32 - 1: none)."""
+        floor there, or of a lift's car), storey (its number; on a stair that which is nearer in height), stair (its number;
+        2**32 - 1: none), lift that the agent uses (likewise), ride (an index of `RIDES`) and since (s: when it called the lift, or
+        came into the car; else NaN)."""
         out = np.zeros(len(self), WHERE)
         lib.jo_world_wheres(self._live(), ffi.from_buffer("JoWhere *", out), len(out))
         return out
@@ -655,7 +664,7 @@ class Agent:
 
     @property
     def where(self) -> Where:
-        """Its position in plan, with storey, stair and height."""
+        """Its position in plan, with storey, stair and height, and the lift that it uses."""
         self._state()
         return _where(lib.jo_agent_where(self.scene._world, self._handle()))
 

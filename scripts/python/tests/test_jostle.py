@@ -337,6 +337,7 @@ def test_lifts(path):
     scene = jostle.Scene(path)
     (east,) = scene.lifts
     assert (east.name, east.mode, east.capacity, east.people, east.storey, east.height) == ("east", "in_use", 4, 0, 0, 0.0)
+    assert scene.agents()[0].where.lift is None and scene.agents()[0].where.ride == "none" and np.isnan(scene.where()["since"]).all()
     scene.set_lift("east", "out_of_use")
     scene.set_lift("all", "firemen")
     assert scene.lifts[0].mode == "firemen"
