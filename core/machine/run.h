@@ -57,8 +57,8 @@ typedef struct JoxSignal {
    in a step. */
 enum { JOX_MOST_WAITING = 16, JOX_MOST_SENT = 1000000 };
 
-/* What became of a message. One that items or functions use in the stage think is seen by all items
-   of the agent until the stage ends, and removed before the next step. */
+/* Use that was made of a message. One that items or functions use in the stage think is seen by all
+   items of the agent until the stage ends, and removed before the next step. */
 typedef enum JoxMessageUse {
     JOX_MESSAGE_USED = 1,        /* it is used up */
     JOX_MESSAGE_BY_ITEM = 2,     /* an item that was carried out in this step rests on it */
@@ -83,7 +83,7 @@ typedef struct JoxThrown {
     uint32_t body, agent; /* ids */
 } JoxThrown;
 
-/* How often a signal was given, and by whom last. */
+/* Number of times that a signal was given, and who gave it last. */
 typedef struct JoxNameCall {
     uint64_t count;
     uint32_t tick;     /* at which it was heard */
@@ -91,7 +91,7 @@ typedef struct JoxNameCall {
     float x, y;        /* m */
 } JoxNameCall;
 
-/* How often messages of a name were told, and what became of them; and the last that came to its
+/* Number of times that messages of a name were told, and their fate; and the last that came to its
    receiver. */
 typedef struct JoxMessageTally {
     uint64_t count, to_nobody, unasked, lost; /* that came to an agent which asks for them; see
@@ -334,7 +334,7 @@ typedef struct JoxMachineRun {
     /* Explanations for observers; no step reads them. */
     uint32_t edits_made;   /* number of parameters set by people so far */
     bool traces;           /* explain transitions of agent trace_id in `trace` */
-    bool trace_shows_item; /* what the item does that is carried out belongs to the trace */
+    bool trace_shows_item; /* the deeds of the item that is carried out belong to the trace */
     uint32_t trace_id;
     JoxText trace;
     struct JoxTraceTerms *trace_terms; /* terms that the traced agent waits for (trace.c) */

@@ -22,7 +22,7 @@ static const char SCENE[] =
 static const char CLIMBING[] =
     MACHINE_START "\"Climb\", states = { Climb = { steer = seek \"high\" } } }\n";
 
-/* What a frame says of a slot's place. */
+/* Place of a slot by a frame. */
 typedef struct Stand {
     uint32_t deck;
     double x, y, height;

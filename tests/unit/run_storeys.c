@@ -302,7 +302,7 @@ static void add_loners(JoxText *out, const char *name, const char *to, const cha
     jox_text_add(out, "]}\n");
 }
 
-/* What becomes of the people of a storey: a hash over all steps, and those who passed its door. */
+/* Fate of the people of a storey: a hash over all steps, and those who passed its door. */
 typedef struct Fate {
     uint64_t hash;
     uint32_t passed;

@@ -9,7 +9,7 @@
 
 typedef struct JoxSidePlan {
     JoxV2 low, high;    /* bounds of the picture, m; with storeys, in plan */
-    JoxStoreys storeys; /* of which all points are positions; empty: one plane */
+    JoxStoreys storeys; /* all points are positions on their sheets; empty: one plane */
     JoxWalls walls;
     JoxPlace *places;
     uint32_t place_count;
