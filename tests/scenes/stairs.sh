@@ -141,6 +141,7 @@ groups:
   below: {count: 3, fill: random, in: rooms, set: {lifts: only}, journey: [{exit: low}]}
   above: {count: 2, fill: random, in: high, set: {lifts: only}, journey: [{exit: low}]}
   walkers: {count: 5, fill: random, in: high, journey: [{exit: low}]}
+events: [{at: 100, lift: east, mode: firemen}]
 END
 "$program" run wheels.yaml --quiet --report wheels --summary wheels.json >/dev/null 2>&1
 grep -qF 'On first: 3 stay in a refuge, as no lift takes them. On second: 2 stay with neither a lift' wheels/index.html
