@@ -84,7 +84,7 @@ def machine(browser):
 
 
 def storeys(browser):
-    page(browser, "office-tower", 55, "storeys", "")
+    page(browser, "office-tower", 72, "storeys", "page.colourBy('group')")
 
 
 ALL = {"tawaf": tawaf, "office": office, "person": person, "machine": machine, "storeys": storeys}
