@@ -14,12 +14,12 @@
 #include "base/mem.h"
 #include "base/zip.h"
 #include "jostle_tools.h"
-#include "run/lift_checks.h"
 #include "run/load_scene.h"
 #include "run/orca_flow_note.h"
 #include "run/read_scene.h"
 #include "run/run.h"
 #include "run/scenery_checks.h"
+#include "run/storey_checks.h"
 #include "run/wall_checks.h"
 #include "validate/claims.h"
 
@@ -48,7 +48,7 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     if (scene) {
         jox_run_note_orca_flow(scene, all);
         jox_run_check_goals(scene, all);
-        jox_run_check_lifts(scene, all); /* after goals, which adds a person for each source */
+        jox_run_check_storeys(scene, all); /* after goals, which adds a person for each source */
         jox_run_check_scenery(scene, all);
         jox_diag_move(all, &scene->mod_problems);
     }

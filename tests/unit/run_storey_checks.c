@@ -63,6 +63,8 @@ static void words_on_lifts_need_places_of_lifts(void **state) {
                 "scene.yaml:9:55: the place 'low' is no lift's");
 }
 
+#define STAIR "stairs: {north: {from: ground, to: first, path: [[4, 12], [11, 12]], width: 0.5}}\n"
+
 static void people_who_cannot_ride_are_named(void **state) {
     (void)state;
 #define PEOPLE(set, journey)                                                                       \
@@ -81,6 +83,11 @@ static void people_who_cannot_ride_are_named(void **state) {
          "and their radius is up to 0.50 m. Make the door 1.00 m wide"},
         /* They pass, or have no reason to ride. */
         {LIFT("") PEOPLE("radius: 0.4", "ride: east.first"), "nothing wrong"},
+        {LIFT("") STAIR PEOPLE("radius: 0.4", "to: high"),
+         "warning: nobody of group 'people' can pass the stair 'north': it is 0.50 m wide, and "
+         "their radius is up to 0.40 m. Make it 0.80 m wide"},
+        {LIFT("") STAIR PEOPLE("radius: 0.3", "to: high"), "nothing wrong"},
+        {LIFT("") STAIR PEOPLE("radius: 0.4", "to: low"), "nothing wrong"},
         {LIFT(", load: 100") PEOPLE("mass: 100", "ride: east.first"), "nothing wrong"},
         {LIFT(", load: 100") PEOPLE("mass: 150", "to: low"), "nothing wrong"},
     };

@@ -1,4 +1,4 @@
-#include "run/lift_checks.h"
+#include "run/storey_checks.h"
 
 #include <stdio.h>
 
@@ -42,15 +42,12 @@ static bool rides_in(const JoWorld *w, const JoxMachine *machine, uint32_t lift)
     return false;
 }
 
-/* Returns whether an agent may take a lift by itself, as a goal is on another storey. */
-static bool may_take(const JoWorld *w, uint32_t agent, uint32_t lift) {
+/* Returns whether a goal of an agent is on another storey. */
+static bool leaves_storey(const JoWorld *w, uint32_t agent) {
     const JoxAgents *a = &w->state.agents;
     const JoxStoreys *storeys = &w->model.storeys;
     const uint32_t storey = jox_storey_at(storeys, jox_v2(a->x[agent], a->y[agent]));
     int32_t goals[MOST_GOALS];
-    if (!(jox_param(a, JOX_PARAM_lifts, agent) > JOX_LIFTS_NEVER) ||
-        jox_lift_stop_at(&w->model.lifts[lift], storey) < 0)
-        return false;
     const uint32_t count = jox_machines_goals(&w->machines, agent, goals, MOST_GOALS);
     for (uint32_t g = 0; g < count; g++) {
         const JoxPlace *place = &w->model.places[goals[g]];
@@ -58,6 +55,14 @@ static bool may_take(const JoWorld *w, uint32_t agent, uint32_t lift) {
             return true;
     }
     return false;
+}
+
+/* Returns whether an agent may take a lift by itself. */
+static bool may_take(const JoWorld *w, uint32_t agent, uint32_t lift) {
+    const JoxAgents *a = &w->state.agents;
+    const uint32_t storey = jox_storey_at(&w->model.storeys, jox_v2(a->x[agent], a->y[agent]));
+    return jox_param(a, JOX_PARAM_lifts, agent) > JOX_LIFTS_NEVER &&
+           jox_lift_stop_at(&w->model.lifts[lift], storey) >= 0 && leaves_storey(w, agent);
 }
 
 /* Counts an agent among those who may ride, and whether it cannot. */
@@ -115,10 +120,46 @@ static void warn_of_riders(const JoScene *scene, const JoxGroup *group, const Jo
     }
 }
 
-void jox_run_check_lifts(const JoScene *scene, JoxDiagnostics *diagnostics) {
+/* Warns of people of a group whom a stair, or ramp, is too narrow for. */
+static void check_stair(const JoScene *scene, const JoxStair *stair, uint32_t g,
+                        JoxDiagnostics *diagnostics) {
     const JoWorld *w = scene->world;
     const JoxAgents *a = &w->state.agents;
+    const JoxGroup *group = &scene->spec->groups[g];
+    char who[160], hint[JOX_HINT];
+    uint32_t count = 0, broad = 0;
+    float radius = 0.0f;
+    for (uint32_t i = 0; i < a->count; i++) {
+        const float own = jox_param(a, JOX_PARAM_radius, i);
+        const bool takes =
+            stair->kind == JOX_STAIR_RAMP || jox_param(a, JOX_PARAM_lifts, i) <= JOX_LIFTS_ONLY;
+        if (a->group[i] != g || a->machine[i] == JOX_NO_MACHINE || !takes || !leaves_storey(w, i))
+            continue;
+        count++;
+        if (stair->width >= jox_hindrance_narrowest(own))
+            continue;
+        broad++;
+        radius = jox_maxf(radius, own);
+    }
+    if (broad == 0)
+        return;
+    write_people(who, sizeof who, broad, count, group->name);
+    snprintf(hint, sizeof hint, "Make it %.2f m wide at least, or lower the radius",
+             2.0 * (double)radius);
+    jox_diag_warn(diagnostics, group->position, "no-way", hint,
+                  "%s pass the %s '%.60s': it is %.2f m wide, and their radius is up to %.2f m",
+                  who, stair->kind == JOX_STAIR_RAMP ? "ramp" : "stair", stair->name,
+                  (double)stair->width, (double)radius);
+}
+
+void jox_run_check_storeys(const JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoWorld *w = scene->world;
+    const JoxAgents *a = &w->state.agents;
+    const JoxStoreys *storeys = &w->model.storeys;
     const uint32_t groups = scene->spec->group_count;
+    for (uint32_t k = 0; k < storeys->stair_count; k++)
+        for (uint32_t g = 0; jox_stair_joins(&storeys->stairs[k]) && g < groups; g++)
+            check_stair(scene, &storeys->stairs[k], g, diagnostics);
     for (uint32_t l = 0; l < w->model.lift_count; l++) {
         Riders *riders = jox_alloc((size_t)groups + 1, sizeof *riders);
         for (uint32_t i = 0; i < a->count; i++) {
