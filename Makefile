@@ -261,9 +261,9 @@ VECTORISED := core/record/fields/density core/record/fields/density_put core/rec
            core/machine/batches core/machine/think core/machine/target core/nav/near/perceive core/nav/move/move \
            $(foreach k,$(SRC_WIDE:%.c=%),$(ISAS:%=$k.%))
 $(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)
-# Files in which tests spend little time, compiled at -Og with sanitizers, in two thirds of the time.
+# Files in which tests spend little time, compiled at -O0 with sanitizers, in half of the time.
 SELDOM_RUN := $(call objects,$(filter $(foreach d,cli run $(TOOLS),core/$(d)/%),$(SRC_C) $(SRC_CLI))) $(UNIT:%=%.o)
-$(SELDOM_RUN): OPT += $(if $(filter asan ubsan,$(MODE)),-Og)
+$(SELDOM_RUN): OPT += $(if $(filter asan ubsan,$(MODE)),-O0)
 define wide
 $(SHARED)/%_wide.$(1).o: %_wide.c Makefile
 	$$(call compile,CC,$$(CC),$$(CFLAGS_ALL) $(ISA.$(1)) -DJOX_ISA_$(1))

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "geom/wall_way.h"
+#include "unit/effort.h"
 #include "unit/gate_ball_scene.h"
 #include "unit/shipped_scenes.h"
 
@@ -216,7 +217,7 @@ static void thousands_of_births_at_a_point_spread_round_it(void **state) {
     (void)state;
     const JoWorldDef def = jo_default_world_def();
     JoWorld *world = jo_world_create(&def, NULL);
-    enum { PEOPLE = 2500 };
+    enum { PEOPLE = 2500 / EFFORT_EACH };
     for (int n = 0; n < PEOPLE; n++)
         assert_true(add_agent_at(world, 3.0, -2.0, NULL).generation != 0);
     assert_int_equal(counted(world)->shifted_at_birth, PEOPLE - 1);
@@ -224,7 +225,8 @@ static void thousands_of_births_at_a_point_spread_round_it(void **state) {
     float farthest = 0.0f;
     for (uint32_t i = 0; i < PEOPLE; i++)
         farthest = jox_maxf(farthest, hypotf(a->x[i] - 3.0f, a->y[i] + 2.0f));
-    assert_true(farthest > 7.5f && farthest < 10.0f); /* 8 to 14 people per m2 */
+    const float density = PEOPLE / (float)M_PI / (farthest * farthest); /* 1/m2 */
+    assert_true(density > 8.0f && density < 14.0f);
     jo_world_free(world);
 }
 
