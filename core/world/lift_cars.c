@@ -257,9 +257,7 @@ static bool holds_door(JoxLiftTurn *t) {
         held |= t->car->quiet < PATIENCE;
         if (held || rider->phase == JOX_RIDE_LEAVE)
             continue;
-        rider->phase = JOX_RIDE_WAIT;
-        rider->spot = -1;
-        t->figures->turned_away++;
+        jox_lift_turn_away(t, rider);
         t->car->refuses = 1;
     }
     return held;

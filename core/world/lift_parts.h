@@ -39,6 +39,8 @@ void jox_lifts_list_riders(JoWorld *world);
 void jox_lift_count_people(JoxLiftTurn *turn);
 /* Sets the phases of the riders of a lift by where they are, and admits those who wait. */
 void jox_lift_update_riders(JoxLiftTurn *turn);
+/* Makes a rider, in the car or on its way in, wait at the car's stop for the next one. */
+void jox_lift_turn_away(JoxLiftTurn *turn, JoxRider *rider);
 /* Returns whether more people, or a greater mass, are in the car than it takes; then one steps out.
  */
 bool jox_lift_is_overloaded(JoxLiftTurn *turn);

@@ -73,8 +73,19 @@ void jox_lift_shift_people(JoxLiftTurn *t, uint32_t from, uint32_t to) {
 
 /* ---- phases ---- */
 
+/* Counts the end of a ride, if the car departed with the rider. */
+static void end_ride(JoxLiftTurn *t, JoxRider *rider) {
+    rider->spot = -1;
+    if (!rider->carried)
+        return;
+    rider->carried = 0;
+    t->figures->let_out++;
+    t->figures->ride_s += (double)(t->world->state.tick - rider->boarded) * t->world->model.def.dt;
+}
+
 static void begin_waiting(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     const JoWorld *w = t->world;
+    end_ride(t, rider);
     rider->phase = JOX_RIDE_WAIT;
     rider->since = (uint32_t)w->state.tick;
     jox_lift_take_lobby_spot(t, rider);
@@ -84,9 +95,10 @@ static void begin_waiting(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
 
 static void come_in(JoxLiftTurn *t, JoxRider *rider) {
     rider->phase = JOX_RIDE_INSIDE;
-    rider->from = t->car->stop;
-    rider->boarded = (uint32_t)t->world->state.tick;
-    rider->carried = 0;
+    if (!rider->carried) { /* else it stepped out for others on its way */
+        rider->from = t->car->stop;
+        rider->boarded = (uint32_t)t->world->state.tick;
+    }
     rider->spot = -1;
     jox_lift_arrange_inside(t);
     t->car->quiet = 0.0;
@@ -139,12 +151,17 @@ static void update_inside(JoxLiftTurn *t, JoxRider *rider) {
 
 static void let_out(JoxLiftTurn *t, JoxRider *rider) {
     rider->phase = JOX_RIDE_OVER;
-    rider->spot = -1;
     t->car->quiet = 0.0;
-    if (!rider->carried)
-        return;
-    t->figures->let_out++;
-    t->figures->ride_s += (double)(t->world->state.tick - rider->boarded) * t->world->model.def.dt;
+    end_ride(t, rider);
+}
+
+void jox_lift_turn_away(JoxLiftTurn *t, JoxRider *rider) {
+    if (rider->carried)
+        rider->since = (uint32_t)t->world->state.tick; /* it waits anew, for the rest of its way */
+    end_ride(t, rider);
+    rider->phase = JOX_RIDE_WAIT;
+    rider->from = t->car->stop;
+    t->figures->turned_away++;
 }
 
 /* Returns whether a rider that stays in the car stands between the door and one who leaves. */
@@ -210,7 +227,7 @@ static JoxRider *find_last_to_board(const JoxLiftTurn *t) {
 
 /* Returns whether agent i, which got in without a turn, may stay: there is room, or that of one who
    is still outside and waits on. */
-static bool takes_in(const JoxLiftTurn *t, uint32_t i) {
+static bool takes_in(JoxLiftTurn *t, uint32_t i) {
     const JoxAgents *a = &t->world->state.agents;
     Aboard sum = sum_aboard(t);
     sum.people++;
@@ -225,8 +242,7 @@ static bool takes_in(const JoxLiftTurn *t, uint32_t i) {
                           t->world->scratch.lifts.index[last - t->world->state.lifts.riders]);
     if (!is_within(t, sum))
         return false;
-    last->phase = JOX_RIDE_WAIT;
-    last->spot = -1;
+    jox_lift_turn_away(t, last);
     return true;
 }
 
@@ -261,9 +277,7 @@ bool jox_lift_is_overloaded(JoxLiftTurn *t) {
         }
     }
     if (nearest && !is_within(t, stay)) {
-        nearest->phase = JOX_RIDE_WAIT;
-        nearest->spot = -1;
-        t->figures->turned_away++;
+        jox_lift_turn_away(t, nearest);
     }
     t->car->refuses = 1;
     return true;
@@ -357,6 +371,9 @@ static void admit_waiting(JoxLiftTurn *t) {
                                           jox_lift_holds(t, t->world->scratch.lifts.index[r]))))
             return;
     }
+    for (uint32_t r = 0; r < state->rider_count; r++) /* who stepped out comes back first */
+        if (state->riders[r].lift == t->number && state->riders[r].phase == JOX_RIDE_ASIDE)
+            state->riders[r].phase = JOX_RIDE_BOARD;
     Aboard sum = sum_aboard(t);
     if (car->mode == JOX_LIFT_OUT_OF_USE || car->refuses ||
         (car->mode == JOX_LIFT_FIREMEN && car->stop == t->lift->home))
