@@ -1,5 +1,5 @@
 /* Tests of what is said before a run about lifts: words of behaviours that are given other places,
-   and people who are too heavy or too broad for a lift. */
+   and people who are too heavy or too broad for a lift or a stair. */
 #include <stdio.h>
 
 #include "jostle_tools.h"
