@@ -64,7 +64,8 @@ static double measure_rest(const Seeker *s, uint32_t lift, uint32_t stop) {
     const JoxLift *lifts = s->w->model.lifts;
     const JoxV2 outside = jox_lift_outside(&lifts[lift], stop, &s->w->model.storeys);
     uint32_t next, unused;
-    if (jox_field_first_lift(s->by_lifts, lifts, outside, &next, &unused) && next == lift)
+    if (jox_field_first_lift(s->by_lifts, lifts, s->w->model.lift_count, outside, &next, &unused) &&
+        next == lift)
         return INFINITY;
     return (double)jox_field_distance(s->by_lifts, outside);
 }
@@ -131,7 +132,7 @@ bool jox_lift_find_on_way(const JoWorld *w, uint32_t i, const JoxRider *rider, b
         return has; /* nobody turns back on a stair */
     if (sheet < storeys->storey_count)
         try_lifts_on(&s, sheet, 0.0, s.at, found);
-    if (jox_field_first_lift(s.by_lifts, w->model.lifts, s.at, &lift, &stop) &&
+    if (jox_field_first_lift(s.by_lifts, w->model.lifts, w->model.lift_count, s.at, &lift, &stop) &&
         w->model.lifts[lift].stops[stop].storey != sheet) {
         const JoxV2 door = jox_lift_outside(&w->model.lifts[lift], stop, storeys);
         const double way = (double)jox_field_distance(s.by_lifts, s.at) -

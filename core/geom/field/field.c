@@ -260,8 +260,8 @@ float jox_field_distance(const JoxField *f, JoxV2 p) {
     return find_distance(f, jox_field_pack(f, p));
 }
 
-bool jox_field_first_lift(const JoxField *f, const JoxLift *lifts, JoxV2 at, uint32_t *lift,
-                          uint32_t *stop) {
+bool jox_field_first_lift(const JoxField *f, const JoxLift *lifts, uint32_t lift_count, JoxV2 at,
+                          uint32_t *lift, uint32_t *stop) {
     const GridPoint s = locate_point(f, jox_field_pack(f, at));
     int cell = s.row * f->columns + s.column;
     for (int n = 0; n < 8 && !(f->cells[cell].length < INFINITY); n++) { /* as by a wall */
@@ -269,10 +269,10 @@ bool jox_field_first_lift(const JoxField *f, const JoxLift *lifts, JoxV2 at, uin
         cell = other >= 0 ? other : cell;
     }
     uint32_t number = f->first_stops && f->cells[cell].length < INFINITY ? f->first_stops[cell] : 0;
-    for (*lift = 0; number > lifts[*lift].stop_count; ++*lift)
+    for (*lift = 0; *lift < lift_count && number > lifts[*lift].stop_count; ++*lift)
         number -= lifts[*lift].stop_count;
     *stop = number - 1;
-    return number > 0;
+    return number > 0 && *lift < lift_count; /* else the field is of other lifts */
 }
 
 /* Returns the direction of the way from a point in a cell with a patch. */

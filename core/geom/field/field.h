@@ -56,8 +56,8 @@ void jox_field_marks_free(JoxFieldMarks *marks);
 float jox_field_distance(const JoxField *field, JoxV2 point);
 /* Returns whether the way from a point leads by a lift, of a field made with lifts: the first one,
    and the stop at which people take it. */
-bool jox_field_first_lift(const JoxField *field, const JoxLift *lifts, JoxV2 point, uint32_t *lift,
-                          uint32_t *stop);
+bool jox_field_first_lift(const JoxField *field, const JoxLift *lifts, uint32_t lift_count,
+                          JoxV2 point, uint32_t *lift, uint32_t *stop);
 /* Returns the unit vector of the way: continuous between cells, never towards the other side of a
    wall. Nearer to a wall than the clearance it also leads off the wall; inside a solid it leads
    out. (0, 0) at the goal and where no way leads. */

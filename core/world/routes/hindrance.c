@@ -221,7 +221,7 @@ static JoxV2 advance_along(const JoxHindrances *h, const JoxField *field, JoxV2 
     JoxV2 to = jox_add(from, jox_scale(jox_field_direction(field, from), STRIDE));
     const JoxSeam *seam = storeys ? jox_find_crossed_seam(storeys, to) : NULL;
     to.y += seam ? seam->shift : 0.0f;
-    if (view && jox_field_first_lift(field, view->lifts, from, &lift, &stop) &&
+    if (view && jox_field_first_lift(field, view->lifts, view->lift_count, from, &lift, &stop) &&
         view->lifts[lift].stops[stop].storey == jox_sheet_of(storeys, from.y) &&
         jox_lift_contains(&view->lifts[lift], jox_in_plan(storeys, from)))
         return find_way_out(h, field, lift, stop);
@@ -259,8 +259,9 @@ static JoxHindrance trace_lift(JoxHindrances *h, const JoxKept *kept) {
     const JoxLiftView *view = h->stage->machines->lifts;
     JoxHindrance found = {JOX_HINDRANCE_LIFT, UINT32_MAX, kept->at};
     uint32_t lift, stop;
-    for (uint32_t n = 0; n < view->lift_count && found.by == UINT32_MAX &&
-                         jox_field_first_lift(field, view->lifts, found.at, &lift, &stop);
+    for (uint32_t n = 0;
+         n < view->lift_count && found.by == UINT32_MAX &&
+         jox_field_first_lift(field, view->lifts, view->lift_count, found.at, &lift, &stop);
          n++) {
         const bool used = view->cars[lift].mode == JOX_LIFT_IN_USE;
         found.at = used ? find_way_out(h, field, lift, stop)
