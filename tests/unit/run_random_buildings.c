@@ -1,8 +1,8 @@
 /* Random buildings: storeys of a plan with inner walls, joined by straight and dog-leg stairs at
-   any angle, escalators, and lifts with riders. Everybody stays on floor, passes no wall, and gets
-   out; runs on several threads and instruction sets have one hash, and go on from a saved state to
-   the same one. JOSTLE_BUILDINGS says how many buildings are tried (default 6), JOSTLE_BUILDING
-   which is the first. */
+   any angle, escalators, and lifts with riders, some in a row. Everybody stays on floor, passes no
+   wall, and gets out; runs on several threads and instruction sets have one hash, and go on from a
+   saved state to the same one. JOSTLE_BUILDINGS says how many buildings are tried (default 6),
+   JOSTLE_BUILDING which is the first. */
 #include "base/number/random.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
@@ -41,9 +41,21 @@ static void add_path(Draw *d, double x, double y, double width, JoxText *out) {
     jox_text_add(out, "]");
 }
 
-/* Appends lifts beside the stairs, none to two, which serve all storeys; returns how many. */
-static uint32_t add_lifts(Draw *d, JoxText *out) {
+/* Appends the storeys that a lift serves. */
+static void add_served(uint32_t from, uint32_t to, JoxText *out) {
+    jox_text_add(out, ", storeys: [");
+    for (uint32_t k = from; k <= to; k++)
+        jox_text_printf(out, "%ss%u", k > from ? ", " : "", k);
+    jox_text_add(out, "]");
+}
+
+/* Appends lifts beside the stairs, none to two; returns how many. They serve all storeys, or the
+   first those up to `lobby` and the second those from there on. */
+static uint32_t add_lifts(Draw *d, uint32_t storeys, uint32_t *lobby, JoxText *out) {
     const uint32_t lifts = draw_whole(d, 3);
+    Draw of_chain = {d->building, 2000}; /* leaves the other draws alone */
+    const bool chain = lifts == 2 && storeys > 2 && draw_whole(&of_chain, 3);
+    *lobby = chain ? 1 + draw_whole(&of_chain, storeys - 2) : storeys - 1;
     if (lifts)
         jox_text_add(out, "lifts:\n");
     for (uint32_t l = 0; l < lifts; l++) {
@@ -52,16 +64,19 @@ static uint32_t add_lifts(Draw *d, JoxText *out) {
         const double side = l ? x + 1.7 : x; /* towards the middle of the building */
         jox_text_printf(out,
                         "  l%u: {area: [[%g, %.3f], [%g, %.3f]], door: [[%g, %.3f], [%g, %.3f]], "
-                        "capacity: %u, speed: %.2f, dwell: %.1f, returns: %s}\n",
+                        "capacity: %u, speed: %.2f, dwell: %.1f, returns: %s",
                         l, x, y, x + 1.7, y + 1.9, side, y + door, side, y + door + 1.0,
                         1 + draw_whole(d, 8), draw_number(d, 0.6, 2.5), draw_number(d, 0.0, 5.0),
                         draw_whole(d, 2) ? "true" : "false");
+        if (chain)
+            add_served(l ? *lobby : 0, l ? storeys - 1 : *lobby, out);
+        jox_text_add(out, "}\n");
     }
     return lifts;
 }
 
 /* Appends people who cannot use stairs, people who ride to a storey, and modes of the lifts. */
-static void add_riders(Draw *d, uint32_t storeys, JoxText *out) {
+static void add_riders(Draw *d, uint32_t storeys, uint32_t lobby, JoxText *out) {
     for (uint32_t k = 1; k < storeys; k++) {
         jox_text_printf(out,
                         "  wheels%u: {count: %u, in: f%u, set: {lifts: only}, journey: [{exit: "
@@ -69,8 +84,14 @@ static void add_riders(Draw *d, uint32_t storeys, JoxText *out) {
                         k, 1 + draw_whole(d, 3), k);
         jox_text_printf(
             out, "  riders%u: {count: %u, in: f%u, journey: [{ride: l0.s%u}, {exit: out}]}\n", k,
-            1 + draw_whole(d, 3), k, draw_whole(d, k));
+            1 + draw_whole(d, 3), k, k > lobby ? lobby : draw_whole(d, k));
     }
+    jox_text_printf(
+        out,
+        "  visitors: {count: 3, in: f0, journey: [{to: f%u}, {exit: out}]}\n"
+        "  wheels up: {count: 2, in: f0, set: {lifts: only}, journey: [{to: f%u}, {exit: "
+        "out}]}\n",
+        storeys - 1, storeys - 1);
     const uint32_t from = 5 + draw_whole(d, 30);
     jox_text_printf(out,
                     "events:\n  - {at: %u, lift: all, mode: %s}\n  - {at: %u, lift: all, mode: "
@@ -100,7 +121,8 @@ static void write_building(uint32_t building, JoxText *out) {
                                         : "}\n");
         }
     Draw of_lifts = {building, 1000}; /* leaves the draws of the rest alone */
-    const uint32_t lifts = add_lifts(&of_lifts, out);
+    uint32_t lobby;
+    const uint32_t lifts = add_lifts(&of_lifts, storeys, &lobby, out);
     jox_text_add(out, "walls:\n");
     for (uint32_t k = 0; k < storeys; k++) {
         jox_text_printf(
@@ -122,7 +144,7 @@ static void write_building(uint32_t building, JoxText *out) {
         jox_text_printf(out, "  g%u: {count: %u, in: f%u, journey: [{exit: out}]}\n", k,
                         5 + draw_whole(&d, 20), k);
     if (lifts)
-        add_riders(&of_lifts, storeys, out);
+        add_riders(&of_lifts, storeys, lobby, out);
 }
 
 static JoError error;
