@@ -78,6 +78,7 @@ struct JoxNav {
        so every search that sees an edge looks at all of them. If they exceed the room, the agents
        are sorted again. */
     uint32_t strays[JOX_MOST_STRAYS + JOX_LANES], stray_count;
+    uint32_t stray_ids[JOX_MOST_STRAYS]; /* their ids, by which they are found after others left */
     float stray_x[JOX_MOST_STRAYS + JOX_LANES], stray_y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
     uint32_t capacity;
     JoxDrift *chunk_drift; /* per chunk of move, within a step */

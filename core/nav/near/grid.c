@@ -148,15 +148,30 @@ static void close_cells(JoxNav *nav, const JoxAgents *a) {
     nav->sorted_count = a->count;
 }
 
+/* Finds the strays after agents have left. */
+static void find_strays_again(JoxNav *nav, const JoxAgents *a) {
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < nav->stray_count; k++) {
+        const uint32_t i = jox_agents_find(a, nav->stray_ids[k]);
+        if (i == JOX_NO_INDEX)
+            continue;
+        nav->strays[kept] = i;
+        nav->stray_ids[kept] = nav->stray_ids[k];
+        nav->stray_x[kept] = nav->stray_x[k];
+        nav->stray_y[kept++] = nav->stray_y[k];
+    }
+    nav->stray_count = kept;
+}
+
 void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
-    /* The order still holds: no agent was added, and no agent left while strays refer to
-       indices. */
-    const bool holds =
-        nav->sorted_next_id == a->next_id && isfinite(nav->drift.farthest) &&
-        (nav->sorted_count == a->count || (nav->sorted_count > a->count && nav->stray_count == 0));
+    /* The order still holds if no agent was added. */
+    const bool holds = nav->sorted_next_id == a->next_id && isfinite(nav->drift.farthest) &&
+                       nav->sorted_count >= a->count;
     if ((holds && tick % SORT_EVERY != 0) || a->count == 0) {
-        if (nav->sorted_count != a->count)
+        if (nav->sorted_count != a->count) {
             close_cells(nav, a);
+            find_strays_again(nav, a);
+        }
         return;
     }
     jox_nav_reserve(nav, a->count);
@@ -191,6 +206,7 @@ void jox_nav_place_strays(JoxNav *nav, const JoxAgents *a) {
         nav->stray_count = 0;
     }
     for (uint32_t k = 0; k < nav->stray_count; k++) {
+        nav->stray_ids[k] = a->id[nav->strays[k]];
         nav->stray_x[k] = a->x[nav->strays[k]];
         nav->stray_y[k] = a->y[nav->strays[k]];
     }
