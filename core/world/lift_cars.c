@@ -30,7 +30,8 @@ static Calls list_calls(const JoxLiftTurn *t) {
             continue;
         if (rider->phase == JOX_RIDE_INSIDE || rider->phase == JOX_RIDE_LEAVE)
             calls.to[rider->to] = true;
-        else if (rider->phase == JOX_RIDE_WAIT && t->car->mode != JOX_LIFT_OUT_OF_USE)
+        else if (rider->phase == JOX_RIDE_WAIT && t->car->mode != JOX_LIFT_OUT_OF_USE &&
+                 jox_lift_suits(t, r))
             (rider->to > rider->from ? calls.up : calls.down)[rider->from] = true;
     }
     return calls;

@@ -101,6 +101,28 @@ static void capacity_and_load_are_kept(void **state) {
     }
 }
 
+/* People who are heavier than the load, or broader than the door, never ride, and keep nobody from
+   it. */
+static void who_is_too_heavy_or_broad_holds_up_nobody(void **state) {
+    (void)state;
+    const char *const kinds[] = {"mass: 300", "radius: 0.7"};
+    for (int k = 0; k < 2; k++) {
+        char text[4096];
+        snprintf(text, sizeof text,
+                 TOWER(", load: 260", "groups:\n"
+                                      "  first: {behaviour: own.lua, at: [[10.8, 4]], storey: "
+                                      "second, set: {%s}}\n"
+                                      "  people: {behaviour: own.lua, count: 3, in: high}\n"),
+                 kinds[k]);
+        JoScene *scene = load_scene_text(text, RIDER("east.ground"));
+        step_scene_seconds(scene, 60);
+        assert_int_equal(count_on_storey(scene, 0), 3);
+        assert_int_equal(count_on_storey(scene, 2), 1);
+        assert_int_equal(get_car(scene)->door, JOX_DOOR_SHUT);
+        jo_scene_free(scene);
+    }
+}
+
 /* The car needs the time of its speed and acceleration from standing to standing. */
 static void car_travels_for_the_time_of_its_speed(void **state) {
     (void)state;
@@ -453,6 +475,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(people_ride_down_and_walk_on),
         cmocka_unit_test(capacity_and_load_are_kept),
+        cmocka_unit_test(who_is_too_heavy_or_broad_holds_up_nobody),
         cmocka_unit_test(car_travels_for_the_time_of_its_speed),
         cmocka_unit_test(calls_are_served_in_the_direction_of_travel),
         cmocka_unit_test(door_does_not_shut_on_somebody),
