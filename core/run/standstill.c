@@ -185,7 +185,8 @@ static bool report_no_way(Standing *s, JoScene *scene, uint32_t place, uint32_t 
     for (uint32_t i = 0; blocks_for_good(why.kind) && i < a->count; i++) {
         const JoxKept other = jox_hindrance_of_agent(a, i);
         count += jox_machines_field_goal(machines, i, NULL) == (int32_t)place &&
-                 jox_hindrances_kind(hindrances, &other) == why.kind;
+                 jox_hindrances_kind(hindrances, &other) == why.kind &&
+                 !jox_run_waits_in_refuge(scene, &other, why.kind);
     }
     jox_hindrances_free(hindrances);
     if (count == 0)
@@ -349,8 +350,9 @@ static void add_kept_people(Standing *s, const JoScene *scene, uint32_t place,
             continue;
         const JoxKept one = jox_hindrance_of_agent(a, i);
         const JoxHindrance why = jox_hindrances_find(hindrances, &one);
-        JoxKeptPeople *kept =
-            why.kind == JOX_HINDRANCE_NONE ? NULL : find_kept_people(s, scene, place, &why);
+        const bool free =
+            why.kind == JOX_HINDRANCE_NONE || jox_run_waits_in_refuge(scene, &one, why.kind);
+        JoxKeptPeople *kept = free ? NULL : find_kept_people(s, scene, place, &why);
         if (!kept)
             continue;
         kept->people++;

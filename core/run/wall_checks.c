@@ -261,8 +261,7 @@ bool jox_run_is_fault(const JoScene *scene, const JoxHindrance *h) {
     }
 }
 
-/* Returns whether the scene has people wait in a refuge on their storey who cannot use stairs. */
-static bool waits_in_refuge(const JoScene *scene, const JoxKept *kept, JoxHindranceKind kind) {
+bool jox_run_waits_in_refuge(const JoScene *scene, const JoxKept *kept, JoxHindranceKind kind) {
     return kept->ways == JOX_WAYS_STEPLESS &&
            (kind == JOX_HINDRANCE_STAIRS || kind == JOX_HINDRANCE_LIFT) &&
            jox_find_refuge(&scene->world->machines, kept->at) >= 0;
@@ -381,7 +380,7 @@ static void check_goal(JoScene *scene, const Goals *goals, const Aim *aims, uint
                 ? a->group[i]
                 : spec->group_count + goals->source_of[i - goals->first_of_sources];
         KeptCount *of = &kept[row * JOX_HINDRANCE_KINDS + kind];
-        if (kind == JOX_HINDRANCE_NONE || waits_in_refuge(scene, &one, kind))
+        if (kind == JOX_HINDRANCE_NONE || jox_run_waits_in_refuge(scene, &one, kind))
             continue;
         if (of->people++ == 0)
             of->first = jox_hindrances_find(hindrances, &one);

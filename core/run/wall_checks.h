@@ -19,6 +19,9 @@ void jox_run_check_goals(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Returns whether a hindrance is a fault of the scene: doors, gates and lifts that something moves
    or puts in use are none. */
 bool jox_run_is_fault(const JoScene *scene, const JoxHindrance *hindrance);
+/* Returns whether somebody who cannot use stairs is kept by stairs or a lift alone, and has a
+   refuge on its storey: it waits there. */
+bool jox_run_waits_in_refuge(const JoScene *scene, const JoxKept *kept, JoxHindranceKind kind);
 /* Returns the name of the lift that keeps people from a place, "" if none is known. */
 const char *jox_run_name_of_lift(const JoScene *scene, const JoxHindrance *hindrance);
 /* Appends what keeps people from a place: "the body 'crate' fills the way at (3.0, 4.0) m". */

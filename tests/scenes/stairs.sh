@@ -146,6 +146,9 @@ END
 "$program" run wheels.yaml --quiet --report wheels --summary wheels.json >/dev/null 2>&1
 grep -qF 'On first: 3 stay in a refuge, as no lift takes them. On second: 2 stay with neither a lift' wheels/index.html
 verdict "a report tells where people who cannot use stairs stay" $?
+sed '/^  above:/d; /^events:/d' wheels.yaml >refuge.yaml
+"$program" run refuge.yaml --quiet >refuge.out 2>&1 && [ ! -s refuge.out ]
+verdict "  and those who wait in a refuge are no fault of a scene" $?
 grep -A9 '"cannot_use_stairs"' wheels.json | tr -d ' \n' | grep -qF '"in_refuge":3,"without_refuge":2,"on_stairs":0,"storeys":{"first":{"in_refuge":3'
 verdict "  and so does the summary" $?
 "$program" run wheels.yaml --quiet --seeds 2 --report many >/dev/null 2>&1
