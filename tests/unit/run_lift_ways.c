@@ -153,7 +153,7 @@ static void passenger_that_goes_elsewhere_is_not_shut_in(void **state) {
     }
 }
 
-/* Who rides hears a signal for which it waits after the ride, and does not wait for it any more. */
+/* A rider hears a signal for which it waits after the ride, and does not wait for it any more. */
 static void signal_in_a_ride_is_taken_after_it(void **state) {
     (void)state;
     static const char *const STEPS[] = {"{until: alarm}", "{to: upper, until: alarm}"};
@@ -174,8 +174,8 @@ static void signal_in_a_ride_is_taken_after_it(void **state) {
 
 /* ---- goals that are a lift's ---- */
 
-/* Who walks to the place of a lift arrives before its door, of a set too, calls no lift, and goes
-   on with its journey. */
+/* People who walk to the place of a lift arrive before its door, of a set too, call no lift, and
+   go on with their journey. */
 static void who_walks_to_a_lift_arrives_before_the_door(void **state) {
     (void)state;
     static const char *const GOALS[] = {"tall.ground", "tall.second", "lifts"};
