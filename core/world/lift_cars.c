@@ -31,7 +31,8 @@ static Calls list_calls(const JoxLiftTurn *t) {
         if (rider->phase == JOX_RIDE_INSIDE || rider->phase == JOX_RIDE_LEAVE)
             calls.to[rider->to] = true;
         else if (rider->phase == JOX_RIDE_WAIT && t->car->mode != JOX_LIFT_OUT_OF_USE &&
-                 jox_lift_suits(t, r))
+                 jox_lift_suits(t->world, t->world->scratch.lifts.index[r], t->lift, rider->from,
+                                rider->to))
             (rider->to > rider->from ? calls.up : calls.down)[rider->from] = true;
     }
     return calls;

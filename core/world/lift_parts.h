@@ -39,9 +39,10 @@ void jox_lifts_list_riders(JoWorld *world);
 void jox_lift_count_people(JoxLiftTurn *turn);
 /* Sets the phases of the riders of a lift by where they are, and admits those who wait. */
 void jox_lift_update_riders(JoxLiftTurn *turn);
-/* Returns whether a rider, by its index in the list, is no heavier than the lift's load, and passes
-   its doors: who does not can never ride, and must not keep others from it. */
-bool jox_lift_suits(const JoxLiftTurn *turn, uint32_t rider);
+/* Returns whether an agent is no heavier than a lift's load, and passes its doors at two stops: who
+   does not can never ride, and must not keep others from it. */
+bool jox_lift_suits(const JoWorld *world, uint32_t agent, const JoxLift *lift, uint32_t from,
+                    uint32_t to);
 /* Makes a rider, in the car or on its way in, wait at the car's stop for the next one. */
 void jox_lift_turn_away(JoxLiftTurn *turn, JoxRider *rider);
 /* Returns whether more people, or a greater mass, are in the car than it takes; then one steps out.

@@ -10,7 +10,6 @@
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
 #include "world/lift_parts.h"
-#include "world/routes/hindrance.h"
 
 static const float LOBBY = 4.0f;    /* m from the door: an agent this near and in sight calls */
 static const float LOST = 9.0f;     /* m: one that waits and is moved this far has to come anew */
@@ -324,15 +323,6 @@ static void update_phase(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
 
 /* ---- admission ---- */
 
-bool jox_lift_suits(const JoxLiftTurn *t, uint32_t rider) {
-    const JoWorld *w = t->world;
-    const JoxRider *of = &w->state.lifts.riders[rider];
-    const uint32_t i = w->scratch.lifts.index[rider];
-    const float half = jox_minf(t->lift->stops[of->from].half, t->lift->stops[of->to].half);
-    return jox_param(&w->state.agents, JOX_PARAM_mass, i) <= t->lift->load &&
-           2.0f * half >= jox_hindrance_narrowest(jox_param(&w->state.agents, JOX_PARAM_radius, i));
-}
-
 /* Returns the rider that has waited longest at the car's stop and may go in; NULL: none. */
 static JoxRider *find_next_to_board(const JoxLiftTurn *t) {
     JoxLiftState *state = &t->world->state.lifts;
@@ -341,7 +331,8 @@ static JoxRider *find_next_to_board(const JoxLiftTurn *t) {
         JoxRider *rider = &state->riders[r];
         if (rider->lift != t->number || rider->phase != JOX_RIDE_WAIT ||
             rider->from != t->car->stop || (best && rider->since >= best->since) ||
-            !jox_lift_suits(t, r))
+            !jox_lift_suits(t->world, t->world->scratch.lifts.index[r], t->lift, rider->from,
+                            rider->to))
             continue;
         if (t->car->mode == JOX_LIFT_IN_USE && t->car->direction != 0 &&
             (rider->to > rider->from) != (t->car->direction > 0))

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "world/lift_parts.h"
+#include "world/routes/hindrance.h"
 
 /* Returns how many car loads of people have to be carried before an agent that takes a lift now;
    `before`: of those who wait, only those who called before this tick. */
@@ -16,6 +17,14 @@ static double count_loads_before(const JoWorld *w, uint32_t lift, uint32_t id, u
                   (rider->phase <= JOX_RIDE_BOARD && rider->since <= before);
     }
     return (double)people / w->model.lifts[lift].capacity;
+}
+
+bool jox_lift_suits(const JoWorld *w, uint32_t agent, const JoxLift *lift, uint32_t from,
+                    uint32_t to) {
+    const JoxAgents *a = &w->state.agents;
+    const float width = 2.0f * jox_minf(lift->stops[from].half, lift->stops[to].half);
+    return jox_param(a, JOX_PARAM_mass, agent) <= lift->load &&
+           width >= jox_hindrance_narrowest(jox_param(a, JOX_PARAM_radius, agent));
 }
 
 double jox_lift_estimate_ride(const JoWorld *w, uint32_t lift, uint32_t from, uint32_t stop,
@@ -36,9 +45,11 @@ double jox_lift_estimate_ride(const JoWorld *w, uint32_t lift, uint32_t from, ui
 /* An agent that looks for its way to a place. */
 typedef struct Seeker {
     const JoWorld *w;
+    uint32_t agent;
     const JoxRider *rider;
     bool has;                 /* the rider has chosen a lift already */
     bool stepless;            /* it cannot use stairs */
+    bool any;                 /* lifts that cannot take it count, too: it waits before one */
     double speed;             /* m/s */
     JoxV2 at;                 /* m */
     const JoxField *by_lifts; /* to its place; NULL: not known yet */
@@ -75,7 +86,8 @@ static void try_rides(Seeker *s, uint32_t l, uint32_t from, double way, JoxRider
     const JoxLift *lift = &s->w->model.lifts[l];
     const bool fetched = s->w->state.lifts.cars[l].mode == JOX_LIFT_FIREMEN;
     for (uint32_t to = 0; to < lift->stop_count; to++) {
-        if (to == from || (fetched && to != lift->home))
+        if (to == from || (fetched && to != lift->home) ||
+            !(s->any || jox_lift_suits(s->w, s->agent, lift, from, to)))
             continue;
         const bool own = s->has && s->rider->lift == l && s->rider->to == to;
         const double time = (way + measure_rest(s, l, to)) / s->speed +
@@ -110,6 +122,7 @@ static Seeker begin_seeking(const JoWorld *w, uint32_t i, const JoxRider *rider,
     const JoxAgents *a = &w->state.agents;
     const bool stepless = jox_param(a, JOX_PARAM_lifts, i) > JOX_LIFTS_ONLY;
     return (Seeker){.w = w,
+                    .agent = i,
                     .rider = rider,
                     .has = has,
                     .stepless = stepless,
@@ -119,25 +132,37 @@ static Seeker begin_seeking(const JoWorld *w, uint32_t i, const JoxRider *rider,
                                           stepless ? JOX_ROUTE_STEPLESS_LIFTS : JOX_ROUTE_LIFTS)};
 }
 
+/* Tries the lifts on the agent's storey, and those at the first lift of its way. */
+static void try_lifts(Seeker *s, uint32_t sheet, JoxRider *found) {
+    const JoWorld *w = s->w;
+    const JoxStoreys *storeys = &w->model.storeys;
+    uint32_t lift, stop;
+    if (sheet < storeys->storey_count)
+        try_lifts_on(s, sheet, 0.0, s->at, found);
+    if (jox_field_first_lift(s->by_lifts, w->model.lifts, w->model.lift_count, s->at, &lift,
+                             &stop) &&
+        w->model.lifts[lift].stops[stop].storey != sheet) {
+        const JoxV2 door = jox_lift_outside(&w->model.lifts[lift], stop, storeys);
+        const double way = (double)jox_field_distance(s->by_lifts, s->at) -
+                           (double)jox_field_distance(s->by_lifts, door);
+        try_lifts_on(s, w->model.lifts[lift].stops[stop].storey, fmax(way, 0.1), door, found);
+    }
+}
+
 bool jox_lift_find_on_way(const JoWorld *w, uint32_t i, const JoxRider *rider, bool has,
                           JoxRider *found) {
     const JoxStoreys *storeys = &w->model.storeys;
     Seeker s = begin_seeking(w, i, rider, has);
     const uint32_t sheet = jox_sheet_of(storeys, s.at.y);
     const double walk = s.least = measure_walk(&s, rider->goal, NAN) / s.speed;
-    uint32_t lift, stop;
     if (isnan(walk) || !s.by_lifts)
         return false;
     if (sheet >= storeys->storey_count && (has || walk < INFINITY))
         return has; /* nobody turns back on a stair */
-    if (sheet < storeys->storey_count)
-        try_lifts_on(&s, sheet, 0.0, s.at, found);
-    if (jox_field_first_lift(s.by_lifts, w->model.lifts, w->model.lift_count, s.at, &lift, &stop) &&
-        w->model.lifts[lift].stops[stop].storey != sheet) {
-        const JoxV2 door = jox_lift_outside(&w->model.lifts[lift], stop, storeys);
-        const double way = (double)jox_field_distance(s.by_lifts, s.at) -
-                           (double)jox_field_distance(s.by_lifts, door);
-        try_lifts_on(&s, w->model.lifts[lift].stops[stop].storey, fmax(way, 0.1), door, found);
+    try_lifts(&s, sheet, found);
+    if (isinf(s.least)) {
+        s.any = true;
+        try_lifts(&s, sheet, found);
     }
     return s.least < walk;
 }

@@ -68,9 +68,41 @@ static void crowds_before_small_cars_are_carried(void **state) {
         assert_true(shuttle(CASES[k].lift, CASES[k].people, (int)k + 1, 200.0) < 60.0);
 }
 
+/* The near lift bears 90 kg, and its door is narrow; the far one is slow. */
+static void people_take_a_lift_that_bears_them(void **state) {
+    (void)state;
+    const struct {
+        const char *people;
+        uint32_t carried[2]; /* by the near lift, by the far one */
+    } CASES[] = {{"mass: 70", {1, 0}}, {"mass: 105", {0, 1}}, {"mass: 70, radius: 0.6", {0, 1}}};
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 "jostle: 1\n"
+                 "storeys: {ground: {height: 0}, first: {height: 4}}\n"
+                 "lifts:\n"
+                 "  near: {load: 90, area: [[10, 5], [11.8, 6.8]], door: [[10.5, 5], [11.3, 5]]}\n"
+                 "  far: {speed: 0.3, area: [[20, 5], [22, 7]], door: [[20.3, 5], [21.7, 5]]}\n"
+                 "walls: [{line: [[0, 0], [26, 0], [26, 10], [0, 10]], closed: true, storey: "
+                 "[ground, first]}]\n"
+                 "places: {low: {point: [2, 2], radius: 1}}\n"
+                 "groups: {people: {at: [[9, 2]], storey: first, journey: [{to: low}], set: "
+                 "{lifts: only, %s}}}\n",
+                 CASES[k].people);
+        JoScene *scene = load_scene_file(write_test_file("scene.yaml", text), NULL, 0);
+        step_scene_seconds(scene, 90);
+        for (int l = 0; l < 2; l++)
+            if (scene->world->state.lifts.figures[l].carried != CASES[k].carried[l])
+                fail_msg("%s: lift %d carried %u", CASES[k].people, l,
+                         (unsigned)scene->world->state.lifts.figures[l].carried);
+        jo_scene_free(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(crowds_before_small_cars_are_carried),
+        cmocka_unit_test(people_take_a_lift_that_bears_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
