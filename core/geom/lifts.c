@@ -115,7 +115,7 @@ static uint32_t lay_grid(const JoxLift *lift, float spacing, float clear, JoxV2 
 }
 
 static void lay_spots(JoxLift *lift) {
-    const uint32_t most = 4 * lift->capacity + 64;
+    const uint32_t most = JOX_CAR_SPOTS(lift->capacity);
     lift->spots = jox_realloc(lift->spots, most + JOX_SORT_SPARE(most), sizeof *lift->spots);
     lift->spot_count = 0;
     for (float spacing = WIDEST; spacing > CLOSEST && lift->spot_count < lift->capacity;

@@ -7,6 +7,8 @@
 #include "geom/storeys.h"
 
 enum { JOX_MOST_LIFTS = 100, JOX_MOST_CAPACITY = 200 };
+/* Room for the spots in a car of this capacity. */
+#define JOX_CAR_SPOTS(capacity) (4 * (capacity) + 64)
 #define JOX_LIFT_PACE 1.3f /* m/s: at which people walk, where ways by lifts are compared */
 
 /* The use of a lift. */

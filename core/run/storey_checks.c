@@ -14,7 +14,7 @@ enum { MOST_GOALS = 64 }; /* goals of an agent that are looked at */
 typedef struct Riders {
     uint32_t count, heavy, broad;
     float mass, radius; /* kg, m: greatest of those who cannot */
-    uint32_t stop;      /* whose door the first of them does not pass */
+    uint32_t stop;      /* with the door that the first of them does not pass */
 } Riders;
 
 /* Returns whether a place is a lift's, or a set that has one of its places. */

@@ -98,7 +98,7 @@ typedef struct Aim {
     uint32_t place, agent;
 } Aim;
 
-/* Who goes where. */
+/* Places that people go to. */
 typedef struct Goals {
     Aim *aims; /* by place, then agent */
     uint32_t count;

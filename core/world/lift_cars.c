@@ -276,11 +276,11 @@ static void run_open_door(JoxLiftTurn *t) {
         car->left = HOLD - car->quiet;
     if (car->left > 0.0 || holds_door(t))
         return;
-    const bool overloaded = jox_lift_is_overloaded(t);
+    const bool overloaded = jox_lift_shed_load(t);
     if (t->blocked || overloaded) {
         t->figures->reopened++;
         car->left = REOPEN;
-        jox_lift_arrange_inside(t); /* who stands in the door gets in */
+        jox_lift_arrange_inside(t); /* riders in the door get in */
         return;
     }
     t->figures->left_behind += count_left_behind(t);

@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "world/lift_parts.h"
 
-/* Returns the same with the way to the door, straight. */
+/* Returns the seconds of a ride by jox_lift_estimate_ride, with the way to the door, straight. */
 static double estimate_time(const JoWorld *w, uint32_t lift, uint32_t stop, JoxV2 at,
                             const JoxRider *rider) {
     const uint32_t from = jox_lift_near_stop(&w->scratch.lifts.view, lift, at);
@@ -107,17 +107,8 @@ static JoxRider make_rider(uint32_t id) {
 
 /* Returns the lift in whose car an agent stands, with its door open or not; -1: none. */
 static int32_t find_car(const JoWorld *w, uint32_t i, bool open) {
-    const JoxStoreys *storeys = &w->model.storeys;
-    const JoxV2 at = {w->state.agents.x[i], w->state.agents.y[i]};
-    for (uint32_t l = 0; l < w->model.lift_count; l++) {
-        const JoxLift *lift = &w->model.lifts[l];
-        const JoxLiftCar *car = &w->state.lifts.cars[l];
-        const float shift = (float)lift->stops[car->stop].storey * storeys->pitch;
-        if ((car->door == JOX_DOOR_OPEN) == open &&
-            jox_lift_contains(lift, (JoxV2){at.x, at.y - shift}))
-            return (int32_t)l;
-    }
-    return -1;
+    const int32_t l = jox_machines_car(&w->machines, i);
+    return l >= 0 && (w->state.lifts.cars[l].door == JOX_DOOR_OPEN) == open ? l : -1;
 }
 
 /* Updates an agent that is in a car, and walks to another place than the one that it came in for:

@@ -45,9 +45,9 @@ bool jox_lift_suits(const JoWorld *world, uint32_t agent, const JoxLift *lift, u
                     uint32_t to);
 /* Makes a rider, in the car or on its way in, wait at the car's stop for the next one. */
 void jox_lift_turn_away(JoxLiftTurn *turn, JoxRider *rider);
-/* Returns whether more people, or a greater mass, are in the car than it takes; then one steps out.
- */
-bool jox_lift_is_overloaded(JoxLiftTurn *turn);
+/* Makes a rider step out if more people, or a greater mass, are in the car than it takes; false if
+   they are not. */
+bool jox_lift_shed_load(JoxLiftTurn *turn);
 /* Moves all agents in a car from the storey of one stop to that of another. */
 void jox_lift_shift_people(JoxLiftTurn *turn, uint32_t from, uint32_t to);
 

@@ -225,9 +225,9 @@ static JoxRider *find_last_to_board(const JoxLiftTurn *t) {
     return last;
 }
 
-/* Returns whether agent i, which got in without a turn, may stay: there is room, or that of one who
-   is still outside and waits on. */
-static bool takes_in(JoxLiftTurn *t, uint32_t i) {
+/* Finds room for agent i, which got in without a turn: free room, or that of a rider that is still
+   outside, which waits on. False: there is none. */
+static bool make_room(JoxLiftTurn *t, uint32_t i) {
     const JoxAgents *a = &t->world->state.agents;
     Aboard sum = sum_aboard(t);
     sum.people++;
@@ -254,7 +254,7 @@ static void keep_out(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     begin_waiting(t, rider, i);
 }
 
-bool jox_lift_is_overloaded(JoxLiftTurn *t) {
+bool jox_lift_shed_load(JoxLiftTurn *t) {
     JoxLiftState *state = &t->world->state.lifts;
     const JoxLiftStop *stop = &t->lift->stops[t->car->stop];
     Aboard stay = {t->car->people, t->car->mass};
@@ -313,7 +313,7 @@ static void update_phase(JoxLiftTurn *t, JoxRider *rider, uint32_t i) {
     case JOX_RIDE_BOARD:
         if (!inside)
             update_outside(t, rider, i);
-        else if (rider->phase == JOX_RIDE_BOARD || !open || takes_in(t, i))
+        else if (rider->phase == JOX_RIDE_BOARD || !open || make_room(t, i))
             update_inside(t, rider);
         else
             keep_out(t, rider, i);
@@ -373,7 +373,7 @@ static void admit_waiting(JoxLiftTurn *t) {
                                           jox_lift_holds(t, t->world->scratch.lifts.index[r]))))
             return;
     }
-    for (uint32_t r = 0; r < state->rider_count; r++) /* who stepped out comes back first */
+    for (uint32_t r = 0; r < state->rider_count; r++) /* those who stepped out come back first */
         if (state->riders[r].lift == t->number && state->riders[r].phase == JOX_RIDE_ASIDE)
             state->riders[r].phase = JOX_RIDE_BOARD;
     Aboard sum = sum_aboard(t);

@@ -2,6 +2,7 @@
    through the door. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "geom/wall_way.h"
@@ -107,29 +108,38 @@ static const JoxLobby *get_lobby(const JoxLiftTurn *t, uint32_t s) {
     return lobby;
 }
 
-/* Returns the first spot, of `count`, that no other rider of this lift has who is at the same stop
+/* Marks the spots near which a rider waits for another lift. */
+static void mark_near(const JoxRider *other, const JoxV2 *spots, uint32_t count, bool *taken) {
+    const float APART = 0.5f; /* m */
+    for (uint32_t k = 0; k < count; k++)
+        taken[k] |= jox_length(jox_sub((JoxV2){other->x, other->y}, spots[k])) < APART;
+}
+
+/* Returns the first spot, of `count`, that no other rider of this lift has that is at the same stop
    and inside or outside as this one, and near which nobody waits for another lift; -1: none. */
 static int32_t find_free_spot(const JoxLiftTurn *t, const JoxRider *rider, const JoxV2 *spots,
                               uint32_t count, bool inside) {
-    const float APART = 0.5f; /* m */
     const JoxLiftState *state = &t->world->state.lifts;
-    for (uint32_t k = 0; k < count; k++) {
-        bool taken = false;
-        for (uint32_t r = 0; r < state->rider_count && !taken; r++) {
-            const JoxRider *other = &state->riders[r];
-            const bool in = other->phase == JOX_RIDE_INSIDE || other->phase == JOX_RIDE_LEAVE ||
-                            other->phase == JOX_RIDE_ASIDE;
-            const bool waits = other->phase == JOX_RIDE_WAIT || other->phase == JOX_RIDE_BOARD;
-            if (other->lift == t->number)
-                taken = other != rider && other->spot == (int32_t)k &&
-                        (inside ? in : waits && other->from == rider->from);
-            else
-                taken = !inside && waits && other->spot >= 0 &&
-                        jox_length(jox_sub((JoxV2){other->x, other->y}, spots[k])) < APART;
+    bool taken[JOX_CAR_SPOTS(JOX_MOST_CAPACITY)] = {false};
+    JOX_ASSERT(count <= JOX_CAR_SPOTS(JOX_MOST_CAPACITY));
+    for (uint32_t r = 0; r < state->rider_count; r++) {
+        const JoxRider *other = &state->riders[r];
+        const bool in = other->phase == JOX_RIDE_INSIDE || other->phase == JOX_RIDE_LEAVE ||
+                        other->phase == JOX_RIDE_ASIDE;
+        const bool waits = other->phase == JOX_RIDE_WAIT || other->phase == JOX_RIDE_BOARD;
+        if (other == rider || other->spot < 0)
+            continue;
+        if (other->lift != t->number) {
+            if (waits && !inside)
+                mark_near(other, spots, count, taken);
+        } else if ((uint32_t)other->spot < count &&
+                   (inside ? in : waits && other->from == rider->from)) {
+            taken[other->spot] = true;
         }
-        if (!taken)
-            return (int32_t)k;
     }
+    for (uint32_t k = 0; k < count; k++)
+        if (!taken[k])
+            return (int32_t)k;
     return -1;
 }
 

@@ -27,7 +27,7 @@ typedef struct JoxHindrance {
                  the body; LIFT: before its door; else the given point */
 } JoxHindrance;
 
-/* Who is kept from a place: an agent, or where one would be. */
+/* Agent that is kept from a place, or what one would be. */
 typedef struct JoxKept {
     JoxV2 at;     /* m */
     float radius; /* m */
